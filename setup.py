@@ -14,7 +14,7 @@ from setuptools.errors import CompileError
 FOLDERS = find_namespace_packages(
     include=["derive*", "generated*", "solvers*"], exclude=["*__pycache__*", "solvers.package*", "solvers.explorer.*"]
 )
-TAYLOR = "wetdoublet.solvers.engines.taylor"
+ENGINES = "wetdoublet.solvers.engines"
 SETS = os.environ.get("WETDOUBLET_INSTRUCTION_SETS", "" if os.name == "nt" else None)  # not tried on Windows
 
 
@@ -29,11 +29,11 @@ class BuildWithKernels(build_py):
         super().run()
         if self.editable_mode or SETS == "":
             return
-        folder = Path(self.build_lib, *TAYLOR.split("."), "kernels")
+        folder = Path(self.build_lib, *ENGINES.split("."), "taylor", "kernels")
         command = [
             sys.executable,
             "-m",
-            f"{TAYLOR}.shipped",
+            f"{ENGINES}.ship",
             str(folder),
             *(SETS.split(",") if SETS else ["--only-values"]),
         ]

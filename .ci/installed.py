@@ -38,8 +38,9 @@ def answers(folder: Path, path: str) -> dict[str, bytes]:
     env = usual | {"PATH": path, "HOME": str(home), "WETDOUBLET_CACHE": str(folder / "cache")}
     for file, words in RUNS.items():
         done = subprocess.run([COMMAND, *words], cwd=folder, env=env, capture_output=True, text=True, check=False)
-        if done.returncode or done.stderr:
-            sys.exit(f"wetdoublet {' '.join(words)}: status {done.returncode}, said {done.stderr!r}")
+        said = [line for line in done.stderr.splitlines() if not line.startswith("at work for ")]  # a slow machine
+        if done.returncode or said:
+            sys.exit(f"wetdoublet {' '.join(words)}: status {done.returncode}, said {said}")
         if not (folder / file).exists():
             (folder / file).write_text(done.stdout)
     if compiled := [each.name for each in (folder / "cache").glob("*.so")]:

@@ -5,10 +5,13 @@ Names are loaded on first use, so that a command pays only for what it needs.
 
 from __future__ import annotations
 
+from functools import wraps
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from .averages.averages import collision_averages
     from .boundaries.boundary import Atlas, Boundaries, atlas, boundary
     from .collision.collide import collide
@@ -96,8 +99,29 @@ if not TYPE_CHECKING:  # so that type checkers know the names above and no other
         if name not in _HOMES:
             raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
         value = getattr(import_module(f"{__name__}.{_HOMES[name]}"), name)
-        globals()[name] = value
+        globals()[name] = value = value if isinstance(value, type) else _by_its_names(value)
         return value
+
+    def _by_its_names(function: Callable[..., Any]) -> Callable[..., Any]:
+        """A public function that names the argument that a mistyped keyword is nearest to."""
+
+        @wraps(function)
+        def called(*given: Any, **options: Any) -> Any:
+            try:
+                return function(*given, **options)
+            except TypeError:
+                from inspect import signature
+
+                from .errors import InputError, did_you_mean
+
+                known = list(signature(function).parameters)
+                for name in options.keys() - known:
+                    problem = f"is no argument of {function.__name__}" + did_you_mean(name, known)
+                    raise InputError(name, options[name], ", ".join(known), problem) from None
+                raise
+
+        called.__module__ = __name__  # where pickle finds it
+        return called
 
 
 def __dir__() -> list[str]:

@@ -5,7 +5,7 @@ from functools import cache
 
 import sympy as sp
 
-from ..equations.model import derive
+from ..equations.model import Model, derive
 from ..physics.forces import force_laws
 from ..physics.laws import LAWS, Law, strings
 from ..physics.laws.base import filled
@@ -52,9 +52,9 @@ def _conservative(law: Law) -> Check:
 _FULL = tuple(structure for structure in structures() if not structure.reduced)
 
 
-def momentum_rate(structure: Structure, laws: Mapping[str, Law]) -> sp.Expr:
+def momentum_rate(model: Model, laws: Mapping[str, Law]) -> sp.Expr:
     """d/dtau of orbital_momentum + (32/5) spin, L over m a^2 omega0, along the emitted right-hand side."""
-    rates = derive(structure).by_state("right_hand_side")
+    rates = model.by_state("right_hand_side")
     return sp.factor(sp.expand(filled(rates[q.orbital_momentum] + sp.Rational(32, 5) * rates[q.spin], laws)))
 
 

@@ -36,6 +36,25 @@ def relaxation_is_bounded() -> Evidence:
     yield sp.simplify(_r / _s - exact - _r * sp.exp(-_s * _h) / _s)  # the level is above by what is positive
 
 
+@check(
+    "rupture within a panel",
+    "bounds of a panel change one way over the distance: any y(s), s < h, is between both ends",
+)
+def rupture_is_between_bounds() -> Evidence:
+    """What ruptures before the end of a panel lies between the bounds at its start and at its end.
+
+    Of a rate to one side the implicit step r h/(1 + s h), the line r h and a level do not turn back. So over all panels
+    from the least rupture gap on, the bounds at their ends hold the state of each pair where it ruptures.
+    """
+    steps = (_r * _h / (1 + _s * _h), _r * _h, sp.Min(_r * _h, _r / _s))
+    for bound in steps:
+        yield bound.subs(_h, 0)
+    implicit, line, _ = steps
+    yield sp.simplify(implicit.diff(_h) - _r / (1 + _s * _h) ** 2)
+    yield line.diff(_h) - _r
+    yield ((_r / (1 + _s * _h) ** 2).is_positive is True and _r.is_positive is True, "a bound falls back")
+
+
 @check("energy over the gap", "w = u^2/2: dw/dx = du/dt where u > 0, and its slope by w is that by u, over u")
 def gap_replaces_time() -> Evidence:
     """The chain rule behind the bounds over the gap, for any rate of the normal velocity."""

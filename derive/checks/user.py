@@ -4,6 +4,7 @@ import cmath
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
+from functools import partial
 from itertools import product
 from pathlib import Path
 
@@ -17,6 +18,7 @@ from ..user.structures import UserModel
 from ..vocabulary.dimensions import DimensionError
 from ..vocabulary.quantities import contact_angle, volume
 from .base import Check
+from .emission import emission
 from .words import torque
 
 # Values of the arguments at which laws are tried; any other argument is a group, tried over four decades
@@ -48,23 +50,25 @@ def checks_of(model: UserModel) -> tuple[Check, ...]:
     result = [Check("dimensions", "every term has the dimension that it must have", True, f"{functions} functions")]
     named = ", ".join(str(group.symbol) for group in model.groups) or "none but the library's"
     result.append(Check("groups", "laws depend on their arguments and dimensionless groups", True, named))
-    for law in model.laws:
-        result += _law_checks(model, law)
+    for law, emitted in zip(model.written, model.laws, strict=True):
+        result += _law_checks(model, law, emitted)
     return tuple(_accepted(model, check) for check in result)
 
 
 def _accepted(model: UserModel, check: Check) -> Check:
     if check.ok or not model.accepted & {check.name, check.name.partition(":")[0]}:
         return check
-    return replace(check, ok=True, figure=f"{check.figure} (fails, and is accepted by the model)")
+    figure = check.figure.partition("; known: ")[0]
+    return replace(check, ok=None, figure=f"{figure} (accepted by the model)")
 
 
-def _law_checks(model: UserModel, law: Law) -> Iterator[Check]:
+def _law_checks(model: UserModel, law: Law, emitted: Law) -> Iterator[Check]:
     label = f"{law.slot} {law.name}"
     yield _finite(model, law, label)
+    yield emission(model, emitted, law, label, partial(_samples, model, law))
     if law.slot == "arm":
         rate = torque(model, law)
-        figure = "identity" if rate == 0 else f"dL/dt over its scale = {rate}"
+        figure = "identity" if rate == 0 else f'dL/dt over its scale = {rate}; known: accept=("angular momentum",)'
         yield Check(f"angular momentum: {label}", "dL/dt = 0 without strings, for every other law", rate == 0, figure)
     for function in law.functions:
         if f"{law.slot}.{function.name}" in _SIGNED:
@@ -79,8 +83,10 @@ def _law_checks(model: UserModel, law: Law) -> Iterator[Check]:
             yield from _without(model, law, group.symbol, label)
 
 
-def _samples(model: UserModel, law: Law, function: LawFunction) -> Iterator[dict[sp.Symbol, float]]:
-    ranges = [_tried(model, symbol) for symbol in function.arguments]
+def _samples(
+    model: UserModel, law: Law, function: LawFunction, tried: Mapping[str, tuple[float, ...]] = _TRIED
+) -> Iterator[dict[sp.Symbol, float]]:
+    ranges = [tried.get(symbol.name) or _tried(model, symbol) for symbol in function.arguments]
     for values in product(*ranges):
         at = dict(zip(function.arguments, values, strict=True))
         reach = next((s for s in at if s.name == "gap_over_radius"), None)
@@ -93,8 +99,6 @@ def _samples(model: UserModel, law: Law, function: LawFunction) -> Iterator[dict
 
 
 def _tried(model: UserModel, symbol: sp.Symbol) -> tuple[float, ...]:
-    if symbol.name in _TRIED:
-        return _TRIED[symbol.name]
     quantity = next((group.quantity for group in model.groups if group.symbol == symbol), None)
     if quantity is None:
         return (0.1, 10.0)

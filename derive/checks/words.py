@@ -23,7 +23,8 @@ def _arm(model: UserModel) -> Law:
 
 def torque(model: UserModel, law: Law | None = None) -> sp.Expr:
     """dL/dt without strings, scaled, with the model's own laws; other laws except the arm stay open."""
-    return sp.simplify(filled(momentum_rate(BRIDGED, {"arm": law or _arm(model)}), {}))
+    extended = replace(model, events=()).extended(derive(BRIDGED))
+    return sp.simplify(filled(momentum_rate(extended, {"arm": law or _arm(model)}), {}))
 
 
 def _of_event(event: OwnEvent) -> str:

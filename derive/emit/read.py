@@ -20,7 +20,6 @@ _OPERATORS: dict[type, Callable[[sp.Expr, sp.Expr], sp.Expr]] = {
     ast.Add: operator.add, ast.Sub: operator.sub, ast.Mult: operator.mul, ast.Div: operator.truediv,
     ast.Pow: operator.pow,
 }  # fmt: skip
-_RELATIONS: dict[type, type] = {ast.Lt: sp.Lt, ast.LtE: sp.Le, ast.Gt: sp.Gt, ast.GtE: sp.Ge}
 
 
 class ReadError(ValueError):
@@ -79,23 +78,16 @@ def _expression(node: ast.expr) -> sp.Expr:
         return _OPERATORS[type(node.op)](_expression(node.left), _expression(node.right))
     if isinstance(node, ast.Call):
         return _call(node)
+    if isinstance(node, ast.IfExp):  # the side of a kink, where it is not fixed
+        return _expression(node.orelse)
     raise ReadError(f"line {node.lineno}: {ast.unparse(node)}")
 
 
 def _call(node: ast.Call) -> sp.Expr:
     name = ast.unparse(node.func)
-    if name == "if_else":
-        condition, first, second = node.args
-        return sp.Piecewise((_expression(first), _condition(condition)), (_expression(second), True))
     arguments = [_expression(argument) for argument in node.args]
     if name in _FUNCTIONS:
         return _FUNCTIONS[name](*arguments)
     if name.startswith("laws."):
         return sp.Function(name.removeprefix("laws."), real=True)(*arguments)
     raise ReadError(f"line {node.lineno}: {name}")
-
-
-def _condition(node: ast.expr) -> sp.Basic:
-    if isinstance(node, ast.Compare) and type(node.ops[0]) in _RELATIONS:
-        return _RELATIONS[type(node.ops[0])](_expression(node.left), _expression(node.comparators[0]))
-    raise ReadError(f"line {node.lineno}: {ast.unparse(node)}")

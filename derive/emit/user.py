@@ -15,7 +15,7 @@ from ..user.own_events import OwnEvent
 from ..user.structures import UserModel
 from ..vocabulary.quantities import VOCABULARY
 from .casadi.modules import groups_module, law_module, structure_module
-from .provenance import Own, digest, law_digest, model_digest
+from .provenance import PROVENANCE, Own, digest, law_digest, model_digest
 from .write import sha256
 
 FORMAT = 1
@@ -59,6 +59,9 @@ def package(
     if definitions:
         scaling = digest(*(part for pair in definitions.items() for part in pair))
         files["scaling.py"] = groups_module(definitions, names, scaling, _DOC)
+    file = Path(origin).name or f"{model.name}.py"
+    own = PROVENANCE.partition(" from ")[0] + f" from {file}. Do not edit: change {file} and run `wetdoublet generate`."
+    files = {path: text if path == SOURCE else text.replace(PROVENANCE, own, 1) for path, text in files.items()}
     manifest = {
         "kind": "wetdoublet model", "format": FORMAT, "name": model.name, "meaning": model.meaning, "origin": origin,
         "library": library, "laws": laws,

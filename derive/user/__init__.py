@@ -28,10 +28,12 @@ from ..physics.laws.bridge import h
 from ..physics.laws.glass import approach
 from ..physics.laws.strings import offset_squared
 from ..vocabulary.quantities import (
+    A_H,
     E,
     R,
     a,
     aspect,
+    beta,
     e_dry,
     g,
     gap,
@@ -48,6 +50,7 @@ from ..vocabulary.quantities import (
     rho,
     sigma,
     string_ratio,
+    t,
     u,
     v0,
     x,

@@ -9,7 +9,6 @@ A law fills a slot of the library's (`film`, `shear`, `arm`, `glass`, `bridge`, 
 as they are in SI, or dimensionless in the slot's own arguments; `declared` reads such a file.
 """
 
-import keyword
 import re
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
@@ -23,11 +22,11 @@ from ..vocabulary.allowed_values import Bounds, BoundsError
 from ..vocabulary.dimensions import ENERGY, ONE, Dimension, DimensionError, UnitError, dimension_of, dimension_of_unit
 from ..vocabulary.quantities import DIMENSIONS, VOCABULARY, omega, u, x, xi
 from . import own_events
+from .names import EMITTED, taken
 
 _LAW_NAME = re.compile(r"[a-z][a-z0-9]*(-[a-z0-9]+)*")
 _BIBTEX = re.compile(r"\s*@\w+\s*\{[^{},]+,.*\}\s*", re.S)
 _NAME = re.compile(r"[a-z][a-z0-9_]*")
-_TAKEN = {"film", "groups", "laws", "result", "shear", "state", "values", *keyword.kwlist, *keyword.softkwlist}
 
 
 class ModelFileError(ValueError):
@@ -122,9 +121,11 @@ def quantity(
     Arguments:
         name: its name in scene files and in emitted code.
         latex: its symbol in print; by default the name, upright.
-        unit: coherent SI, as "Pa", "N/m", "kg m^2/s"; "1" for a plain number.
+        unit: coherent SI, as "Pa", "N/m", "kg m^2/s"; "1" for a plain number. One that is declared before may stand as
+            an exponent, as in "Pa s^index".
         default: value with unit for scenes that give none, as "10 Pa"; None: scenes must give one.
-        bounds: allowed values, in `unit`: "> 0", ">= 0", "0 to 1", "> 0 and <= 5".
+        bounds: allowed values, in `unit`: ">", ">=", "<" or "<=" and a number, two of them joined by "and", or
+            "0 to 1", which includes its ends.
         over: quantities that make it dimensionless: quantity/over is a group; determined if not given.
         group: name of that group; by default NAME_number.
 
@@ -132,15 +133,16 @@ def quantity(
         ModelFileError: names the wrong argument and what is accepted.
     """
     there = _declarations()
-    _check_name("quantity", name, there)
     group = group or f"{name}_number"
-    _check_name(f"{name}.group", group, there)
+    numbers = {one.name: one.symbol for one in there.quantities.values() if one.dimension == ONE}
     try:
-        dimension, limits = dimension_of_unit(unit), Bounds.read(bounds)
+        dimension, limits = dimension_of_unit(unit, numbers), Bounds.read(bounds)
     except UnitError as error:
         raise ModelFileError(f"{name}.unit", unit, 'coherent SI, as "Pa", "N/m", "kg m^2/s", "1"', str(error)) from None
     except BoundsError:
         raise ModelFileError(f"{name}.bounds", bounds, '"> 0", ">= 0", "0 to 1", "> 0 and <= 5"') from None
+    _check_name("quantity", name, there, in_functions=dimension == ONE)
+    _check_name(f"{name}.group", group, there)
     if over is not None and not isinstance(over, sp.Expr):
         raise ModelFileError(f"{name}.over", over, "an expression of the vocabulary, as mu*v0/x0")
     sign = {"positive": True} if limits.positive else {"nonnegative": True} if limits.not_negative else {"real": True}
@@ -152,12 +154,15 @@ def quantity(
 
 
 def let(name: str, expression: object, latex: str = "") -> sp.Symbol:
-    """Name a part of an expression; the name is kept in emitted code and in print."""
+    """Name a part of an expression; the name is kept in print, and in emitted code unless it means something there."""
     there = _declarations()
-    _check_name("let", name, there)
-    symbol = sp.Symbol(name, real=True)
+    written = f"{name}_" if isinstance(name, str) and name in taken().keys() - VOCABULARY.keys() else name
+    _check_name("let", written, there)
+    value = _expression(name, expression)
+    sign = next((known for known in ("positive", "nonnegative") if getattr(value, f"is_{known}")), "real")
+    symbol = sp.Symbol(written, **{sign: True})
     upright = rf"\mathrm{{{name}}}".replace("_", r"\_")
-    there.intermediates[name] = Intermediate(symbol, _expression(name, expression), latex or upright)
+    there.intermediates[written] = Intermediate(symbol, value, latex or upright)
     return symbol
 
 
@@ -222,8 +227,8 @@ def event(
     """Declare an event; it happens once in a collision, where its guard is not positive while it is watched.
 
     Arguments:
-        name: its name in emitted code.
-        guard: positive before the event: an SI expression of x, u, omega, xi and quantities.
+        name: its name; in emitted code with underscores for spaces.
+        guard: positive before the event: an SI expression of x, u, omega, xi, beta (rad), t (s) and quantities.
         where: "closing", "opening" or "any", and "inside the film" or "beyond the film" if it matters.
         jump: u, omega or xi just after the event, in SI; what is left out is continuous.
         ends: "separated" (while opening only) or "stick" if the event ends the collision.
@@ -236,18 +241,18 @@ def event(
     Raises:
         ModelFileError: names the wrong argument and what is accepted.
     """
-    there = _declarations()
-    label = f"event {name}"
+    there, label = _declarations(), f"event {name}"
+    name = name.replace(" ", "_") if isinstance(name, str) else name
     _check_name("event", name, there)
     if name in own_events.TAKEN_NAMES:
         raise ModelFileError("event", name, "a name of your own", "is an event of the library")
     _check_name(f"{label}, mark", own_events.MARK + name, there)
-    reported = word or name.replace("_", " ") if isinstance(name, str) else word
+    reported = word or name.replace("_", " ")
     if not isinstance(reported, str) or not own_events.WORD.fullmatch(reported):
         raise ModelFileError(f"{label}.word", reported, "small letters, digits and single spaces")
-    taken = own_events.TAKEN_WORDS.union(known.word for known in there.events.values())
-    if reported in taken:
-        raise ModelFileError(f"{label}.word", reported, f"any word but {', '.join(sorted(taken))}", "exists already")
+    words = own_events.TAKEN_WORDS.union(known.word for known in there.events.values())
+    if reported in words:
+        raise ModelFileError(f"{label}.word", reported, f"any word but {', '.join(sorted(words))}", "exists already")
     if where not in own_events.PLACES:
         raise ModelFileError(f"{label}.where", where, ", ".join(own_events.PLACES))
     if ends not in own_events.ENDINGS:
@@ -258,7 +263,7 @@ def event(
     _check_texts(label, meaning=meaning, source=source)
     tested = _of_event(f"{label}.guard", guard, there)
     if not unfolded(tested, there).free_symbols & set(own_events.MOVING):
-        raise ModelFileError(f"{label}.guard", guard, "an expression of x, u, omega or xi", "never changes")
+        raise ModelFileError(f"{label}.guard", guard, "an expression of x, u, omega, xi, beta or t", "never changes")
     if jump is not None and not isinstance(jump, Mapping):
         raise ModelFileError(f"{label}.jump", jump, "a table of u, omega or xi, as {u: u/2}")
     after = []
@@ -316,7 +321,10 @@ def functions_of(slot: str) -> dict[str, bool]:
     """The functions of a slot's laws, and whether each is required: it is if all laws of the library have it."""
     laws = LAWS[slot].values()
     names = dict.fromkeys(function.name for law in laws for function in law.functions)
-    return {name: all(name in [f.name for f in law.functions if not f.for_proof] for law in laws) for name in names}
+    return {
+        name: name != "potential" and all(name in [f.name for f in law.functions if not f.for_proof] for law in laws)
+        for name in names
+    }
 
 
 def _check_texts(label: str, **texts: object) -> None:
@@ -325,13 +333,16 @@ def _check_texts(label: str, **texts: object) -> None:
             raise ModelFileError(f"{label}.{what}", text, "text")
 
 
-def _check_name(what: str, name: object, there: Declarations) -> None:
+def _check_name(what: str, name: object, there: Declarations, in_functions: bool = True) -> None:
+    """ModelFileError for a name that is declared already, or means something where it is written."""
     if not isinstance(name, str) or not _NAME.fullmatch(name):
         raise ModelFileError(what, name, "a name of small letters, digits and underscores")
-    taken = name in VOCABULARY or name in _TAKEN or name in there.quantities or name in there.intermediates
-    taken |= any(name in (known, own_events.MARK + known) for known in there.events)
-    if taken or any(name == known.group for known in there.quantities.values()):
-        raise ModelFileError(what, name, "a name that is not taken", "is taken already")
+    declared = {*there.quantities, *there.intermediates, *(known.group for known in there.quantities.values())}
+    declared |= {word for known in there.events for word in (known, own_events.MARK + known)}
+    meaning = taken().get(name, "")
+    if name in declared or (meaning and (in_functions or meaning != EMITTED)):
+        problem = "is taken already" + (f": it is {meaning}" if meaning else "")
+        raise ModelFileError(what, name, "a name that is not taken", problem)
 
 
 def _expression(label: str, value: object) -> sp.Expr:

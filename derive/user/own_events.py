@@ -7,7 +7,7 @@ same file may use as a factor. As a state it needs no further machinery in deriv
 """
 
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import sympy as sp
@@ -21,17 +21,22 @@ from ..physics.scaling import DISTANCE, EQUAL, cancelled, to_groups
 from ..physics.structure import Structure
 from ..vocabulary import quantities as q
 from ..vocabulary.dimensions import RATE, SPEED, Dimension
+from .kinks import rounded
 
-ACCEPTED = "x, u, omega, xi, r, quantities of a scene and of the model file, marks of other events"
-MOVING = (q.x, q.u, q.omega, q.xi)  # a guard depends on one of them at least
+ACCEPTED = "x, u, omega, xi, beta, t, r, quantities of a scene and of the model file, marks of other events"
+MOVING = (q.x, q.u, q.omega, q.xi, q.beta, q.t)  # a guard depends on one of them at least
 JUMPS: dict[sp.Symbol, Dimension] = {q.u: SPEED, q.omega: RATE, q.xi: RATE}
 WORD = re.compile(r"[a-z][a-z0-9]*( [a-z0-9]+)*")
 TAKEN_WORDS = {each.word for each in WORDS}
 TAKEN_NAMES = {name for row in EVENTS for name in (row.name, *row.functions)}
+Form = tuple[sp.Expr, dict[sp.Symbol, sp.Expr], sp.Expr]
+"""Guard, state after the jump as far as it jumps, and release of an event in a structure."""
 MARK = "before_"  # and the name of an event: its mark
 MOTIONS = {"closing": CLOSING, "opening": OPENING, "any": 0}
 REGIONS = {"": None, "inside the film": 1, "beyond the film": 0}
 PLACES = tuple(f"{motion} {region}".strip() for motion in MOTIONS for region in REGIONS)
+CLOCKS = {q.beta: q.angle_turned, q.t: q.x0 / q.v0 * q.time_passed}  # states that only declared events watch
+_STILL = {q.omega: sp.Integer(0), q.xi: sp.Integer(0), q.beta: sp.Integer(0)}  # head-on
 ENDINGS = {"": "go on", "separated": "part", "stick": "cut off"}
 
 
@@ -123,13 +128,12 @@ class OwnEvent:
     @property
     def rotates(self) -> bool:
         """The guard or the jump speaks of a rotation, which there is none of beside a wall."""
-        return bool({*self.symbols, *(target for target, _ in self.jump)} & {q.omega, q.xi, q.omega0})
+        return bool({*self.symbols, *(target for target, _ in self.jump)} & {*_STILL, q.omega0})
 
     @property
     def turns(self) -> bool:
         """Its guard varies with a rotation only, so that nothing happens head-on."""
-        still = sp.simplify(self.guard.xreplace({q.omega: sp.Integer(0), q.xi: sp.Integer(0)}))
-        return not still.free_symbols & {q.x, q.u}
+        return not sp.simplify(self.guard.xreplace(_STILL)).free_symbols & {q.x, q.u, q.t}
 
     @property
     def spins(self) -> bool:
@@ -151,7 +155,8 @@ class OwnEvent:
 
     def reach(self, of: Structure) -> Reach:
         """How its guard varies in a structure, by the signs of its derivatives for every positive group."""
-        guard, moving = self.in_structure(of)[0], {q.orbital_momentum, q.spin, q.partner_spin}
+        guard = self.in_structure(of)[0]
+        moving = {q.orbital_momentum, q.spin, q.partner_spin, q.beta, q.angle_turned, q.time_passed}
         speed, closer = sp.Symbol("speed", positive=True), sp.Symbol("gap", positive=True)
 
         def sign(value: sp.Expr) -> int | None:
@@ -175,7 +180,7 @@ class OwnEvent:
             return not self.turns
         return not (structure.partner == "wall" and self.rotates) and not (structure.reduced and self.spins)
 
-    def in_structure(self, structure: Structure) -> tuple[sp.Expr, dict[sp.Symbol, sp.Expr], sp.Expr]:
+    def in_structure(self, structure: Structure) -> Form:
         """Guard, jump of the states, and release over m v0^2, in states and groups of a structure."""
 
         def put(value: sp.Expr) -> sp.Expr:
@@ -195,8 +200,8 @@ class OwnEvent:
 
 
 def _settled(label: str, value: sp.Expr, structure: Structure) -> sp.Expr:
-    if not structure.oblique:
-        value = value.xreplace({q.omega: sp.Integer(0), q.xi: sp.Integer(0)})
+    clocks = CLOCKS | ({q.beta: q.beta} if structure.strings else {})  # there it is a state of the library
+    value = value.xreplace(clocks if structure.oblique else clocks | _STILL)
     rules = to_groups(CENTRES if structure.partner == "pair" else EQUAL)
     for _ in range(3):
         value = value.xreplace(rules)
@@ -209,11 +214,21 @@ def extended(model: Model, events: tuple[OwnEvent, ...]) -> Model:
     if not present:
         return model
     marks = tuple(each.mark for each in present)
-    forms = {each.name: each.in_structure(model.structure) for each in present}
-    still, same = dict.fromkeys(marks, sp.Integer(0)), {mark: mark for mark in marks}
+    forms = {}
+    for each in present:
+        guard, jump, released = each.in_structure(model.structure)
+        forms[each.name] = rounded(guard), {state: rounded(value) for state, value in jump.items()}, rounded(released)
+    guards = _in_order(present, forms)
+    watched = groups_of(events, model.structure)
+    rates: dict[sp.Symbol, sp.Expr] = dict.fromkeys(marks, sp.Integer(0))
+    if q.angle_turned in watched:
+        rates[q.angle_turned] = model["turning_rate"][q.beta.name]
+    if q.time_passed in watched:
+        rates[q.time_passed] = sp.Integer(1)
+    same = {state: state for state in rates}
     more: dict[str, Mapping[sp.Symbol, sp.Expr]] = {
-        "right_hand_side": still, "resting_rates": still, "rebound": same, "rigid_rotation": same, "rubbed": same,
-        "start": dict.fromkeys(marks, sp.Integer(1)),
+        "right_hand_side": rates, "resting_rates": rates, "rebound": same, "rigid_rotation": same, "rubbed": same,
+        "start": {state: sp.Integer(state in marks) for state in rates},
     }  # fmt: skip
     functions = []
     for function in model.functions:
@@ -221,9 +236,9 @@ def extended(model: Model, events: tuple[OwnEvent, ...]) -> Model:
             continue
         outputs = function.outputs + tuple((mark.name, value) for mark, value in more.get(function.name, {}).items())
         if function.name == "events":
-            outputs += tuple((name, guard) for name, (guard, _, _) in forms.items())
+            outputs += tuple(guards.items())
         functions.append(replace(function, outputs=outputs))
-    states = (*model.states, *marks)
+    states = (*model.states, *rates)
     for each in present:
         _, jump, released = forms[each.name]
         after = {state: jump.get(state, state) for state in states} | {each.mark: sp.Integer(0)}
@@ -232,6 +247,26 @@ def extended(model: Model, events: tuple[OwnEvent, ...]) -> Model:
         doc = f"Stored energy over m v0^2 that the event {each.name} may give to the motion."
         functions.append(ModelFunction(f"release_{each.name}", doc, (("released", released),)))
     return replace(model, states=states, functions=tuple(functions))
+
+
+def _in_order(events: Sequence[OwnEvent], forms: Mapping[str, Form]) -> dict[str, sp.Expr]:
+    """The guards, of which one that falls to zero together with an earlier event's in the file waits for that event.
+
+    If the earlier jump leaves the guard and the direction as they are, the later event follows at once.
+    """
+    guards = {each.name: forms[each.name][0] for each in events}
+    for place, event in enumerate(events):
+        guard = forms[event.name][0]
+        for first in reversed(events[:place]):
+            ratio, jump = sp.simplify(guard / forms[first.name][0]), forms[first.name][1]
+            if event.proposed.where == first.proposed.where and ratio.is_positive:
+                keeps = sp.simplify(guard.xreplace(jump) - guard) == 0
+                keeps &= bool(
+                    sp.simplify(jump.get(q.normal_velocity, q.normal_velocity) / q.normal_velocity).is_positive
+                )
+                guards[event.name] = first.mark - sp.Rational(1, 2) if keeps else guard * (1 - first.mark) + first.mark
+                break
+    return guards
 
 
 def groups_of(events: tuple[OwnEvent, ...], structure: Structure) -> set[sp.Basic]:
@@ -244,10 +279,10 @@ def groups_of(events: tuple[OwnEvent, ...], structure: Structure) -> set[sp.Basi
 
 def scale_of(dimension: Dimension) -> sp.Expr:
     """m^i x0^j v0^k of a dimension."""
-    mass, length, time = (sp.Rational(power) for power in dimension.exponents)
+    mass, length, time = map(sp.sympify, dimension.exponents)
     return q.m**mass * q.x0 ** (length + time) * q.v0**-time
 
 
 def may_use(symbol: sp.Basic) -> bool:
     """Whether a symbol of the vocabulary may occur in an event: the motion, groups, and quantities with a group."""
-    return symbol in {*to_groups(), *GROUPS, q.a, q.mu, q.v0} - {q.partner_spin_rate}
+    return symbol in {*to_groups(), *CLOCKS, *GROUPS, q.a, q.mu, q.v0} - {q.partner_spin_rate}

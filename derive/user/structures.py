@@ -15,6 +15,7 @@ from ..vocabulary.dimensions import ONE, Dimension, DimensionError, dimension_of
 from ..vocabulary.quantities import DIMENSIONS, VOCABULARY, a, m, mu, normal_velocity, rate_scale, u, v0, x, x0
 from . import own_events
 from .declarations import Declarations, Declared, Proposed, unfolded
+from .kinks import freed, smooth
 from .own_events import OwnEvent
 
 _ALWAYS = (a, x0, mu, v0, m)  # quantities of every scene, in the order in which a scale is sought
@@ -46,13 +47,15 @@ class InSI(LawFunction):
 class UserModel:
     """A derived model file: laws in the library's form, groups, and additional arguments of each slot's functions.
 
-    `si` holds the laws in SI except for the slot's arguments, for print.
+    `laws` are as they are emitted, with kinks rounded; `written` has the kinks, and `si` is in SI except for the slot's
+    arguments, for print.
     """
 
     name: str
     meaning: str
     declarations: Declarations
     laws: tuple[Law, ...]
+    written: tuple[Law, ...]
     si: tuple[Law, ...]
     groups: tuple[Group, ...]
     extra: Mapping[str, tuple[sp.Symbol, ...]]
@@ -116,6 +119,9 @@ def express(name: str, meaning: str, declared: Declarations) -> UserModel:
         extra.add(laws[-1], all_places)
     laws = [extra.widened(law) for law in laws]
     printed = tuple(_in_si(law, groups, all_places) for law in laws)
+    still = {*GROUPS, *(group.symbol for group in groups.values())}
+    written = tuple(laws)
+    laws = [replace(law, functions=tuple(smooth(each, still) for each in law.functions)) for law in laws]
     called = {symbol for symbols in extra.found.values() for symbol in symbols}
     events = tuple(_event(one, declared, groups, called) for one in declared.events.values())
     used = called.union(*(one.symbols for one in events))
@@ -123,7 +129,7 @@ def express(name: str, meaning: str, declared: Declarations) -> UserModel:
     unused = [one.name for one in declared.quantities.values() if one.name not in {g.quantity.name for g in kept}]
     if unused:
         raise ScalingError(f"{', '.join(unused)}: declared, but no law or event depends on it")
-    return UserModel(name, meaning, declared, tuple(laws), printed, kept, extra.found, events)
+    return UserModel(name, meaning, declared, tuple(laws), written, printed, kept, extra.found, events)
 
 
 def _event(
@@ -177,7 +183,9 @@ def _groups(declared: Declarations, all_places: Mapping[str, Place]) -> dict[str
             result[one.name] = Group(one.symbol, one, sp.Integer(1))
             continue
         over = one.over if one.over is not None else _scale(one, declared, all_places)
-        dimension = dimension_of(over, DIMENSIONS)
+        dimension = dimension_of(
+            over, DIMENSIONS | {each.symbol: each.dimension for each in declared.quantities.values()}
+        )
         if dimension != one.dimension:
             raise DimensionError(f"{one.name}.over: {over} has dimension {dimension}, {one.name} has {one.dimension}")
         signs = [key for key in ("positive", "nonnegative", "real") if one.symbol.assumptions0.get(key)]
@@ -199,7 +207,7 @@ def _scale(one: Declared, declared: Declarations, all_places: Mapping[str, Place
         if one.symbol in full.free_symbols:
             near += _by_vocabulary(scale.free_symbols) + _by_vocabulary(full.free_symbols)
     candidates = [s for s in dict.fromkeys([*near, *_ALWAYS]) if s.name not in _MOVING and any(DIMENSIONS[s].exponents)]
-    target = sp.Matrix([sp.Rational(power) for power in one.dimension.exponents])
+    target = sp.Matrix(one.dimension.exponents)
     for count in (1, 2, 3):
         for chosen in combinations(candidates, count):
             matrix = dimension_matrix(chosen)
@@ -281,6 +289,7 @@ def _settled(label: str, place: Place, expression: sp.Expr, groups: Mapping[str,
     rules = {s: value for s, value in to_groups().items() if s not in kept and s.name not in _MOVED}
     for _ in range(3):
         expression = expression.subs(rules, simultaneous=True)
+    expression = freed(expression)
     terms = sp.Add.make_args(expression)  # kept as written if no quantity remains to cancel
     by_term = sp.Add(*(sp.simplify(term) if dimensional(term) else term for term in terms))
     return cancelled(label, by_term, expression)

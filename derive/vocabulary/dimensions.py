@@ -10,19 +10,29 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from math import prod
+from types import MappingProxyType
+from typing import TypeAlias
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
 from sympy.core.relational import Relational
 
+Power: TypeAlias = Fraction | sp.Expr
+
 
 @dataclass(frozen=True)
 class Dimension:
-    """Exponents of mass, length and time."""
+    """Exponents of mass, length and time: fractions, or expressions of the plain numbers that stand as exponents."""
 
-    mass: Fraction = Fraction(0)
-    length: Fraction = Fraction(0)
-    time: Fraction = Fraction(0)
+    mass: Power = Fraction(0)
+    length: Power = Fraction(0)
+    time: Power = Fraction(0)
+
+    def __post_init__(self) -> None:
+        for name in ("mass", "length", "time"):
+            value = sp.expand(getattr(self, name))
+            exact = Fraction(int(value.p), int(value.q)) if isinstance(value, sp.Rational) else value
+            object.__setattr__(self, name, exact)
 
     def __mul__(self, other: Dimension) -> Dimension:
         return Dimension(self.mass + other.mass, self.length + other.length, self.time + other.time)
@@ -30,17 +40,17 @@ class Dimension:
     def __truediv__(self, other: Dimension) -> Dimension:
         return self * other**-1
 
-    def __pow__(self, exponent: int | Fraction) -> Dimension:
-        power = Fraction(exponent)
-        return Dimension(self.mass * power, self.length * power, self.time * power)
+    def __pow__(self, exponent: int | Power) -> Dimension:
+        return Dimension(*(sp.sympify(exponent) * power for power in self.exponents))
 
     @property
-    def exponents(self) -> tuple[Fraction, Fraction, Fraction]:
+    def exponents(self) -> tuple[Power, Power, Power]:
         return (self.mass, self.length, self.time)
 
     def __str__(self) -> str:
         powers = [(base, power) for base, power in zip("MLT", self.exponents, strict=True) if power]
-        return " ".join(base if power == 1 else f"{base}^{power}" for base, power in powers) or "1"
+        texts = {base: f"^({power})" if isinstance(power, sp.Add) else f"^{power}" for base, power in powers}
+        return " ".join(base if power == 1 else base + texts[base] for base, power in powers) or "1"
 
 
 ONE = Dimension()
@@ -90,6 +100,9 @@ def dimension_of(
             return top and prod((bottom**-count for bottom, count in below), start=top)
         if isinstance(node, sp.Abs):
             return walk(node.args[0])
+        if isinstance(node, sp.sign):
+            walk(node.args[0])
+            return ONE
         if isinstance(node, sp.Piecewise):
             for relation in node.atoms(Relational):
                 _common(relation, relation.args)
@@ -117,9 +130,8 @@ def dimension_of(
             return None
         if isinstance(node.exp, sp.Rational):
             return base ** Fraction(int(node.exp.p), int(node.exp.q))
-        _demand_pure(node, node.base)
         _demand_pure(node, node.exp)
-        return ONE
+        return base if base == ONE else base**node.exp
 
     def _demand_pure(whole: sp.Basic, argument: sp.Basic) -> None:
         dimension = walk(argument)
@@ -149,15 +161,19 @@ UNITS: dict[str, Dimension] = {
     "1": ONE, "rad": ONE, "m": LENGTH, "kg": MASS, "s": TIME, "N": FORCE, "Pa": PRESSURE, "J": ENERGY,
     "W": ENERGY / TIME, "Hz": TIME**-1,
 }  # fmt: skip
-_FACTOR = re.compile(r"([A-Za-z1]+)(?:\^(-?\d{1,2}))?")
+_FACTOR = re.compile(r"([A-Za-z1]+)(?:\^(-?\d{1,2}|[a-z]\w*))?")
 
 
 class UnitError(ValueError):
     """An unknown unit; the message names it."""
 
 
-def dimension_of_unit(text: str) -> Dimension:
-    """Dimension of a product or quotient of coherent SI units; UnitError names an unknown unit."""
+def dimension_of_unit(text: str, numbers: Mapping[str, sp.Symbol] = MappingProxyType({})) -> Dimension:
+    """Dimension of a product or quotient of coherent SI units; UnitError names an unknown unit.
+
+    Arguments:
+        numbers: plain numbers that may stand as exponents, by name: "Pa s^index".
+    """
     if not isinstance(text, str) or not text.strip():
         raise UnitError("is not a unit")
     result = ONE
@@ -169,6 +185,8 @@ def dimension_of_unit(text: str) -> Dimension:
             match = _FACTOR.fullmatch(factor)
             if match is None or match[1] not in UNITS:
                 raise UnitError(f"has the unknown unit {factor!r}")
-            power = int(match[2] or 1) * (-1 if place else 1)
+            if (match[2] or "1")[0].isalpha() and match[2] not in numbers:
+                raise UnitError(f"has the exponent {match[2]}, which is no plain number declared before it")
+            power = sp.sympify(numbers.get(match[2]) or int(match[2] or 1)) * (-1 if place else 1)
             result = result * UNITS[match[1]] ** power
     return result

@@ -135,6 +135,10 @@ gap = _group("gap", "s", "gap over film thickness", unit="x0")
 normal_velocity = _group(
     "normal_velocity", "w", "normal velocity over impact speed, negative on approach", unit="v0", real=True
 )
+angle_turned = _group("angle_turned", r"\beta", "angle turned, as a declared event watches it", unit="rad", real=True)
+time_passed = _group(
+    "time_passed", r"\hat t", "time since initial contact, as a declared event watches it", unit="x0/v0", real=True
+)
 orbital_momentum = _group(
     "orbital_momentum", "J", "orbital angular momentum r^2 omega over a^2 Omega", unit="a^2 Omega", real=True
 )

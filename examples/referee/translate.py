@@ -109,7 +109,7 @@ def yade_capillary(scene: Scene, gap: float | None, _speed: float) -> Translatio
     rupture = radius * (1 + angle / 2) * (volume ** (1 / 3) + 0.1 * volume ** (2 / 3))  # critDist() of the host
     common |= {
         "contact_time": duration,
-        "restitution": _positive(scene),
+        "restitution": uncut_restitution(_positive(scene)),
         "volume": volume * radius**3,
         "surface_tension": scene.bridge.surface_tension,
         "contact_angle_deg": math.degrees(angle),
@@ -119,7 +119,10 @@ def yade_capillary(scene: Scene, gap: float | None, _speed: float) -> Translatio
     if scene.bridge.law not in YADE_BRIDGES:
         missing.append(f"bridge law {scene.bridge.law}: the host has {law}")
     missing += [
-        f"tc = {duration:.3g} s, of a contact of stiffness E R; en = dry_restitution",
+        (
+            f"tc = {duration:.3g} s, of a contact of stiffness E R; en = {common['restitution']:.5g}, which acts as "
+            f"the scene's {scene.particles.dry_restitution:g}: the host cuts the contact's tension off"
+        ),
         "the film: the bridge forms when the solids touch and not when the films do",
         "viscosity: the law has none (dcap, a constant damping of the bridge, is 0 by default)",
     ]
@@ -225,10 +228,15 @@ def liggghts_easo(scene: Scene, gap: float | None, speed: float) -> Translation:
         "liquid_content": scene.bridge.volume / share,
         "surface_tension": scene.bridge.surface_tension,
         "viscosity": scene.liquid.viscosity,
-        "contact_angle": angle,
+        # read in degrees; the law has half the product of both angles in rad, and so this one
+        "contact_angle": math.degrees(math.sqrt(2 * angle)),
     }
     below = regular < scene.liquid.film_thickness
     missing += [
+        (
+            f"contactAngle = {common['contact_angle']:.4g} deg: half the product of both is the scene's "
+            f"{math.degrees(angle):.3g} deg, in rad"
+        ),
         (
             f"minSeparationDistanceRatio = {regular / a:.4g}: a least gap of {regular:.3g} m (roughness of the scene "
             f"{scene.particles.roughness:.3g} m, film {scene.liquid.film_thickness:.3g} m)"
@@ -267,6 +275,20 @@ def changed(scene: Scene, changes: Changes) -> Scene:
         if value is None:
             (tables[table] if key else tables).pop(key or table, None)
     return Scene.from_dict(tables)
+
+
+def uncut_restitution(restitution: float) -> float:
+    """The `en` of YADE whose linear damped contact rebounds with this restitution.
+
+    Damping follows from en = exp(-pi z), z = damping over frequency, as if the contact ended at zero overlap. It ends
+    where its force vanishes, as tension is cut off, and rebounds with exp(-2 z arctan(1/z)), which is above exp(-2).
+    """
+    if restitution < 0.1354:
+        raise SystemExit(f"dry_restitution = {restitution:g}: this law has 0.1354 or more, whatever its en")
+    if restitution == 1:
+        return 1.0
+    z = brentq(lambda z: 2 * z * math.atan2(1, z) + math.log(restitution), 0.0, 1e3, xtol=1e-15)
+    return math.exp(-math.pi * z)
 
 
 def viscoelastic_damping(scene: Scene, common: dict[str, Any], speed: float) -> float:

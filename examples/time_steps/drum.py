@@ -22,7 +22,7 @@ from plugin import built, started
 RADIUS, DENSITY, DRUM, LENGTH, TURNS = 1e-3, 2500.0, 8e-3, 8.4e-3, 4.5  # m, kg/m^3, m, m, turns a second
 STEP, STEPS, FRAMES, COUNT = 1e-5, 600, 100, 100  # s; between two frames
 WALL = "granular hooke 1000 0.02 tangential linear_history 285 1.0 0.5"  # N/m, N s/m; friction 0.5
-WET = f"pair_style wet {0.3 * RADIUS}\npair_coeff * *"
+WET = f"pair_style wet/drum {0.3 * RADIUS}\npair_coeff * *"
 DRY = "pair_style granular\npair_coeff * * hooke 1000 0.02 tangential linear_history 285 1.0 0.5"
 
 
@@ -68,7 +68,7 @@ def agglomerates(pairs: NDArray[np.int64]) -> NDArray[np.int64]:
 
 def turned(plugin: Path) -> dict[str, Any]:
     """Positions and agglomerates of each frame."""
-    tallies = "compute wet all pair wet\nthermo_style custom step c_wet[1] c_wet[2] c_wet[3]\n"
+    tallies = "compute wet all pair wet/drum\nthermo_style custom step c_wet[1] c_wet[2] c_wet[3]\n"
     tallies += "compute gap all pair/local p1\ncompute ends all property/local patom1 patom2\n"
     host = started(plugin, f"{drum(WET)}\n{tallies}thermo {STEPS}")
     frames: dict[str, Any] = {"x": [], "label": []}
@@ -94,7 +94,7 @@ def costs(plugin: Path, folder: Path) -> dict[str, list[float]]:
     found: dict[str, list[list[float]]] = {"wet": [], "granular": []}
     touching = "compute near all contact/atom\ncompute touch all reduce sum c_near\nvariable touching equal 0.5*c_touch"
     for name, pairs, contacts in (("wet", WET, "c_wet[1]"), ("granular", DRY, "v_touching")):
-        counted = "compute wet all pair wet" if name == "wet" else touching
+        counted = "compute wet all pair wet/drum" if name == "wet" else touching
         hosts[name] = started(plugin, f"{drum(pairs, 0.5)}\n{counted}\nthermo_style custom step {contacts}\nthermo 50")
         hosts[name].command("run 8000 post no")
     for _ in range(5):

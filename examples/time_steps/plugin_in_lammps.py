@@ -18,12 +18,12 @@ from plugin import built, started
 def style(law: Law, dt: float) -> str:
     """The pair style and the integrator; bridges of these scenes hold to less than a radius."""
     return f"""
-pair_style wet {2 * law.material.reduced_radius!r}
+pair_style wet/{law.name} {2 * law.material.reduced_radius!r}
 pair_coeff * *
 comm_modify vel yes
 fix moves all nve/sphere
 timestep {dt!r}
-compute wet all pair wet
+compute wet all pair wet/{law.name}
 thermo_style custom step c_wet[1] c_wet[2] c_wet[3] c_wet[4]
 thermo 20
 """

@@ -44,13 +44,13 @@ static void act(queue *q, lanes *l, fixed *f, int lane, int event)
         LANE(l->y[NORMAL_VELOCITY], lane) = RELEASE_SPEED;
         opens(l, f, lane);
         break;
-    #if RUBS
+    #if ROLLS
     case AT_SLIPPING:
         note(q, LANE(l->index, lane), grips(l, f, lane), LANE(l->time, lane));
         new_phase(l, lane);
         break;
     #endif
-    #if RUBS
+    #if ROLLS
     case AT_ROLLING:
         note(q, LANE(l->index, lane), KIND_SLIDES, LANE(l->time, lane));
         new_phase(l, lane);

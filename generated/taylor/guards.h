@@ -99,7 +99,7 @@ static first_event find_events(const series *s, const lanes *l, const fixed *f, 
     return first;
 }
 
-#if RUBS
+#if ROLLS
 /* The same in resting contact with friction; an earlier event is kept. */
 OUTLINE void find_events_at_rest(const rubbing *r, const lanes *l, vec h, first_event *first)
 {

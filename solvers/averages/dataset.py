@@ -40,6 +40,12 @@ _ENERGIES = {  # name: column, factor and constant, meaning
     ),
 }
 
+_SHOWN = {  # name: head of its column in a table
+    "stick_probability": "stick", "rotate_probability": "rotate", "bounce_probability": "bounce",
+    "restitution_all": "e_n of all", "tangential_restitution_all": "e_t of all", "restitution_separated": "e_n apart",
+    "tangential_restitution_separated": "e_t apart", "normal_dissipation": "dissipated",
+}  # fmt: skip
+_SIZES = {"radius": "radius (um)", "partner_radius": "partner (um)"}
 _AXES = {"radius": "radius of the first sphere", "partner_radius": "radius of the second sphere"}
 
 
@@ -125,3 +131,16 @@ def to_csv(data: xarray.Dataset) -> str:
             for parameter, cells in zip(data["parameter"].values, row, strict=True):
                 columns[f"d({quantity})/d({parameter}){suffix}"] = cells.ravel()
     return csv_text(columns, zip(*map(cells_of, columns.values()), strict=True))
+
+
+def table(data: xarray.Dataset) -> str:
+    """The averages for a person: a line for each pair below names and units, and below them the derivatives (SI)."""
+    sizes = {name: head for name, head in _SIZES.items() if name in data.dims}
+    rate = data["collision_rate"].attrs["units"].replace("m s-1", "m/s").replace("m3 s-1", "m^3/s")
+    heads = {**_SHOWN, "collision_rate": f"rate ({rate})"}
+    data = data.assign_coords({name: 1e6 * data[name] for name in sizes}).rename(sizes)
+    blocks = [data[list(heads)].rename(heads).expand_dims([] if sizes else ["pair"])]
+    blocks += [data["gradient"].to_dataset("parameter")] if "gradient" in data else []
+    frames = [each.to_dataframe().reset_index(drop="pair" in each.dims) for each in blocks]
+    texts = [each.to_string(index=False, na_rep="-", float_format="{:.5g}".format) for each in frames]
+    return "\n\n".join([f"{data.attrs['speeds']}, all impact angles", *texts]) + "\n"

@@ -17,7 +17,7 @@ from ..collision.text import against, degrees, name_of, prefix
 from ..engines.settings import RTOL
 from ..errors import InputError
 from ..formatting import ticks
-from ..formatting.style import EDGES, FILLS, HATCHES, INK, halo, patch, picture, plain_text
+from ..formatting.style import EDGES, FILLS, HATCHES, INK, LONGEST, halo, patch, picture, plain_text, title
 from ..scene.scene import Scene
 from .atlas_curves import curves_of
 from .plane import ANGLE, check_plane
@@ -57,9 +57,9 @@ def draw(scene: Scene, lines: Lines) -> Figure:
     single = whole.span[0] == whole.span[1]
     figure = Figure(figsize=(6.4, 4.9), layout="constrained")
     axes = figure.add_subplot()
-    name = plain_text(name_of(scene, 40))
+    name = plain_text(name_of(scene, LONGEST))
     fixed = "" if whole.over == ANGLE else f" at {degrees(scene.angle)}"
-    axes.set_title(f"{name}{against(scene)}: where the outcome changes{fixed}")
+    title(figure, f"{name}{against(scene)}: where the outcome changes{fixed}")
     low, high = _shown(whole)
     factor = _frame(axes, scene, whole, low, high, single)
     regions = whole if not single else replace(whole, span=(0.0, 1.0))
@@ -115,7 +115,7 @@ def _frame(axes: Axes, scene: Scene, whole: Curves, low: float, high: float, sin
     if single:
         axes.set_xlim(0, 1)
         axes.set_xticks([])
-        axes.set_xlabel(f"at an {text.replace('(deg)', '')} of {degrees(whole.span[0])}")
+        axes.set_xlabel(f"at an {text.replace(' (deg)', '')} of {degrees(whole.span[0])}")
         return 1.0
     axes.set_xlim(whole.span[0] / factor, whole.span[1] / factor)
     axes.set_xlabel(text)

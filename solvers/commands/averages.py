@@ -1,5 +1,6 @@
 """`wetdoublet averages`: outcomes and restitution averaged over impact geometry and speeds."""
 
+import sys
 from functools import partial
 from pathlib import Path
 from typing import Annotated
@@ -22,14 +23,13 @@ def command(
     wrt: list[str] | None,
     request: options.EntriesRequest,
     rtol: options.Rtol,
-    output: Annotated[
-        Path | None, partial(check_file, label="", suffixes=(".nc", ".csv", ".foam", ".py"), replaced=True)
-    ],
+    output: Annotated[Path | None, partial(check_file, label="", suffixes=(".nc", ".csv"), replaced=True)],
 ) -> None:
     """Sticking probability and mean restitution of SCENE over all impact angles and speeds, for each pair of radii.
 
     Impact angles have the density sin(2 theta) of isotropic relative velocities. With maxwell:S speeds are those of a
-    gas whose velocity components have the standard deviation S, weighted by flux. Without -o the table is printed.
+    gas whose velocity components have the standard deviation S, weighted by flux. Without -o a table is
+    printed, into a pipe as CSV.
 
     \b
     Example:
@@ -42,14 +42,12 @@ def command(
         --films RULE: How film and roughness change with the radii: fixed, or proportional to their sum [fixed].
         --tolerance E: Absolute error of the quadrature, 1e-9..1e-2 [1e-6].
         --wrt NAME,...: Entries by which the means are differentiated, such as liquid.viscosity.
-        -o FILE (output): Write NetCDF (.nc), a table (.csv), a dictionary of OpenFOAM (.foam) or a module for PySDM
-            (.py); the same command continues an interrupted run.
+        -o FILE (output): Write NetCDF (.nc) or a table (.csv); the same command continues an interrupted run.
     """  # noqa: D301 # click wants the character itself
     scene = request.scene_without_impact("has no influence on averages")
 
     from ..averages.averages import collision_averages
-    from ..averages.dataset import to_csv
-    from ..averages.hosts import to_openfoam, to_pysdm
+    from ..averages.dataset import table, to_csv
     from ..many.regime_map import write
     from .resumable import resumable
 
@@ -57,14 +55,13 @@ def command(
     with resumable(output, "pairs", cheaper="a larger --tolerance or fewer --radii take less") as (journal, progress):
         data = collision_averages(scene, progress=progress, journal=journal, **chosen)
         if output is not None and journal is not None:
-            as_text = {".csv": to_csv, ".foam": to_openfoam, ".py": to_pysdm}.get(output.suffix.lower())
-            if as_text is not None:
-                files.write(output, as_text(data))
+            if output.suffix.lower() == ".csv":
+                files.write(output, to_csv(data))
             else:
                 write(data, output)
             journal.remove()
     if output is None:
-        click.echo(to_csv(data), nl=False)
+        click.echo(table(data) if sys.stdout.isatty() else to_csv(data), nl=False)
     reasons = [str(reason) for reason in data["reason"].values.ravel() if reason]
     if reasons:
         click.echo(f"{len(reasons)} of {data['reason'].size} pairs failed; the first: {reasons[0]}", err=True)

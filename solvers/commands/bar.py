@@ -1,16 +1,19 @@
-"""A progress bar on standard error and a forecast of long work, on a terminal only."""
+"""What long work writes on standard error: a bar and a forecast on a terminal, a line now and then elsewhere."""
 
 from __future__ import annotations
 
 import os
 import sys
+import threading
 import time
 from collections.abc import Callable
 from contextlib import suppress
-from typing import Any
+from typing import Any, ClassVar, Self
 
-from ..host.progress import forecast
+from ..host.progress import duration, forecast
 from ..host.remarks import say
+
+_FIRST = 10.0  # s
 
 
 class Bar:
@@ -26,6 +29,9 @@ class Bar:
         clock: seconds since any fixed time.
     """
 
+    latest: ClassVar[Bar | None] = None
+    """The bar that counts at present."""
+
     def __init__(
         self, unit: str, cheaper: str = "", *, factor: float = 1.0, at_least: bool = False,
         clock: Callable[[], float] = time.monotonic,
@@ -33,49 +39,91 @@ class Bar:
         self.unit, self.clock = unit, clock
         self._options: dict[str, Any] = {"cheaper": cheaper, "factor": factor, "at_least": at_least}
         self._first: tuple[int, float] | None = None
-        self._forecast: str | None = None
+        self._forecast_written = False
+        self.done = 0
         self.total: int | None = 0
-        self._shown: Any = None
+        self.shown: Any = None
 
     def __call__(self, done: int, total: int | None) -> None:
-        self.total = total
+        Bar.latest = self
+        self.done, self.total = done, total
+        if self._first is None or done <= self._first[0]:
+            self._first = done, self.clock()
         try:
             if not sys.stderr.isatty():
                 return
         except (ValueError, AttributeError):  # closed, or none
             return
-        self._tell_forecast(done, total)
+        line = None if self._forecast_written else self.forecast()
+        if line is not None:  # once, as soon as a sample of the work allows one
+            self._forecast_written = True
+            if self.shown is not None:
+                self.shown.clear()
+            say(line)
         from tqdm import tqdm
 
-        if self._shown is None:  # starts at the first count, because work of an earlier run would distort the speed
+        if self.shown is None:  # starts at the first count, because work of an earlier run would distort the speed
             size: dict[str, Any] = {"ncols": 80, "nrows": 24}  # where the terminal does not report its size
             with suppress(OSError, ValueError, AttributeError):
                 if os.get_terminal_size(sys.stderr.fileno()).columns > 0:
                     size = {"dynamic_ncols": True}
-            self._shown = tqdm(total=total, initial=done, unit=f" {self.unit}", disable=None, leave=False, **size)
-        self._shown.total = total
-        self._shown.update(done - self._shown.n)
+            self.shown = tqdm(total=total, initial=done, unit=f" {self.unit}", disable=None, leave=False, **size)
+        self.shown.total = total
+        self.shown.update(done - self.shown.n)
 
-    def _tell_forecast(self, done: int, total: int | None) -> None:
-        """Write the forecast, once, as soon as a sample of the work allows one."""
-        now = self.clock()
-        if self._first is None or done <= self._first[0]:
-            self._first = done, now
+    def forecast(self) -> str | None:
+        """How long the rest takes; None where that cannot be told yet."""
+        if self._first is None or self.total is None:
+            return None
         first, began = self._first
-        if total is not None and self._forecast is None:
-            self._forecast = forecast(done, total, now - began, self.unit, before=first, **self._options)
-            if self._forecast is not None:
-                if self._shown is not None:
-                    self._shown.clear()
-                say(self._forecast)
+        return forecast(self.done, self.total, self.clock() - began, self.unit, before=first, **self._options)
 
     def note(self, text: str) -> None:
-        if self._shown is not None:
-            self._shown.set_postfix_str(text)
+        if self.shown is not None:
+            self.shown.set_postfix_str(text)
 
     def __enter__(self) -> Bar:
         return self
 
     def __exit__(self, *_: object) -> None:
-        if self._shown is not None:
-            self._shown.close()
+        Bar.latest = None
+        if self.shown is not None:
+            self.shown.close()
+
+
+class AtWork:
+    """A context that writes a line after 10 s, 20 s, 40 s, ... of work, with the forecast; none where a bar is seen.
+
+    Arguments:
+        clock: seconds since any fixed time.
+    """
+
+    def __init__(self, clock: Callable[[], float] = time.monotonic) -> None:
+        self.clock = clock
+        self._began, self._next = clock(), _FIRST
+        self._ended = threading.Event()
+
+    def look(self) -> float:
+        """Write the line if it is due; returns the seconds until the next one is."""
+        passed = self.clock() - self._began
+        if passed >= self._next:
+            bar = Bar.latest
+            if bar is None:
+                say(f"at work for {duration(passed)}")
+            elif bar.shown is None:
+                count = f"{bar.done} {'' if bar.total is None else f'of {bar.total} '}{bar.unit}"
+                say(f"at work for {duration(passed)}: {bar.forecast() or count}")
+            while self._next <= passed:
+                self._next *= 2
+        return self._next - passed
+
+    def _watch(self) -> None:
+        while not self._ended.wait(self.look()):
+            pass
+
+    def __enter__(self) -> Self:
+        threading.Thread(target=self._watch, daemon=True).start()
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._ended.set()

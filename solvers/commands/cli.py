@@ -15,6 +15,7 @@ import click
 from ..errors import InputError, ModelWarning, WetDoubletError, cut, did_you_mean, one_line
 from ..host.interrupts import INTERRUPTED, handled
 from ..host.locks import sweep_temporary
+from .bar import AtWork
 
 COMMANDS = (
     "scenes", "collide", "sensitivity", "map", "boundary", "critical", "averages", "table", "reproduce", "generate",
@@ -59,7 +60,7 @@ class Commands(click.Group):
     def invoke(self, ctx: click.Context) -> Any:
         """Run the command; an interrupt and a closed pipe set the exit status and print no error."""
         try:
-            with handled() as signals:
+            with handled() as signals, AtWork():
                 sweep_temporary()
                 super().invoke(ctx)
             sys.stdout.flush()

@@ -14,7 +14,7 @@ _SHOWN = 5  # most extra files named in the message; the listing names all
 
 
 @as_command("Derive the equations and emit them as CasADi functions.")
-def command(model: str | None, out: options.Folder, check: bool, template: bool) -> None:
+def command(model: str | None, out: options.Folder, check: bool, template: bool, names: bool) -> None:
     """Derive the equations and emit them as CasADi functions.
 
     With MODEL.py, which is run as Python, its laws are derived, checked and emitted into DIR, for --model DIR of the
@@ -31,13 +31,18 @@ def command(model: str | None, out: options.Folder, check: bool, template: bool)
         --out DIR: Output folder; required for a model.
         --check: Compare with the files there, byte for byte, and write nothing.
         --template: Print a model file that runs as it is.
+        --names: Print the names that a model file has, with units.
     """  # noqa: D301 # click wants the character itself
-    if template:
-        for option, value in passed(**{"MODEL.py": model, "--out": out, "--check": check or None}).items():
-            raise InputError(option, value, "--template alone: it prints a model file", "is given with --template")
+    if template or names:
+        alone = "--template" if template else "--names"
+        others = {"MODEL.py": model, "--out": out, "--check": check or None, "--names": (names and template) or None}
+        for option, value in passed(**others).items():
+            raise InputError(option, value, f"{alone} alone: it prints and writes nothing", f"is given with {alone}")
+        from ...derive import user
+        from ...derive.user.names import listed
         from ...derive.user.template import TEMPLATE
 
-        click.echo(TEMPLATE.rstrip("\n"))
+        click.echo(TEMPLATE.rstrip("\n") if template else listed(vars(user)))
         return
     if model is not None:
         _model(model, out, check)
@@ -45,6 +50,10 @@ def command(model: str | None, out: options.Folder, check: bool, template: bool)
     if check and out is not None:
         accepted = "--check alone: it compares the package's own folder"
         raise InputError("--out", str(out), accepted, "is given with --check")
+
+    if not check and out is None and not (OWN.parent / "pyproject.toml").is_file():
+        problem = f"is missing, and the emitted files of the installed package in {OWN} would be rewritten"
+        raise InputError("--out", None, "--out DIR, or --check, which compares and writes nothing", problem)
 
     from ...derive.emit import write
 

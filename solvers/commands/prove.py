@@ -40,9 +40,9 @@ def command(
         --stokes VALUE: Stokes number; edges of the cells of a map, LO:HI:N or log:LO:HI:N; LO:HI of a boundary.
         --speed VALUE: Normal speed instead, as "0.4 m/s", of a single proof.
         --relative-speed VALUE: Magnitude of the relative velocity instead, of a single proof.
-        --angle VALUE: Impact angle in degrees; edges of the cells of a map, LO:HI:N.
+        --angle VALUE: Impact angle in degrees; edges of the cells of a map, LO:HI:N, from 0 on.
         --within REL|NAME=RANGE: Prove it for a box: a relative uncertainty of the impact, or of an entry NAME=REL, or
-            both its ends NAME=LO:HI; repeatable.
+            both its ends NAME=LO:HI, as the scene gives it; repeatable.
         --map (cells): Prove a map cell by cell; --plot draws it.
         --boundary: Find two Stokes numbers of opposite proved outcomes, as near as they get.
         --depth N: Halvings of a cell of the map that is not proved [12].

@@ -8,16 +8,15 @@ from ..errors import InputError
 from . import options, texts
 from .signature import as_command, passed
 
-_NUMBER = partial(texts.number, "a number")
-
 
 @as_command("Two tracked centres over time become the table that `fit` reads.")
 def command(
     film: str | None,
-    rate: Annotated[float | None, _NUMBER],
+    rate: str | None,
     scale: str | None,
-    scale_sd: Annotated[float | None, _NUMBER],
-    noise: Annotated[float | None, _NUMBER],
+    scale_sd: Annotated[float | None, partial(texts.number, "a number")],
+    noise: str | None,
+    near: str | None,
     request: options.EntriesRequest,
     output: options.Written,
 ) -> None:
@@ -32,17 +31,18 @@ def command(
 
     Options:
         FILM.csv (film):
-        --rate F: Frames per second.
-        --scale LENGTH: Length of a pixel, as "12.5 um".
+        --rate F: Frames per second, or with a unit, as "150 kHz".
+        --scale LENGTH: Length of a pixel, as "12.5 um", "2 um/px" or "80 px/mm".
         --scale-sd S: Relative standard deviation of the scale, as 0.005 [0].
-        --noise N: Standard deviation of a tracked coordinate, in the unit of the columns [from the scatter].
+        --noise N: Standard deviation of a tracked coordinate, in the unit of the columns or its own [from the scatter].
+        --near GAP: Leave out frames in which the gap is smaller, as "0.1 mm" or "8 px" [those off a straight path].
     """  # noqa: D301 -- click reads the \b, which keeps the lines of the example
     from ..fitting.tracks import tracks
 
     source = request.source or ""
-    if source.lower().endswith(".csv"):
+    if source.lower().endswith((".csv", ".tsv", ".txt")):
         request, film = replace(request, source=film), source
     if film is None:
         raise InputError("FILM.csv", None, "a CSV file with a row for each frame")
-    found = tracks(film, request.scene(), **passed(rate=rate, scale=scale, scale_sd=scale_sd, noise=noise))
+    found = tracks(film, request.scene(), **passed(rate=rate, scale=scale, scale_sd=scale_sd, noise=noise, near=near))
     output.show(found)

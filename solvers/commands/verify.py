@@ -41,7 +41,7 @@ class _Counted(click.Command):
 
 
 @as_command(
-    "Check the laws: symbolic identities and numbers.", _Counted, stress={"is_flag": False, "flag_value": "20000"}
+    "Check the laws: symbolic identities and numbers.", _Counted, stress={"is_flag": False, "flag_value": "500"}
 )
 def command(
     request: options.OptionalRequest,
@@ -62,7 +62,7 @@ def command(
     Options:
         -o FILE.md (output): Write the report as Markdown to FILE.md as well.
         --plot FILE.png: Draw the region e_n > 1 and its energy budget: .png, .pdf or .svg.
-        --stress N: Instead: compare all engines on N scenes, drawn and beside boundaries [20000].
+        --stress N: Instead: compare all engines on N scenes, drawn and beside boundaries [500].
         --out DIR: Folder for records, tables and plots of --stress [stress].
         --recompute: Make the symbolic verdicts again, though they are kept.
     """

@@ -89,7 +89,7 @@ def compile_kernels(
                 raise ComputationError("there is no C compiler", advice="install one; the other engines answer without")
             message = "a law of this scene has no Taylor series: the other engines answer"
             raise ComputationError(f"{scene.name or 'scene'}: {message}")
-        for use, oblique, variant in _needed(scene, tolerances, derivatives):
+        for use, oblique, variant in needed(scene, tolerances, derivatives):
             serves = wanted.setdefault(variant, (scene, oblique, []))[2]
             if use not in serves:
                 serves.append(use)
@@ -113,7 +113,7 @@ def compile_kernels(
     )  # fmt: skip
 
 
-def _needed(scene: Scene, tolerances: Sequence[float], derivatives: bool) -> Iterator[tuple[str, bool, Variant]]:
+def needed(scene: Scene, tolerances: Sequence[float], derivatives: bool) -> Iterator[tuple[str, bool, Variant]]:
     """Use, obliquity and variant of each kernel; some uses share one."""
     for rtol in tolerances:
         for oblique in (True, False):

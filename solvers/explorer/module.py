@@ -1,6 +1,6 @@
 """A scene's law as a WebAssembly module, and where the model ends, in C and in words."""
 
-import hashlib
+import gzip
 import math
 import re
 from collections.abc import Sequence
@@ -11,13 +11,17 @@ from casadi import SX, CodeGenerator, Function, vertcat
 from ..errors import InputError
 from ..export.law.texts import LawSource
 from ..host.compiler import CannotCompile, webassembly
-from ..host.user_cache import kept
+from ..host.remarks import say_once
+from ..host.user_cache import digest_of, kept
 from ..model.validity import LIMITS, NEEDS, WORDS, law_limits
 from ..scene.groups import si_values
 from ..scene.scene import Scene
 
+BUILT = Path(__file__).with_name("built")
+"""Folder of the bundle and the modules that come with the package."""
+SUFFIX = ".wasm.gz"
 _EXPORTED = ("place", "size", "set_material", "many", "follow", "followed_events", "message", "outside")
-_FLAGS = (
+FLAGS = (
     "-O2",
     "-msimd128",
     "-DLAW_LANES=2",
@@ -47,24 +51,44 @@ int outside(int k)
 """
 
 
-def module(law: LawSource, behind: str = "") -> bytes:
-    """The module of a law and the functions of `shim.h`; compiled once for all scenes of its structure, and kept.
+def compilation(law: LawSource, behind: str = "") -> tuple[str, str]:
+    """The C that a law's module is compiled from, the same for all scenes of a structure, and its digest.
 
     Arguments:
         behind: more C, which follows that of `shim.h`.
-
-    Raises:
-        InputError: no compiler makes WebAssembly here.
     """
     text = _VALUES.sub("", _HEAD.sub("", law.c))  # without what differs between scenes: its name and its numbers
     text = text.replace('#include "law.h"', _VALUES.sub("", law.header))
     text += Path(__file__).with_name("shim.h").read_text() + behind
-    digest = hashlib.sha256("\0".join([text, *_FLAGS]).encode()).hexdigest()[:32]
+    return text, digest_of("\0".join([text, *FLAGS]).encode())
+
+
+def module(law: LawSource, behind: str = "") -> bytes:
+    """The module of a law and the functions of `shim.h`: as shipped with the package, or else compiled once and cached.
+
+    Arguments:
+        behind: as for `compilation`.
+
+    Raises:
+        InputError: it is not shipped, and no compiler makes WebAssembly here.
+    """
+    text, digest = compilation(law, behind)
     try:
-        return kept(f"explorer-{digest}.wasm", lambda: webassembly(text, _FLAGS))
+        return shipped(digest) or kept(f"explorer-{digest}.wasm", lambda: webassembly(text, FLAGS))
     except CannotCompile as error:
         accepted = "an installed ziglang (pip install 'wetdoublet[explorer]'), or clang with lld and wasi-libc"
-        raise InputError("explore", None, accepted, f"has no compiler for WebAssembly ({error})") from None
+        problem = f"has no module of this law in the package, and no compiler for WebAssembly ({error})"
+        raise InputError("explore", None, accepted, problem) from None
+
+
+def shipped(digest: str) -> bytes | None:
+    """The module that came with the package for the digest of a text; None if there is none that is whole."""
+    for path in BUILT.glob(f"{digest}.*{SUFFIX}"):
+        packed = path.read_bytes()
+        if path.name == f"{digest}.{digest_of(packed)}{SUFFIX}":
+            return gzip.decompress(packed)
+        say_once(f"{path} is damaged: it is not used; install wetdoublet anew")
+    return None
 
 
 def limits(scene: Scene, material: Sequence[str], entries: Sequence[str]) -> tuple[str, list[str]]:

@@ -17,11 +17,11 @@ from ..host import files
 from ..scene.scene import Scene
 from ..scene.scenefile import PRESETS
 from ..scene.schema import SPEEDS
+from .module import BUILT, limits, module
 
 if TYPE_CHECKING:
     from ..export.law.texts import LawSource
 
-_BUILT = Path(__file__).with_name("built")
 _SIZES = {"radius", "diameter", "reduced_radius", "mass", "density", "reduced_mass"}
 _PAGE = """<!doctype html>
 <html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width,initial-scale=1">
@@ -83,7 +83,7 @@ class Explorer:
         """The page, which loads nothing.
 
         Raises:
-            InputError: a law that has no recurrence, or no compiler for WebAssembly.
+            InputError: a law that has no recurrence, or whose module is neither shipped nor can be compiled.
         """
         data = self._data()
         first = data["scenes"][0]
@@ -156,27 +156,36 @@ def _structure(scene: Scene) -> tuple[Any, ...]:
     from ..export.law.material import material
     from ..export.law.pair import pair_entries
 
-    law_kernels = kernels(scene, RTOL)
+    law_kernels = kernels(scene, RTOL, _has_ledger(scene))
     entries = pair_entries(scene, material(scene, law_kernels))
-    return (*(each.choice for each in law_kernels), *(each.name for each in entries), scene.particles.friction is None)
+    return (*(each.choice for each in law_kernels), *(each.name for each in entries), _has_ledger(scene))
+
+
+def law_of(scene: Scene) -> tuple[LawSource, str, list[str]]:
+    """The source of a scene's law, the C that follows it in its module, and the words of the limits of the model."""
+    from ..export.law.interface import structures
+    from ..export.law.texts import source
+
+    law = source(scene, ledger=_has_ledger(scene))
+    material = [member for _, member, _ in structures(law.header)["law_material"]]
+    return law, *limits(scene, material, [each.name for each in law.entries])
+
+
+def _has_ledger(scene: Scene) -> bool:
+    """False with friction: a kernel with a ledger leaves rest with friction to CasADi."""
+    return scene.particles.friction is None
 
 
 def _of_scene(scene: Scene, modules: dict[str, bytes]) -> dict[str, Any]:
     """What the page is told of a scene, whose law joins the modules."""
     from ...generated.automaton import CRITERIA, OUTCOMES
     from ..export.law.interface import structures
-    from ..export.law.texts import source
     from ..formatting.style import FILLS
     from .knobs import knobs
-    from .module import limits, module
 
-    ledger = scene.particles.friction is None  # a kernel with a ledger leaves rest with friction to CasADi
-    law = source(scene, ledger=ledger)
+    law, behind, ends = law_of(scene)
     layout = structures(law.header)
     given = dict(scene.given)
-    behind, ends = limits(
-        scene, [member for _, member, _ in layout["law_material"]], [each.name for each in law.entries]
-    )
     content = module(law, behind)
     digest = hashlib.sha256(content).hexdigest()
     modules[digest] = content
@@ -199,7 +208,7 @@ def _of_scene(scene: Scene, modules: dict[str, bytes]) -> dict[str, Any]:
         "own_model": scene.package is not None,
         "wall": scene.wall,
         "strings": scene.pendulum is not None,
-        "ledger": ledger,
+        "ledger": _has_ledger(scene),
         "attraction": scene.attraction is not None,
         "bridge": scene.bridge is not None,
         "tables": _tables(scene, law),
@@ -223,8 +232,8 @@ def explore(scene: Scene | str | Path, *others: Scene | str | Path) -> Explorer:
         others: as `scene`, such as the same with another bridge law.
 
     Raises:
-        InputError: a scene without an impact. To write the page needs a compiler for WebAssembly, which
-            `wetdoublet[explorer]` brings.
+        InputError: a scene without an impact. To write the page of a law whose module does not come with the package
+            needs a compiler for WebAssembly, which `wetdoublet[explorer]` brings.
 
     Example:
         >>> import wetdoublet as wd
@@ -235,7 +244,7 @@ def explore(scene: Scene | str | Path, *others: Scene | str | Path) -> Explorer:
 
 
 def _built(name: str) -> str:
-    return (_BUILT / name).read_text(encoding="utf-8")
+    return (BUILT / name).read_text(encoding="utf-8")
 
 
 def _tables(scene: Scene, law: LawSource) -> list[list[str | None]]:

@@ -13,7 +13,7 @@ from matplotlib.lines import Line2D
 from scipy.stats import chi2
 
 from ...generated.automaton import OUTCOMES
-from ..formatting.style import EDGES, FILLS, INK, LETTERS, NOTE, halo, patch, picture, plain_text
+from ..formatting.style import EDGES, FILLS, INK, LETTERS, NOTE, broken, halo, patch, picture, plain_text, title
 from ..formatting.ticks import plain
 from ..many.collide_many import collide_many
 from ..scene.held import AXIS_LABELS
@@ -162,11 +162,13 @@ def _results(axes: Axes, part: Part, samples: np.ndarray, expected: Mapping[str,
     for colour, group in zip(_LINES, _by_angle(data.angle[rows])):
         group = rows[group]
         angle = float(np.mean(data.angle[group]))
-        values = _collided(part, samples, speed, np.full(_CURVE, angle), (name,))[name].values.reshape(-1, _CURVE)
+        collided = _collided(part, samples, speed, np.full(_CURVE, angle), (name,))
+        values, outcome = (collided[of].values.reshape(-1, _CURVE) for of in (name, "outcome"))
         known = np.isfinite(values).mean(axis=0) > 0.5
         low, high = (np.where(known, each(values, axis=0), np.nan) for each in (np.fmin.reduce, np.fmax.reduce))
-        axes.fill_between(speed, low, high, color=colour, alpha=0.25, linewidth=0)
-        axes.plot(speed, values[0], color=colour, linewidth=1.2, label=f"{np.degrees(angle):.3g}°")
+        at, low, high, best = broken(outcome[0], speed, low, high, values[0])
+        axes.fill_between(at, low, high, color=colour, alpha=0.25, linewidth=0)
+        axes.plot(at, best, color=colour, linewidth=1.2, label=f"{np.degrees(angle):.3g}°")
         axes.errorbar(data.speed[group], measured[group], sd[group], data.speed_sd[group], fmt="o", color=colour,
                       markersize=3.5, elinewidth=0.7)  # fmt: skip
         if data.columns:
@@ -177,8 +179,8 @@ def _results(axes: Axes, part: Part, samples: np.ndarray, expected: Mapping[str,
     axes.set_ylabel(_LABELS[name])
     axes.legend(title="mean angle of the group", fontsize=7, title_fontsize=7)
     dashes = ";\ndashes: the fit with each impact's group entries" if data.columns else ""
-    title = "measured, and the fit at the mean angle of each group with its band (95 %)"
-    axes.set_title(title + _caveat(part) + dashes, fontsize=9)
+    what = "measured, and the fit at the mean angle of each group with its band (95 %)"
+    axes.set_title(what + _caveat(part) + dashes, fontsize=9)
 
 
 def _caveat(part: Part) -> str:
@@ -284,8 +286,8 @@ def draw_prediction(data: xarray.Dataset) -> Figure:
         axes.set_yscale("log")
     plain(axes.yaxis)
     axes.set(xlabel="impact angle (deg)", ylabel=AXIS_LABELS[kind])
-    title = "probability of sticking, with the uncertainty of the fitted entries"
-    axes.set_title(f"{plain_text(data.attrs['title'])}: {title}", fontsize=9)
+    what = "probability of sticking, with the uncertainty of the fitted entries"
+    title(figure, f"{plain_text(data.attrs['title'])}: {what}")
     handles = [patch(name) for name, each in zip(names, share, strict=True) if each.max() > _PROBABILITIES[0]]
     for each in handles:
         each.set(edgecolor=INK, hatch=None, linewidth=0.6)

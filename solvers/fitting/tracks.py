@@ -5,8 +5,10 @@ straight line is fitted to each part. Its covariance, from the noise of the posi
 """
 
 import math
+import re
+import sys
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -19,19 +21,36 @@ from ..formatting.markdown import aligned
 from ..scene import units
 from ..scene.columns import Column, columns_of, row_name
 from ..scene.scene import Scene
+from ..scene.values import with_unit
 from .measurements import OBSERVED
+from .straight import LEAST, REACH, Flight, near_contact, uneven
 
+_ACCEPTED = {
+    "rate": 'a frequency > 0, as 4000 or "150 kHz"',
+    "scale": 'a length of a pixel > 0, as "12.5 um", "2 um/px", "80 px/mm"',
+    "noise": 'a number > 0 in the unit of the columns, or with a unit, as "0.2 px", "0.4 um"',
+    "near": 'a gap >= 0, as "0.1 mm" or "8 px"',
+}
 _SIGNED = ("tangential_restitution", "rotation")
 _NAMES = ("speed", "angle", *OBSERVED)
 _UNITS = {"speed": "m/s", "angle": "deg", "contact_time": "s", "rotation": "deg"}
 _CLEAR = 4.0  # standard deviations of the noise by which a pair is apart
-_LEAST = 4  # frames of a line
 _STRAY = 10.0  # times the usual distance from a line, which a frame of a film that is tracked well does not reach
-_QUANTUM = 0.3  # pixels: jitter of positions in whole pixels
-_PIXELS = (None, "px", "pixel", "pixels", "")
+_PIXELS = (None, "px", "pixel", "pixels", "css_pixel", "")
+_PER_PIXEL = re.compile(r"(.+)/(?:css_)?(?:px|pixels?)")
+_PIXELS_PER = re.compile(r"(?:css_)?(?:px|pixels?)/(.+)")
+_SPELT = {  # as trackers name columns, in small letters; of several the first
+    "frame": "frame slice image picture frame_number",
+    "time": "time t",
+    "impact": "impact film video",
+} | {name: f"{name} {name[0]}_{name[1]}" for name in ("x1", "y1", "x2", "y2")}
 _ROUNDING = 1e-9  # of positions, over the distance of the centres
 _SIDEWAYS = 3.0  # standard deviations from which an impact is oblique
+_NAMED = 6  # frames in a sentence
 _STEP = 1e-2  # of differences, over the standard deviation of a parameter
+_FEW = 4  # places at which frames are lost that explain a path better than a tracker does
+_REFITS = 3  # of a line whose frames near contact are those before it meets
+_RESTING = 0.01  # of the distance of touching solids, within which a distance no longer changes
 _FASTEST = math.pi / 2  # rotation between two frames from which turns may have been missed
 
 
@@ -88,10 +107,11 @@ def tracks(
     film: Any,
     scene: Scene | str | Path,
     *,
-    rate: float | None = None,
-    scale: float | str | None = None,
+    rate: Any = None,
+    scale: Any = None,
     scale_sd: float = 0.0,
-    noise: float | None = None,
+    noise: Any = None,
+    near: Any = None,
 ) -> Tracks:
     """Impacts from the tracked centres of two spheres.
 
@@ -99,17 +119,22 @@ def tracks(
         film: a CSV file, a DataFrame or a mapping with columns `x1`, `y1`, `x2`, `y2` (pixels, or a unit of length) and
             `frame`, or `time` with its unit; `impact` tells several films apart.
         scene: gives the radii, the film thickness and the rupture gap.
-        rate: frames per second.
-        scale: length of a pixel, in m or with its unit, as "12.5 um".
+        rate: frames per second, or with a unit, as "150 kHz".
+        scale: length of a pixel, in m or with its unit, as "12.5 um"; or as "2 um/px", "80 px/mm".
         scale_sd: its relative standard deviation.
-        noise: standard deviation of a tracked coordinate, in pixels or the unit of the columns; None: from the scatter
-            about the straight paths.
+        noise: standard deviation of a tracked coordinate, in the unit of the columns, or with its own, as "0.2 px";
+            None: from the scatter about the straight paths.
+        near: frames of a smaller gap between the spheres are left out; in m or with a unit, as "0.1 mm", "8 px". None:
+            of those off the straight path of the others the direction alone counts. 0: all count.
+
+    `rate`, `scale`, `noise` and `near` may be quantities of pint.
 
     Returns:
         Tracks: normal speed, angle, e_n, e_t, contact time and rotation, with standard deviations.
 
     Raises:
-        InputError: a wrong column; a film with fewer than four frames before the impact, or on which they do not meet.
+        InputError: a wrong column; a film with fewer than four frames before the impact, on which they do not meet, or
+            of which frames are missing or given twice.
 
     Example:
         >>> import numpy as np
@@ -125,21 +150,27 @@ def tracks(
     if loaded.radius_ratio is None or loaded.pendulum is not None:
         raise InputError("tracks", loaded.name, "two spheres in free flight", "has a wall or strings")
     columns, lines = columns_of(film, "tracks")
-    known = {column.name: column for column in columns}
+    known = _named(columns)
     for name in [each for each in ("x1", "y1", "x2", "y2") if each not in known]:
-        raise InputError("tracks", ", ".join(known), "columns x1, y1, x2, y2, and frame or time", f"has no {name}")
-    if isinstance(scale, str):
-        scale = units.quantity(scale, "m", "scale", '"12.5 um"')
-    coordinates = [_numbers(known[name], lines, "m", scale, "scale", gaps=True) for name in ("x1", "y1", "x2", "y2")]
+        raise InputError(
+            "tracks",
+            ", ".join(each.name for each in columns),
+            "columns x1, y1, x2, y2, and frame or time",
+            f"has no {name}",
+        )
+    pixel = None if scale is None else _size(scale, "m", "scale", plain=None)
+    per_frame = None if rate is None or "time" in known else 1 / _size(rate, "1/s", "rate")
+    coordinates = [_numbers(known[name], lines, "m", pixel, "scale", gaps=True) for name in ("x1", "y1", "x2", "y2")]
     positions = np.stack(coordinates, axis=1)
-    unit = _factor(known["x1"], "m", scale, "scale")
-    least = _QUANTUM * unit if known["x1"].unit in _PIXELS else 0.0
-    if "time" in known:
-        time = _numbers(known["time"], lines, "s", None, "")
-    elif "frame" in known:
-        time = _numbers(known["frame"], lines, "s", 1 / rate if rate else None, "rate")
-    else:
+    unit = _factor(known["x1"], "m", pixel, "scale")
+    rounding = _rounding(positions / unit) * unit * math.sqrt(2)  # of a relative coordinate
+
+    given = None if noise is None else math.sqrt(2) * _size(noise, "m", "noise", pixel=pixel, plain=unit)
+    gap = None if near is None else _size(near, "m", "near", pixel=pixel, plain=None)
+    clock = known.get("time") or known.get("frame")
+    if clock is None:
         raise InputError("tracks", ", ".join(known), "a column frame, or time [s]", "has no time")
+    time = _numbers(clock, lines, "s", per_frame, "rate" * (clock.name == "frame"))
     films = [str(each) for each in known["impact"].cells] if "impact" in known else ["1"] * time.size
     radii = 2 * loaded.particles.reduced_radius * (1 + loaded.radius_ratio)
     reaches = radii, radii + loaded.liquid.film_thickness, radii + loaded.rupture_gap
@@ -150,18 +181,28 @@ def tracks(
         which = which[np.argsort(time[which], kind="stable")]
         if lost := frames.size - which.size:
             remarks.append(f"impact {label}: {lost} of {frames.size} frames lack a position and are not used")
-        relative = positions[which, 2:] - positions[which, :2]
-        given = None if noise is None else math.sqrt(2) * noise * unit
+        single = which[np.diff(time[which], prepend=-math.inf) > 0]
+        unit_of_clock = f" {clock.unit}" if clock.unit and clock.name == "time" else ""
+        names = [f"{clock.name} {str(clock.cells[k]).strip()}{unit_of_clock}" for k in single]
+        again = np.diff(np.searchsorted(time[single], time[which], side="right"), prepend=0) == 0
+        repeated = [names[k - 1] for k in np.unique(np.searchsorted(time[single], time[which[again]], side="right"))]
+        path = Flight(time[single], positions[single, 2:] - positions[single, :2], names)
         try:
-            values, sigma, said = _impact(f"impact {label}", time[which], relative, reaches, given, scale_sd, least)
+            with np.errstate(divide="raise", over="raise", invalid="raise"):
+                values, sigma, said = _impact(
+                    f"impact {label}", path, repeated, reaches, given, scale_sd, gap, per_frame, rounding
+                )
+        except (FloatingPointError, ZeroDivisionError) as reason:
+            left_out.append(InputError(f"tracks, impact {label}", None, "centres that move and meet", f"has {reason}"))
         except InputError as error:
             left_out.append(error)
-            remarks.append(f"left out: {error}")
+        else:
+            labels.append(label)
+            rows.append(values)
+            sigmas.append(sigma / math.sqrt(2))
+            remarks += [f"impact {label}: {each}" for each in said]
             continue
-        labels.append(label)
-        rows.append(values)
-        sigmas.append(sigma / math.sqrt(2))
-        remarks += [f"impact {label}: {said}"] if said else []
+        remarks.append(f"left out: {left_out[-1]}")
     if not rows:
         raise left_out[0]
     gaps = f"x0 = {1e6 * loaded.liquid.film_thickness:.4g} um and x_f = {1e6 * loaded.rupture_gap:.4g} um"
@@ -177,64 +218,127 @@ def tracks(
 
 def _impact(
     label: str,
-    time: np.ndarray,
-    relative: np.ndarray,
+    path: Flight,
+    repeated: list[str],
     reaches: tuple[float, ...],
     noise: float | None,
     scale_sd: float,
-    least: float,
-) -> tuple[dict[str, Any], float, str]:
-    """Results of one impact, the noise of a relative coordinate (m), and a remark.
+    near: float | None,
+    per_frame: float | None,
+    rounding: float,
+) -> tuple[dict[str, Any], float, list[str]]:
+    """Results of one impact, the noise of a relative coordinate (m), and remarks.
 
     Arguments:
-        least: jitter from frame to frame that rounding to pixels makes, m.
+        repeated: names of frames, or times, that several rows have.
+        noise: of a relative coordinate, m.
+        per_frame: s; None where times are given.
+        rounding: standard deviation of a relative coordinate from the digits that are written, m.
     """
-    distance, (solids, touch, apart) = np.linalg.norm(relative, axis=1), reaches
+    time, relative, names, (solids, touch, apart) = path.time, path.places, path.names, reaches
+    where, within, remarks = f"tracks, {label}", "two centres that come within the film", list[str]()
+    if repeated and per_frame is None:
+        several = f"{', '.join(repeated[:_NAMED])}{' ...' * (len(repeated) > _NAMED)}"
+        raise InputError(where, several, "rising times, or a column frame and its rate", "is shared by several rows")
+    distance = np.linalg.norm(relative, axis=1)
     jitter = np.abs(np.diff(relative, 2, axis=0))  # of a uniform motion noise alone
     sigma = noise or (float(np.median(jitter)) / (0.6745 * math.sqrt(6)) if jitter.size else 0.0)
     nearest = int(np.argmin(distance))
-    met = np.append(np.flatnonzero(distance[:nearest] <= touch + _CLEAR * sigma), nearest)
-    left = np.append(nearest, nearest + np.flatnonzero(distance[nearest:] <= apart + _CLEAR * sigma))
-    first, last = int(met[0]), int(left[-1])
-    before, after = np.arange(time.size) < first, np.arange(time.size) > last
-    sticks, within = not after.any(), "two centres that come within the film"
-    if sticks and distance[nearest] > touch + _CLEAR * sigma:
-        problem = f"end {distance[nearest]:.4g} m apart, before the films meet at {touch:.4g} m"
-        raise InputError(f"tracks, {label}", None, within, problem)
-    if sticks and time.size - first < _LEAST:
-        frames = f"at least {_LEAST} frames after the films meet"
-        raise InputError(f"tracks, {label}", None, frames, f"end {time.size - first} frames after it")
-    for part, side in ((before, "before the impact"), (after | sticks, "after the separation")):
-        if part.sum() < _LEAST:
-            problem = f"has {int(part.sum())} {side}"
-            raise InputError(f"tracks, {label}", None, f"at least {_LEAST} frames {side}", problem)
-    since_first, time = float(time[first]), time - time[first]
-    lines = [_line(time, relative, part) for part in ((before,) if sticks else (before, after))]
-    freedom = sum(2 * int(each.sum()) - 4 for each in (before, after) if each.any())
-    sigma = noise or math.sqrt(sum(one[2] for one in lines) / freedom)
+    nearly = distance[nearest] + _RESTING * solids  # a tracker may never see them touch
+    met = np.append(np.flatnonzero(distance[:nearest] <= max(touch, nearly) + _CLEAR * sigma), nearest)
+    left = np.append(nearest, nearest + np.flatnonzero(distance[nearest:] <= max(apart, nearly) + _CLEAR * sigma))
+    rest = _rests_from(time, distance, max(_CLEAR * sigma, _RESTING * solids))
+    first, last = int(min(met[0], rest)), int(left[-1])
+    before, after = np.arange(time.size) < first, (np.arange(time.size) > last) & (rest == time.size)
+    sticks, rests, apart_still = not after.any(), rest < time.size, distance[nearest] > touch + _CLEAR * sigma
+
+    def check_count() -> None:
+        for part, side in ((before, "before the impact"), (after | sticks, "after the separation")):
+            if part.sum() < LEAST:
+                problem = f"has {int(part.sum())} {side}"
+                raise InputError(where, None, f"at least {LEAST} frames {side}", problem)
+
+    check_count()
+    floor, interval = max(rounding, noise or 0.0, _ROUNDING * touch), per_frame or float(np.median(np.diff(time)))
+
+    def free(gap: float) -> list[Flight]:
+        """Both flights, or the approach to a stick, where the spheres are farther apart than a gap."""
+        flights = [path.part(each & (distance >= solids + gap)) for each in (before, after) if each.any()]
+        return flights if min(each.time.size for each in flights) >= LEAST else []
+
+    def check_times(gap: float, most: float = math.inf) -> None:
+        text, lost = uneven(free(gap), interval, floor)
+        faults = [f"give {', '.join(repeated[:_NAMED])} more than once"] if repeated else []
+        faults += [text] if text and lost <= most else []
+        if faults:
+            raise InputError(where, None, "frames numbered as they were filmed, each once", "; ".join(faults))
+
+    for flight in free(0.0):
+        back = np.flatnonzero((flight.places[1:] * flight.places[:-1]).sum(axis=1) < 0)
+        if back.size:
+            problem = f"turn by more than 90 deg after {flight.names[back[0]]}: are the two spheres exchanged?"
+            raise InputError(where, None, "a uniform motion", problem)
+    gap = near
+    if gap is None:
+        displaced, gap = near_contact(free(0.0), solids, floor)
+        if not repeated:
+            check_times(REACH * solids)
+        # frames that are lost near contact displace the others inward; a tracker that pushes looks like many lost
+        check_times(0.0, math.inf if displaced <= 0 or repeated else _FEW if gap >= REACH * solids else sys.maxsize)
+        if math.isinf(gap):
+            problem = "lie off a straight path the more, the nearer the spheres are: does the tracker bend it?"
+            raise InputError(where, None, f"at least {LEAST} frames of a uniform approach", problem)
+        if rests and apart_still and free(REACH * solids):
+            gap = max(gap, REACH * solids)
+    near_frames = distance < solids + gap
+    turned_only = [each & near_frames & (near is None) for each in (before, after)]  # if free: contact is hidden there
+    if blank := int(((before | after) & near_frames).sum()):
+        use = (
+            "count by the direction of their line of centres only: they lie off the straight path of the others, as of"
+        )
+        use = "are left out" if near is not None else f"{use} a tracker that displaces near discs"
+        remarks.append(f"{blank} frames in which the gap is below {gap:.3g} m {use}")
+    before, after = before & ~near_frames, after & ~near_frames
+    check_count()
+    time = time - time[first]
+    lines, used = list[tuple[np.ndarray, np.ndarray, float, int]](), [before, after]
+    for k, (part, reach, side) in enumerate([(before, touch, -1), (after, apart, 1)][: 1 if sticks else 2]):
+        for _ in range(_REFITS):
+            line = _line(time, relative, part, used[k] & ~part)
+            used[k] = part | (turned_only[k] & (side * (time - _state(line[0], reach, side)[3]) > 0))
+        lines.append(line)
+    first, last = int(np.flatnonzero(used[0])[-1]) + 1, int(np.flatnonzero(used[1])[0]) - 1 if not sticks else last
+    sigma = noise or math.sqrt(sum(line[2] for line in lines) / sum(line[3] for line in lines))
     turned = np.unwrap(np.arctan2(relative[:, 1], relative[:, 0]))
-    places = [(before, touch, lines[0])] + ([] if sticks else [(after, apart, lines[1])])
-    for part, reach, (line, _, _) in places:
-        passing = abs(line[0, 0] * line[1, 1] - line[0, 1] * line[1, 0]) / np.linalg.norm(line[1])
+    for part, reach, (course, *_) in zip((before, after), (touch, apart), lines):
+        passing = abs(course[0, 0] * course[1, 1] - course[0, 1] * course[1, 0]) / np.linalg.norm(course[1])
         if passing >= reach:
             problem = f"pass each other at {passing:.4g} m, beyond {reach:.4g} m: is the scale or the diameter off?"
-            raise InputError(f"tracks, {label}", None, within, problem)
-        off = np.linalg.norm(relative[part] - line[0] - time[part, None] * line[1], axis=1)
+            raise InputError(where, None, within, problem)
+        frames = np.flatnonzero(part)
+        off = np.linalg.norm(relative[part] - course[0] - time[part, None] * course[1], axis=1)
         worst, usual = int(np.argmax(off)), max(float(np.median(off)), noise or 0.0)
         if off[worst] > _STRAY * usual + _ROUNDING * touch:
-            problem = (
-                f"{off[worst]:.3g} m off its line at {since_first + time[part][worst]:.6g} s, others {usual:.2g} m"
+            problem = f"{off[worst]:.3g} m off its line at {names[frames[worst]]}, others {usual:.2g} m"
+            raise InputError(where, None, "positions along straight lines", problem)
+    check_times(gap)
+    if sticks:
+        end = float(np.median(distance[max(first, time.size - LEAST) :]))
+        if apart_still and not (rests and end < (1 + REACH) * solids):
+            problem = f"end {end:.4g} m apart, before the films meet at {touch:.4g} m"
+            problem += ", and stay there: is the scale, the diameter or the tracker off?" * rests
+            raise InputError(where, None, within, problem)
+        if time.size - first < LEAST:
+            problem = f"end {time.size - first} frames after it"
+            raise InputError(where, None, f"at least {LEAST} frames after the films meet", problem)
+        remarks.append(
+            f"together to the end of the film, {time[-1] - time[first]:.3g} s after they met: taken for a stick"
+        )
+        if apart_still or end < (1 - 2 * _RESTING) * solids - _CLEAR * sigma:
+            remarks.append(
+                f"its distance no longer changes at {end:.4g} m, where solids touch at {solids:.4g} m and films at "
+                f"{touch:.4g} m: look at the scale, the diameter and the tracker"
             )
-            raise InputError(f"tracks, {label}", None, "positions along straight lines", problem)
-        steps, times = np.diff(relative[part], axis=0), np.diff(time[part])
-        jumps = np.linalg.norm(steps - times[:, None] * np.median(steps / times[:, None], axis=0), axis=1)
-        worst, usual = int(np.argmax(jumps)), max(float(np.median(jumps)), noise or 0.0, least)
-        if jumps[worst] > _STRAY * usual + _ROUNDING * touch:
-            problem = (
-                f"jump by {jumps[worst]:.3g} m after {since_first + time[part][worst]:.6g} s, others by {usual:.2g} m: "
-                "is a frame missing that the numbers of the frames do not count, or are the two spheres exchanged?"
-            )
-            raise InputError(f"tracks, {label}", None, "a uniform motion", problem)
 
     def results(parameters: np.ndarray) -> np.ndarray:
         lines = (1 + parameters[-1]) * parameters[:-1].reshape(-1, 2, 2)
@@ -249,7 +353,7 @@ def _impact(
         return np.array(found)
 
     centre = np.array([*(each for one in lines for each in one[0].ravel()), 0.0])
-    blocks = [np.kron(np.linalg.cholesky(one[1]), np.eye(2)) * sigma for one in lines]
+    blocks = [np.linalg.cholesky(covariance) * sigma for _, covariance, *_ in lines]
     steps = block_diag(*blocks, [[scale_sd]]).T  # independent deviations of the parameters
     moved = [(results(centre + _STEP * step) - results(centre - _STEP * step)) / (2 * _STEP) for step in steps]
     sd = np.sqrt((np.array(moved) ** 2).sum(axis=0))
@@ -259,24 +363,41 @@ def _impact(
     if not sticks and not values["contact_time"] > 0:
         problem = f"last {values['contact_time']:.3g} s: is the scale or the rate off?"
         raise InputError(f"tracks, {label}", None, "contacts that take time", problem)
-    remark = ""
     if values["angle"] <= _SIDEWAYS * values["angle_sd"] and not sticks:
         values |= dict.fromkeys((*_SIGNED, *(f"{name}_sd" for name in _SIGNED)), math.nan)
-        remark = "head-on within its uncertainty, so that e_t and the sense of the rotation are not known"
+        remarks.append("head-on within its uncertainty, so that e_t and the sense of the rotation are not known")
     elif not sticks and np.abs(np.diff(turned[first - 1 : last + 2])).max() > _FASTEST:
         values |= dict.fromkeys(("rotation", "rotation_sd"), math.nan)
-        remark = "it turns by more than 90 deg between two frames, so that its turns cannot be counted"
-    if sticks:
-        remark = f"together to the end of the film, {time[-1] - time[first]:.3g} s after they met: taken for a stick"
+        remarks.append("it turns by more than 90 deg between two frames, so that its turns cannot be counted")
     ordered = {name: values[name] for each in _NAMES for name in (each, f"{each}_sd")}
-    return ordered | {"outcome": STICK if sticks else ""}, sigma, remark
+    return ordered | {"outcome": STICK if sticks else ""}, sigma, remarks
 
 
-def _line(time: np.ndarray, relative: np.ndarray, part: np.ndarray) -> tuple[np.ndarray, np.ndarray, float]:
-    """Position at time 0 and velocity, (2, 2); their covariance over the noise's variance; sum of squared residuals."""
-    design = np.stack([np.ones(int(part.sum())), time[part]], axis=1)
-    solution = np.linalg.lstsq(design, relative[part], rcond=None)[0]
-    return solution, np.linalg.inv(design.T @ design), float(((relative[part] - design @ solution) ** 2).sum())
+def _rests_from(time: np.ndarray, distance: np.ndarray, tolerance: float) -> int:
+    """Frame from which the distance no longer changes, and has not been smaller; the number of frames if it does."""
+    end = float(np.median(distance[-LEAST:]))
+    since = int(np.append(-1, np.flatnonzero(np.abs(distance - end) > tolerance))[-1]) + 1
+    if since == 0 or time.size - since < LEAST or (distance[:since] < end).any():
+        return time.size
+    would_go = (distance[0] - end) / (time[since] - time[0]) * (time[-1] - time[since])  # as fast as before
+    return since if would_go > 4 * tolerance else time.size
+
+
+def _line(
+    time: np.ndarray, relative: np.ndarray, part: np.ndarray, turned_only: np.ndarray
+) -> tuple[np.ndarray, np.ndarray, float, int]:
+    """Position at time 0 and velocity, (2, 2); their covariance over the noise's variance; sum of squares; freedom.
+
+    Arguments:
+        turned_only: frames of which the direction counts: by symmetry a tracker displaces near discs along their line.
+    """
+    across = relative[turned_only] @ [[0, 1], [-1, 0]] / np.linalg.norm(relative[turned_only], axis=1)[:, None]
+    whole = np.kron(np.stack([np.ones(int(part.sum())), time[part]], axis=1), np.eye(2))
+    design = np.concatenate([whole, np.hstack([across, time[turned_only, None] * across])])
+    values = np.append(relative[part].ravel(), np.zeros(len(across)))
+    solution = np.linalg.lstsq(design, values, rcond=None)[0]
+    squares = float(((values - design @ solution) ** 2).sum())
+    return solution.reshape(2, 2), np.linalg.inv(design.T @ design), squares, values.size - 4
 
 
 def _state(line: np.ndarray, distance: float, side: int) -> tuple[float, float, float, float]:
@@ -293,6 +414,54 @@ def _state(line: np.ndarray, distance: float, side: int) -> tuple[float, float, 
     normal = place / np.linalg.norm(place)
     sideways = normal[0] * velocity[1] - normal[1] * velocity[0]
     return math.atan2(place[1], place[0]), -float(normal @ velocity), float(sideways), time
+
+
+def _named(columns: list[Column]) -> dict[str, Column]:
+    """The columns that are used, by name; InputError for two of one name."""
+    words = [re.sub(r"[\s-]+", "_", column.name.strip().lower()) for column in columns]
+    for k, word in enumerate(words):
+        if word in words[:k]:
+            raise InputError("tracks, header", columns[k].name, "each column once", "is given twice")
+    by_word = dict(zip(words, columns))
+    spelt = {name: next((by_word[each] for each in others.split() if each in by_word), None)
+             for name, others in _SPELT.items()}  # fmt: skip
+    return {name: replace(column, name=name) for name, column in spelt.items() if column is not None}
+
+
+def _size(value: Any, si: str, option: str, *, pixel: float | None = None, plain: float | None = 1.0) -> float:
+    """An option in SI, given as a number, a text or a quantity of another library.
+
+    Arguments:
+        pixel: length of a pixel, m, for a length in pixels.
+        plain: what a number without a unit is in; None if a text must have one.
+    """
+    accepted, text = _ACCEPTED[option], with_unit(value)
+    written = units.unit_of(text) if isinstance(text, str) else ""
+    digits = text.strip().removesuffix(written) if isinstance(text, str) else text
+    unit = re.sub(r"\b(k?)fps\b", r"\1Hz", units.spelling(written.replace(" per ", "/").replace("dpi", "px/inch")))
+    unit = re.sub(r"\bframes?/", "1/", unit)
+    try:
+        size = math.nan if isinstance(digits, bool) else float(digits)
+    except (TypeError, ValueError):
+        size = math.nan
+    if not (math.isfinite(size) and (size > 0 or (size == 0 and option == "near"))):
+        raise InputError(option, value, accepted)
+    per_pixel, pixels_per = (each.fullmatch(unit) if option == "scale" else None for each in (_PER_PIXEL, _PIXELS_PER))
+    if pixels_per:
+        return units.quantity(f"1 {pixels_per[1]}", si, option, accepted) / size
+    if unit not in _PIXELS or (isinstance(text, str) and plain is None and not unit):
+        return units.quantity(f"{str(digits).strip()} {per_pixel[1] if per_pixel else unit}", si, option, accepted)
+    factor = pixel if unit else plain
+    if unit and (option in ("scale", "rate") or factor is None):
+        raise InputError(option, value, accepted, "is in pixels" + ", and no scale is given" * (factor is None))
+    return size * (1.0 if factor is None else factor)
+
+
+def _rounding(values: np.ndarray) -> float:
+    """Standard deviation that the digits make with which values are written."""
+    values = values[np.isfinite(values)]
+    steps = (step for step in (1, 0.5, 0.1, 0.05, 0.01, 1e-3, 1e-4) if np.allclose(values / step % 1, 0, atol=1e-6))
+    return next(steps, 0.0) / math.sqrt(12)
 
 
 def _factor(column: Column, si: str, plain: float | None, option: str) -> float:

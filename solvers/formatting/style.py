@@ -1,6 +1,7 @@
 """One style for all figures: the style file, and the colours, hatches and letters of the outcomes."""
 
 import functools
+import textwrap
 import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -8,6 +9,7 @@ from pathlib import Path
 from typing import Any, ParamSpec
 
 import matplotlib as mpl
+import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 from matplotlib.patheffects import withStroke
@@ -21,6 +23,9 @@ EDGES = dict(zip(OUTCOMES, ("#75A9D8", "#C9861B", "#FCF6D5"), strict=True))
 HATCHES: dict[str, str | None] = dict(zip(OUTCOMES, (None, "///", None), strict=True))
 LETTERS = dict(zip(OUTCOMES, ("S", "SRS", "B"), strict=True))
 INK, NOTE, NOTHING = "#202020", "#6E6E6E", "#DDDDDD"
+LONGEST = 120
+"""Most characters of a scene's name in a title."""
+_ACROSS = 10.5  # characters of a title per inch
 
 _LOCK = threading.RLock()  # matplotlib's settings belong to the process
 Given = ParamSpec("Given")
@@ -69,3 +74,15 @@ def halo(width: float = 2.4) -> withStroke:
 def plain_text(text: str) -> str:
     """A text from outside, escaped for mathtext."""
     return text.replace("$", r"\$")
+
+
+def title(figure: Figure, text: str) -> None:
+    """Write a figure's title, on as many lines as its width takes."""
+    across = int(_ACROSS * figure.get_figwidth())
+    figure.suptitle("\n".join(textwrap.fill(line, across) for line in text.splitlines()))
+
+
+def broken(outcome: np.ndarray, *columns: np.ndarray) -> list[np.ndarray]:
+    """Columns with NaN between neighbours of different outcome, so that no line joins what jumps."""
+    jumps = np.flatnonzero(outcome[1:] != outcome[:-1]) + 1
+    return [np.insert(np.asarray(column, float), jumps, np.nan) for column in columns]

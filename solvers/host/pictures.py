@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     import xarray
 
 _HOMES = {  # a variable that only one kind of result has -> what draws it
-    "first_order": "sensitivity.uncertainty.draw",
+    "first_order": "sensitivity.plots.draw_band",
     "d_event_time": "sensitivity.plots.draw_trajectory",
     "rotation_released": "verify.plot.draw_budget",
     "total_within": "sensitivity.plots.draw_indices",

@@ -19,7 +19,21 @@ from matplotlib.ticker import FixedLocator, MaxNLocator
 from ...generated.automaton import OUTCOMES
 from ..collision.text import against, name_of, plain, quantity
 from ..formatting import ticks
-from ..formatting.style import EDGES, FILLS, HATCHES, INK, LETTERS, NOTE, NOTHING, halo, patch, picture, plain_text
+from ..formatting.style import (
+    EDGES,
+    FILLS,
+    HATCHES,
+    INK,
+    LETTERS,
+    LONGEST,
+    NOTE,
+    NOTHING,
+    halo,
+    patch,
+    picture,
+    plain_text,
+)
+from ..formatting.style import title as write_title
 from ..model.validity import counted
 from ..scene.held import AXIS_LABELS, NAMES
 from ..scene.scene import Scene
@@ -34,6 +48,7 @@ _PANEL, _ACROSS = 3.1, 3  # width of a panel in inches; panels in a row
 _WIDTH, _HEIGHT = 9.0, 4.7  # size of a map of the impact alone, inches
 _HANDLE = 2.1  # width of an entry of the legend, inches
 _NOTES = 0.062  # width of a character of the notes, inches
+_NOTE_HEIGHT, _NOTES_USUAL = 0.14, 4  # height of a line of notes, inches; lines for which there is room
 HIGHEST = 2.0  # most e_n that the colours tell apart: near grazing incidence it grows without bound
 _LEVELS = (0.25, 0.5, 0.75, 1.0, 1.5, 2.0, 3.0, 5.0, 10.0)
 _CROSS: Any = {"linestyle": "", "marker": "x", "color": "#B00020", "markersize": 5}
@@ -66,12 +81,14 @@ def draw_map(data: xarray.Dataset, curves: Curves | None = None) -> Figure:
         figure, notes = _pair(data, curves or {}), []
         title = f"outcome and normal restitution{alone}"
     across = figure.get_figwidth()
-    figure.suptitle(textwrap.fill(f"{plain_text(name_of(scene))}{against(scene)}: {title}", int(11 * across)))
+    write_title(figure, f"{plain_text(name_of(scene, LONGEST))}{against(scene)}: {title}")
     notes += _notes(data, scene)
-    assumed = [line for line in scene.assumed if line.split(" ")[0] not in varied]
+    assumed = [line for line in scene.assumed if line.split(" ")[0] not in varied and not line.startswith("impact.")]
     lines = [textwrap.fill(line, int(across / _NOTES)) for line in notes]
     lines += [textwrap.shorten(line, int(across / _NOTES)) for line in assumed]
-    figure.supxlabel("\n".join(plain_text(line) for line in lines), color=NOTE)
+    text = "\n".join(plain_text(line) for line in lines)
+    figure.set_figheight(figure.get_figheight() + _NOTE_HEIGHT * max(0, text.count("\n") - _NOTES_USUAL))
+    figure.supxlabel(text, color=NOTE)
     return figure
 
 
@@ -257,7 +274,10 @@ def _letters(axes: Axes, data: xarray.Dataset) -> None:
 
 
 def draw_contours(axes: Axes, data: xarray.Dataset, levels: Sequence[float]) -> None:
-    """Draw labelled contours of restitution, separately for each outcome because it jumps between them."""
+    """Draw labelled contours of restitution, separately for each outcome because it jumps between them.
+
+    Only those on which there is room for the label: others would lie too close to each other to be told apart.
+    """
     outcome, restitution = _upright(data, "outcome"), _upright(data, "restitution")
     x, y = np.degrees(data["angle"].values), data[_vertical(data)].values
     taken: list[np.ndarray] = []
@@ -267,18 +287,20 @@ def draw_contours(axes: Axes, data: xarray.Dataset, levels: Sequence[float]) -> 
             continue
         wanted = [level for level in levels if values.min() < level < values.max()]
         if wanted:
-            widths = [1.4 if level == 1 else 0.9 for level in wanted]
-            lines = axes.contour(x, y, values, wanted, colors=INK, linewidths=widths, zorder=4)
-            lines.set_path_effects([halo()])
-            for level, pieces in zip(wanted, lines.allsegs, strict=True):
-                _label(axes, f"{level:g}", pieces, taken)
+            lines = axes.contour(x, y, values, wanted)
+            pieces = dict(zip(wanted, lines.allsegs, strict=True))
+            lines.remove()
+            for level in sorted(wanted, key=lambda level: level != 1):
+                if _label(axes, f"{level:g}", pieces[level], taken):
+                    style: Any = {"linewidths": 1.4 if level == 1 else 0.9, "path_effects": [halo()], "zorder": 4}
+                    axes.contour(x, y, values, [level], colors=INK, **style)
 
 
 _SHORTEST, _NEAREST, _MARGIN = 0.1, 0.075, 0.05  # of a line with a label; of labels; of a label and the frame
 
 
-def _label(axes: Axes, text: str, pieces: Sequence[np.ndarray], taken: list[np.ndarray]) -> None:
-    """Write an upright label on the longest piece of a contour, clear of other labels and of the frame."""
+def _label(axes: Axes, text: str, pieces: Sequence[np.ndarray], taken: list[np.ndarray]) -> bool:
+    """Write a label on the longest piece of a contour, clear of other labels and of the frame; False without room."""
     best, length = None, _SHORTEST
     for piece in pieces:
         places = axes.transAxes.inverted().transform(axes.transData.transform(piece))
@@ -286,7 +308,7 @@ def _label(axes: Axes, text: str, pieces: Sequence[np.ndarray], taken: list[np.n
         if steps[-1] > length:
             best, length = (places, steps), steps[-1]
     if best is None:
-        return
+        return False
     places, steps = best
     for share in (0.5, 0.35, 0.65, 0.2, 0.8):
         place = np.array([np.interp(share * length, steps, along) for along in places.T])
@@ -295,7 +317,8 @@ def _label(axes: Axes, text: str, pieces: Sequence[np.ndarray], taken: list[np.n
             taken.append(place)
             style: Any = {"ha": "center", "va": "center", "fontsize": 8, "color": INK, "path_effects": [halo(3)]}
             axes.text(float(place[0]), float(place[1]), text, transform=axes.transAxes, zorder=5, **style)
-            return
+            return True
+    return False
 
 
 def _frame(axes: Axes, data: xarray.Dataset, left_most: bool, lowest: bool = True) -> None:
@@ -316,18 +339,14 @@ def _frame(axes: Axes, data: xarray.Dataset, left_most: bool, lowest: bool = Tru
     if lowest:
         axes.set_xlabel("impact angle $\\theta_0$ (deg)")
     if left_most:
-        labels: Mapping[str, str] = {
-            "stokes": "Stokes number $St_n$",
-            "speed": "normal approach speed $v_0$ (m/s)",
-            "relative_speed": r"relative speed $v_0/\cos\theta_0$ (m/s)",
-        }
         unit = data[name].attrs.get("units", "1")
         entry = f"{name.rpartition('.')[2].replace('_', ' ')}{'' if unit == '1' else f' ({unit})'}"
-        axes.set_ylabel(labels.get(name, entry))
+        axes.set_ylabel(AXIS_LABELS.get(name, entry))
 
 
 def _handles(data: xarray.Dataset, curves: Curves) -> list[Any]:
-    handles: list[Any] = [patch(outcome) for outcome in OUTCOMES]
+    present = np.unique(data["outcome"].values)
+    handles: list[Any] = [patch(outcome) for k, outcome in enumerate(OUTCOMES) if k in present]
     if any(curves.values()):
         handles.append(Line2D([], [], color=INK, linewidth=1.6, label="exact boundary"))
     if VALIDITY in data and data[VALIDITY].values.any():
@@ -378,8 +397,7 @@ def _points(data: xarray.Dataset) -> Figure:
     if y.size and y.min() > 0 and y.max() > 20 * y.min():
         axes.set_yscale("log")
     axes.set(xlabel="impact angle (deg)", ylabel=AXIS_LABELS[impact])
-    name = plain_text(name_of(scene_of(data)))
-    axes.set_title(f"{name}: outcomes of {outcome.size} collisions", fontsize=11)
+    write_title(figure, f"{plain_text(name_of(scene_of(data), LONGEST))}: outcomes of {outcome.size} collisions")
     axes.spines[["top", "right"]].set_visible(False)
     if outcome.size:
         figure.legend(loc="outside lower center", ncols=4, frameon=False, fontsize=8)

@@ -1,7 +1,7 @@
 """The model of a scene: its structure module with the chosen laws in their slots, as CasADi expressions."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from functools import cached_property, lru_cache, reduce
 from types import ModuleType
 from typing import Any
@@ -98,6 +98,24 @@ class _Narrow:
         return (lambda *arguments: law_function(*arguments[: len(arguments) - more])) if more else law_function
 
 
+class _Sided:
+    """A user's law on given sides of its kinks, by function; `guards` receives those that it is called with."""
+
+    def __init__(self, law: Any, sides: Mapping[str, tuple[int, ...]], guards: dict[str, tuple[SX, ...]]) -> None:
+        self._law, self._sides, self._guards = law, sides, guards
+
+    def __getattr__(self, function: str) -> Any:
+        law_function = getattr(self._law, function)
+        if function not in self._sides:
+            return law_function
+
+        def called(*arguments: SX) -> Any:
+            self._guards[function] = getattr(self._law, f"{function}_kinks")(*arguments)
+            return law_function(*arguments, sides=self._sides[function])
+
+        return called
+
+
 class Model:
     """A structure with its laws: expressions in shared symbols `state` and `groups`.
 
@@ -155,6 +173,32 @@ class Model:
         return (*EVENTS, *(each.row for each in self.own_events))
 
     @cached_property
+    def kinks(self) -> dict[str, SX]:
+        """Guards of the kinks of a user's laws by name, each zero at one, in the order of a region's sides."""
+        guards: dict[str, dict[str, tuple[SX, ...]]] = {slot: {} for slot, _ in self.choice.laws}
+        laws = self._sided((1,) * len(self._kinky), guards)
+        self.structure.right_hand_side(self.guarded, self.groups, laws)
+        met = {key: guards[slot].get(function, ()) for slot, function, k in self._kinky for key in [(slot, function)]}
+        return {f"kink_{slot}_{function}_{k}": met[slot, function][k] for slot, function, k in self._kinky}
+
+    @cached_property
+    def _kinky(self) -> tuple[tuple[str, str, int], ...]:
+        """Slot, function and number of every kink of the forces' laws."""
+        slots = (slot for slot, _ in self.choice.laws if slot != "glass")
+        counts = {slot: getattr(getattr(self.laws, slot), "KINKS", {}) for slot in slots}
+        return tuple(
+            (slot, name, k) for slot, each in counts.items() for name, count in each.items() for k in range(count)
+        )
+
+    def _sided(self, sides: Sequence[int], guards: Mapping[str, dict[str, tuple[SX, ...]]] | None = None) -> Laws:
+        """The laws on given sides of their kinks."""
+        given: dict[str, dict[str, tuple[int, ...]]] = {slot: {} for slot, _ in self.choice.laws}
+        for (slot, function, _), side in zip(self._kinky, sides, strict=True):
+            given[slot][function] = (*given[slot].get(function, ()), side)
+        laws = ((slot, getattr(self.laws, slot)) for slot, _ in self.choice.laws)
+        return Laws(**{slot: _Sided(law, given[slot], guards[slot] if guards else {}) for slot, law in laws})
+
+    @cached_property
     def marks(self) -> tuple[int, ...]:
         """Places of the marks of declared events in the state."""
         return tuple(list(self.state).index(each.mark) for each in self.own_events)
@@ -198,11 +242,16 @@ class Model:
         return vector(self.groups)
 
     def __call__(
-        self, name: str, state: Mapping[str, SX] | None = None, region: Mapping[str, int | SX] | None = None
+        self,
+        name: str,
+        state: Mapping[str, SX] | None = None,
+        region: Mapping[str, int | SX] | None = None,
+        sides: tuple[int, ...] = (),
     ) -> dict[str, SX]:
-        """A function of the structure module as named expressions."""
+        """A function of the structure module as named expressions; `sides` are those of the laws' kinks, if fixed."""
+        laws = self._sided(sides) if sides else self.laws
         outputs: dict[str, SX] = getattr(self.structure, name)(
-            self.state if state is None else state, self.groups, self.laws, **(region or {})
+            self.state if state is None else state, self.groups, laws, **(region or {})
         )
         return outputs
 

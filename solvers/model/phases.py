@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
-from casadi import SX, cross, densify, fabs, fmax, fmin, if_else, logic_and, vertcat
+from casadi import SX, Function, cross, densify, fabs, fmax, fmin, horzcat, if_else, jtimes, logic_and, vertcat
 
 from ...generated.automaton import CLOSING, EVENTS, VOID_WITHOUT
 from ...generated.automaton import Event as Row
@@ -28,6 +28,7 @@ class Phase:
         cavitated: inside the film, which does not act because it cavitates on opening.
         sliding: with friction, the sign of the slip in resting contact; 0 otherwise.
         rolling: with friction, resting without slip.
+        sides: of the kinks of a user's laws, 1 or -1 each (`Model.kinks`).
     """
 
     film: int
@@ -37,18 +38,19 @@ class Phase:
     cavitated: bool = False
     sliding: int = 0
     rolling: bool = False
+    sides: tuple[int, ...] = ()
 
     def __str__(self) -> str:
         if self.resting:
             return "resting contact"
         return f"{'closing' if self.motion == CLOSING else 'opening'} {'inside' if self.film else 'beyond'} the film"
 
-    def with_(self, **changes: int | bool) -> Phase:
+    def with_(self, **changes: int | bool | tuple[int, ...]) -> Phase:
         return replace(self, **changes)  # type: ignore[arg-type]  # fields by keyword
 
     @property
     def region(self) -> Region:
-        return Region(self.film, self.shear, self.resting, self.cavitated, self.sliding, self.rolling)
+        return Region(self.film, self.shear, self.resting, self.cavitated, self.sliding, self.rolling, self.sides)
 
 
 @dataclass(frozen=True)
@@ -61,6 +63,7 @@ class Region:
     cavitated: bool = False
     sliding: int = 0
     rolling: bool = False
+    sides: tuple[int, ...] = ()
 
     @property
     def flags(self) -> dict[str, int]:
@@ -108,13 +111,14 @@ def expressions(flow: Flow) -> Expressions:
     model, region = flow.model, flow.region
     flags = region.flags | (region.rubbing if region.resting and model.friction else {})
     state = {**model.guarded, "normal_velocity": SX(0)} if region.resting else model.guarded
-    rates = model("resting_rates" if region.resting and model.oblique else "right_hand_side", state, flags)
+    name = "resting_rates" if region.resting and model.oblique else "right_hand_side"
+    rates = model(name, state, flags, region.sides)
     if region.resting and not model.oblique:
         rates = dict.fromkeys(rates, SX(0))  # head-on, no state changes in resting contact
     extra_rates: dict[str, SX] = {}
     if flow.extras:
         flags.pop("rolling", None)  # rolling loses nothing
-        energy_rates = model("energy_rates", state, flags)
+        energy_rates = model("energy_rates", state, flags, region.sides)
         extra_rates = {name: rate * (fabs(rate) > _NEGLIGIBLE) for name, rate in energy_rates.items()}
         if model.has("turning_rate"):
             extra_rates |= model("turning_rate", state)
@@ -210,6 +214,8 @@ def event_table(flow: Flow, watch: WatchedEvents, motion: SX, level: SX) -> tupl
         for each in model.own_events
         if all(getattr(region, part) == value for part, value in each.row.where if part != "motion")
     ]
+    if not region.resting:
+        table += [Event(name, side * model.kinks[name], True) for name, side in zip(model.kinks, region.sides)]
     if watch.certificate == "energy":
         table.append(Event("certified", mechanical_energy(flow) - level))
     elif watch.certificate == "pendulum":
@@ -234,6 +240,14 @@ def _own(each: OwnEvent, guard: SX, model: Model, region: Region, motion: SX) ->
     """A declared event, which happens once."""
     value = _guard(each.row, {each.name: guard}, region, motion)
     return Event(each.name, if_else(model.state[each.mark] > 0.5, value, 1), each.row.dips)
+
+
+@own_cache(256)
+def kinks_along(flow: Flow) -> Function:
+    """The guards of the kinks in a state, and their rates: (y, groups) -> two columns."""
+    parts, guards = expressions(flow), vertcat(*flow.model.kinks.values())
+    rates = jtimes(guards, parts.variables, parts.rates)
+    return Function("kinks", [parts.variables, flow.model.parameters], [horzcat(guards, rates)])
 
 
 def _pendulum_margin(model: Model, margin: SX) -> SX:

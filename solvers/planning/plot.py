@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 
 from ..collision.text import against, name_of
 from ..formatting import ticks
-from ..formatting.style import INK, NOTE, picture, plain_text
+from ..formatting.style import INK, LONGEST, NOTE, picture, plain_text, title
 from ..scene.held import AXIS_LABELS
 from .result import Design
 
@@ -52,7 +52,7 @@ def draw(design: Design) -> Figure:
                   else "standard error from one impact, on the scale of the fit")  # fmt: skip
     ticks.plain(bar.ax.yaxis)
     scene = design.window.scene
-    figure.suptitle(f"{plain_text(name_of(scene, 40))}{against(scene)}: what an impact tells")
+    title(figure, f"{plain_text(name_of(scene, LONGEST))}{against(scene)}: what an impact tells")
     of_what = "all entries" if design.target is None else design.target
     note = (f"numbers: planned impacts for {plain_text(of_what)} ({design.size})"
             f"{'; ' if len(names) > 1 else chr(10)}lines: changes of outcome without scatter")  # fmt: skip

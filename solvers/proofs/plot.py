@@ -10,7 +10,7 @@ from matplotlib.patches import Patch
 
 from ...generated.automaton import OUTCOMES
 from ..formatting import ticks
-from ..formatting.style import FILLS, INK, LETTERS, picture, plain_text
+from ..formatting.style import FILLS, INK, LETTERS, picture, plain_text, title
 from .cells import UNDECIDED, Cell
 
 
@@ -36,7 +36,7 @@ def draw(name: str, cells: Sequence[Cell], shares: Mapping[str, float]) -> Figur
     axes.set_ylim(*(end(c.stokes[k] for c in cells) for k, end in enumerate((min, max))))
     axes.set_xlabel("impact angle $\\theta_0$ (deg)")
     axes.set_ylabel("Stokes number $St_n$")
-    axes.set_title(f"{plain_text(name)}: outcomes proved, cell by cell")
+    title(figure, f"{plain_text(name)}: outcomes proved, cell by cell")
     figure.legend(handles=handles, loc="outside lower center", ncols=2)
     return figure
 

@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -20,12 +20,15 @@ from ..engines.interval.inputs import Inputs
 from ..errors import ComputationError, InputError
 from ..host.cores import usable_cores
 from ..many.collide_many import collide_many
+from ..many.results import outcome_attributes
 from ..scene.origin import origin
 from ..scene.scene import Scene
 from .cells import UNDECIDED, Cell
 
+if TYPE_CHECKING:
+    import xarray
+
 DEPTH = 12  # halvings of a cell
-_MOVING = ("stokes", "angle")
 _POINTS = 6  # collisions along each side of a cell that say where a proof is worth a try
 _BOUNDED = 1.01  # narrower boxes are followed in steps at once
 _ROTATE = OUTCOMES.index(ROTATE)
@@ -58,6 +61,28 @@ class ProvedMap:
         total = sum(areas.values())
         return {name: areas[k] / total for k, name in (*enumerate(OUTCOMES), (UNDECIDED, "undecided"))}
 
+    @property
+    def undecided_area(self) -> float:
+        """The part of the area that is not proved."""
+        return self.shares["undecided"]
+
+    @property
+    def outcome(self) -> np.ndarray:
+        """Outcome of each cell: 0 stick, 1 stick-rotate-separate, 2 bounce, -1 undecided."""
+        return np.array([cell.outcome for cell in self.cells], dtype=np.int8)
+
+    def to_dataset(self) -> xarray.Dataset:
+        """A Dataset over `cell`: `outcome`, the ends of `stokes` and `angle` (rad); attribute `undecided_area`."""
+        import xarray
+
+        ends = {
+            name: (("cell", "end"), np.array([getattr(cell, name) for cell in self.cells]), {"units": unit})
+            for name, unit in (("stokes", "1"), ("angle", "rad"))
+        }
+        outcome = ("cell", self.outcome, outcome_attributes("proved outcome", "undecided"))
+        attributes = {"undecided_area": self.undecided_area, "scene": self.scene.to_toml()}
+        return xarray.Dataset({"outcome": outcome, **ends}, attrs=attributes)
+
     def __str__(self) -> str:
         shown = [f"{100 * part:8.3f} %  {name}" for name, part in self.shares.items()]
         return "\n".join([f"{len(self.cells)} cells, {self.proofs} boxes enclosed; shares of the area:", *shown])
@@ -66,7 +91,13 @@ class ProvedMap:
         """The JSON object of `wetdoublet prove --map --json`."""
         words = dict(enumerate(OUTCOMES)) | {UNDECIDED: None}
         cells = [{"stokes": list(c.stokes), "angle": list(c.angle), "outcome": words[c.outcome]} for c in self.cells]
-        return {"shares": self.shares, "proofs": self.proofs, "cells": cells, **origin(self.scene)}
+        return {
+            "shares": self.shares,
+            "undecided_area": self.undecided_area,
+            "proofs": self.proofs,
+            "cells": cells,
+            **origin(self.scene),
+        }
 
     def plot(self, path: str | Path | None = None) -> Any:
         """Draw the cells; returns the matplotlib Figure.
@@ -95,7 +126,7 @@ def prove_map(
     Arguments:
         scene: a Scene, a path to a scene file, or a preset's name; its impact is not used.
         stokes: edges of the cells, rising Stokes numbers.
-        angle: edges of the cells, rising angles above 0, rad.
+        angle: edges of the cells, rising angles from 0 on, rad; a cell from 0 on holds head-on impacts, too.
         progress: called with the numbers of finished and of all cells.
 
     Raises:
@@ -114,10 +145,8 @@ def prove_map(
             raise InputError(name, list(edges), "at least two rising edges")
     if isinstance(depth, bool) or not isinstance(depth, int) or not 0 <= depth <= 40:
         raise InputError("depth", depth, "a whole number from 0 to 40")
-    if not angle[0] > 0:
-        raise InputError("angle", float(angle[0]), "angles above 0, as head-on impacts have a model of their own")
     loaded = Scene.load(scene).with_impact(stokes=float(stokes[-1]), angle=float(angle[-1]))
-    loaded.with_impact(stokes=float(stokes[0]))
+    loaded.with_impact(stokes=float(stokes[0]), angle=float(angle[0]))
     inputs = Inputs.of(loaded, {"impact.stokes": 1e-6, "impact.angle": 1e-6})
     try:
         engine = inputs.engine()
@@ -129,7 +158,7 @@ def prove_map(
     asked = 0
 
     def decided(cell: Cell, left: int) -> Iterator[tuple[Cell, bool]]:
-        expected, spread = guide.expected(cell), -1
+        expected, spread = guide.expected(cell), ""
         if expected is not None or not left:
             ranges = inputs.ranges | {"stokes": cell.stokes, "angle": cell.angle}  # type: ignore[operator]
             narrow = cell.stokes[1] < cell.stokes[0] * _BOUNDED
@@ -137,7 +166,9 @@ def prove_map(
             if expected is not None and left:
                 settings = settings._replace(expected=expected + 1)
             found = enclose(engine, ranges, inputs.moving, settings)
-            number, spread = found.outcome - 1, found.spread if found.rebounds else -1
+            number, spread = found.outcome - 1, ""
+            if found.rebounds and found.spread >= 0:
+                spread = inputs.moving[found.spread]
             yield cell._replace(outcome=number), number >= 0 or not left
             if number >= 0:
                 return
@@ -186,12 +217,12 @@ class _Guide(NamedTuple):
         return int(inside.flat[0]) if np.ptp(inside) == 0 else None
 
 
-def _halves(cell: Cell, spread: int) -> tuple[Cell, Cell]:
+def _halves(cell: Cell, spread: str) -> tuple[Cell, Cell]:
     """Both halves, across the side that spreads trajectories more; unless it is known, by St and tan^2 of the angle."""
     (low, high), (flat, steep) = cell.stokes, cell.angle
     middle = 0.5 * (flat + steep)
     wider = math.log(high / low) * math.sin(middle) * math.cos(middle) > 2 * (steep - flat)
-    by_stokes = wider if spread < 0 else _MOVING[spread] == "stokes"
+    by_stokes = wider if not spread else spread == "stokes"
     if by_stokes:
         between = math.sqrt(low * high)
         return cell._replace(stokes=(low, between)), cell._replace(stokes=(between, high))

@@ -17,6 +17,7 @@ from .schema import MEETING
 _LARGEST = 20_000_000  # bytes of a file
 _MOST_ROWS = 100_000
 _HEADER = re.compile(r"\s*([^\[\]()]+?)\s*(?:[\[(]\s*([^\[\]()]*?)\s*[\])])?\s*")
+_UNNAMED = re.compile(r"|unnamed(: ?\d+)?|index|level_0|row|#", re.IGNORECASE)
 DECIMAL_COMMA = re.compile(r"\s*[-+]?\d*,\d+\s*")
 _DECIMAL_POINT = re.compile(r"\s*[-+]?\d*\.\d+(?!\d*[.,]).*")  # no date 12.03.2026, no thousands 1.798,7
 
@@ -31,7 +32,24 @@ class Column:
 
 
 def columns_of(source: Any, label: str) -> tuple[list[Column], list[int]]:
-    """The columns of a source, and the line of each row where it is a file, else the number of the row."""
+    """The columns of a source, and the line of each row where it is a file, else the number of the row.
+
+    A first column without a name that numbers the rows, as a DataFrame writes its index, is left out.
+    """
+    columns, lines = _read(source, label)
+    if columns and _UNNAMED.fullmatch(columns[0].name) and all(map(_is_whole, columns[0].cells)):
+        columns = columns[1:]
+    for column in columns:
+        if not column.name:
+            raise InputError(f"{label}, header", "", "names of columns, with their unit in brackets", "is no name")
+    return columns, lines
+
+
+def _is_whole(cell: Any) -> bool:
+    return re.fullmatch(r"\s*\d+(\.0*)?\s*", str(cell)) is not None
+
+
+def _read(source: Any, label: str) -> tuple[list[Column], list[int]]:
     if hasattr(source, "data_vars"):  # xarray
         frame = source.to_dataframe().reset_index()
         units = {str(name): source[name].attrs.get("units") for name in (*source.data_vars, *source.coords)}
@@ -120,6 +138,8 @@ def row_name(row: int, line: int) -> str:
 
 
 def _header(text: str, label: str) -> tuple[str, str | None]:
+    if not text.strip():
+        return "", None
     match = _HEADER.fullmatch(text)
     if match is None:
         raise InputError(label, text, "names of columns, with their unit in brackets", "is no name of a column")

@@ -247,7 +247,7 @@ class Scene(System):
         Raises:
             InputError: no acceptable number, or a volume where the scene gives V/R^3, or the reverse.
         """
-        entry = self.fields[name]
+        entry = fields(self.package)[name]
         absolute = self.ways.volume == "absolute"
         if entry.or_unit and entry.with_unit(raw) != absolute:
             accepted = f"{name} as the scene gives it: {'a volume with its unit' if absolute else 'a number V/R^3'}"

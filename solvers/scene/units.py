@@ -97,6 +97,16 @@ _QUANTITY = re.compile(rf"({_NUMBER})(.*)", re.IGNORECASE | re.DOTALL)
 # Possessive quantifiers (++) prevent backtracking, which is exponential for a long word.
 _UNIT = re.compile(r"(?:[^\W\d_]\w*+(?:\^-?[0-9]{1,2})?+|\)(?:\^-?[0-9]{1,2})?+|[\s*/(]|1(?=\s*/))++")
 
+_MISREAD = tuple(
+    (re.compile(rf"[a-z]?(?:{words})"), meant)
+    for words, meant in (
+        ("grs?|grains?", "for pint a grain of 65 mg; a gram is g"),
+        ("px|pixels?|css_pixels?", "a pixel, of which only a scale makes a length: --scale, scale="),
+        ("mils?", "for pint an angle of 1/64000 turn; a micrometre is um, 0.001 inch is thou"),
+        ("cps|counts_per_second", "for pint counts per second; a centipoise is cP, a frequency in Hz"),
+    )
+)  # words that pint reads as another unit than people mean
+
 # Pint's exceptions for undefined names, bad syntax, offset and logarithmic units; all mean an unknown unit here.
 _PINT_SAYS_NO = (
     ArithmeticError,
@@ -165,7 +175,11 @@ def quantity(text: str, si: str, field: str, accepted: str) -> float:
         raise InputError(field, text, accepted, "has no unit")
     if re.match(r",\d", unit):
         raise InputError(field, text, accepted, "has a comma in place of a decimal point")
-    if unit in COMMON and (si in DIMENSIONS or COMMON[unit][0] == si):  # 1/s is also that of a user's rate
+    if re.search(r"\^[a-z]", si):  # an exponent that is a number of the scene, which no other unit can be converted by
+        if unit != si:
+            raise InputError(field, text, accepted, f"is not in {si}")
+        value = size
+    elif unit in COMMON and (si in DIMENSIONS or COMMON[unit][0] == si):  # 1/s is also that of a user's rate
         dimension, factor = COMMON[unit]
         if dimension != si:
             raise InputError(field, text, accepted, f"is {DIMENSIONS[dimension]}, not {_demanded(si)}")
@@ -211,6 +225,10 @@ def spelling(unit: str) -> str:
 
 def _pint_factor(unit: str, si: str, value: object, field: str, accepted: str) -> float:
     """Return the factor from `unit` to `si` by pint; InputError for an unknown unit or another dimension."""
+    for word in re.findall(r"[^\W\d]+", unit):
+        for misread, meant in _MISREAD:
+            if misread.fullmatch(word):
+                raise InputError(field, value, accepted, f'has the unit "{word}", {meant}')
     try:
         if not _UNIT.fullmatch(unit):
             raise ValueError(unit)

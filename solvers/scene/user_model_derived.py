@@ -35,8 +35,9 @@ def derived_package(path: Path, folder: Path | None) -> Derived:
     except ModelFileError as error:
         raise InputError(error.field, error.value, error.accepted, error.problem) from None
     width = max(len(check.name) for check in checks)
-    lines = [f"{'ok  ' if check.ok else 'FAIL'} {check.name:<{width}}  {check.figure}" for check in checks]
-    failing = [check.name for check in checks if not check.ok]
+    marks = {True: "ok  ", False: "FAIL", None: "note"}
+    lines = [f"{marks[check.ok]} {check.name:<{width}}  {check.figure}" for check in checks]
+    failing = [check.name for check in checks if check.ok is False]
     if model is None or failing:
         return Derived("\n".join(lines), {}, f"fails {', '.join(failing)}; nothing is emitted")
     source, words = path.read_text(encoding="utf-8"), in_words(model)

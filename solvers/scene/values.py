@@ -97,6 +97,12 @@ def _listed(values: list[Any] | tuple[Any, ...], entry: Entry, label: str, level
         raise InputError(label, values, "numbers (SI)", "is a list of lists of different lengths") from None
 
 
+def with_unit(value: Any) -> Any:
+    """A single quantity of another library as text with its unit; any other value unchanged."""
+    unit, bare = _unit(value)
+    return value if unit is None or np.size(bare) != 1 else f"{float(bare)!r} {unit}"
+
+
 def _is_array(value: Any) -> bool:
     """True if a value is an array or has a unit; a class is neither."""
     return not isinstance(value, type) and (hasattr(value, "__array__") or _unit(value)[0] is not None)

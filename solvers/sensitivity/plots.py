@@ -1,4 +1,4 @@
-"""Figures of derivatives over impacts or time, of Sobol indices, and of critical speeds."""
+"""Figures of derivatives over impacts or time, of bands, of Sobol indices, and of critical speeds."""
 
 from __future__ import annotations
 
@@ -10,7 +10,9 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from ..collision.text import prefix
-from ..formatting.style import NOTE, picture
+from ..formatting.style import NOTE, broken, picture, title
+from ..many.results import QUANTITIES
+from ..scene.held import AXIS_LABELS
 
 if TYPE_CHECKING:
     import xarray
@@ -31,7 +33,7 @@ def draw_gradients(data: xarray.Dataset) -> Figure:
     axes = figure.subplots(len(quantities), 1, sharex=True, squeeze=False)[:, 0]
     x, label = _across(data)
     order = np.argsort(x, kind="stable")
-    jumps = np.flatnonzero(np.diff(data["outcome"].values[order])) + 1  # lines are not joined across them
+    outcome = data["outcome"].values[order]
     for axis, name in zip(axes, quantities, strict=True):
         values = data["elasticity"].sel(quantity=name).values
         with warnings.catch_warnings():
@@ -42,9 +44,8 @@ def draw_gradients(data: xarray.Dataset) -> Figure:
             size[parameters.index("impact.stokes")] = 0.0
         strongest = [k for k in np.argsort(-size) if size[k] > 0]
         for k, colour in zip(strongest, _COLOURS):
-            y = np.insert(values[order, k], jumps, np.nan)
-            axis.plot(np.insert(x[order], jumps, np.nan), y, ".-", color=colour, linewidth=1.0, markersize=4,
-                      label=parameters[k])  # fmt: skip
+            style: Any = {"color": colour, "linewidth": 1.0, "markersize": 4, "label": parameters[k]}
+            axis.plot(*broken(outcome, x[order], values[order, k]), ".-", **style)
         axis.axhline(0, color="#202020", linewidth=0.6)
         axis.set_ylabel(str(name).replace("_", " "))
         axis.spines[["top", "right"]].set_visible(False)
@@ -59,6 +60,32 @@ def _across(data: xarray.Dataset) -> tuple[np.ndarray, str]:
     if np.ptp(data["stokes"].values) > 0 or np.ptp(data["angle"].values) == 0:
         return data["stokes"].values, "Stokes number St"
     return np.degrees(data["angle"].values), "impact angle (deg)"
+
+
+@picture
+def draw_band(data: xarray.Dataset) -> Figure:
+    """A result with bands of two first-order standard deviations and of the samples' 2.5 to 97.5 %."""
+    over = str(next(iter(data.dims)))
+    of = next(name for name in QUANTITIES if name in data)
+    x = np.degrees(data[over].values) if over == "impact.angle" else data[over].values
+    y, spread, low, high = data[of].values, 2 * data.first_order.values, data.low.values, data.high.values
+    x, y, spread, low, high = broken(data.outcome.values, x, y, spread, low, high)
+    figure = Figure(figsize=(6.6, 4.2), layout="constrained")
+    axis = figure.subplots()
+    shade: Any = {"color": "#2a6f97", "alpha": 0.25, "linewidth": 0, "label": "±2σ, first order"}
+    axis.fill_between(x, y - spread, y + spread, **shade)
+    axis.plot(x, y, color="#2a6f97", linewidth=1.6, label="as given")
+    dashes: Any = {"color": "#c1554a", "linewidth": 0.9, "linestyle": "--"}
+    axis.plot(x, low, label=f"2.5 and 97.5 % of {data.attrs['samples']} samples", **dashes)
+    axis.plot(x, high, **dashes)
+    unit = data[of].attrs["units"]
+    axis.set_ylabel(of.replace("_", " ") + ("" if unit == "1" else f" ({unit})"))
+    name = over.partition(".")[2]
+    axis.set_xlabel(AXIS_LABELS.get(name, "impact angle (deg)"))
+    title(figure, f"{of.replace('_', ' ')} with {data.attrs['uncertainty']} uncertain")
+    axis.spines[["top", "right"]].set_visible(False)
+    axis.legend()
+    return figure
 
 
 @picture

@@ -7,7 +7,8 @@ from typing import Any
 
 from matplotlib.figure import Figure
 
-from ..formatting.style import picture
+from ..collision.text import name_of
+from ..formatting.style import LONGEST, picture, plain_text, title
 from .results import DIFFERENTIATED
 
 _UP, _DOWN, _INK = "#2a6f97", "#c1554a", "#222222"
@@ -39,6 +40,7 @@ def draw(result: Any) -> Figure:
     weak = [p for p in result.parameters if p not in order and any(result.elasticity[y][p] for y in panels)]
     left_out = [p for p in result.parameters if p not in order and p not in weak]
     if not order:
+        axes[0].axis("off")
         axes[0].text(
             0.5, 0.5, "nothing moves it: a stick has e_n = 0" if result.outcome == "stick" else "no elasticity here",
             ha="center", va="center", transform=axes[0].transAxes, fontsize=9, color=_INK,
@@ -47,7 +49,7 @@ def draw(result: Any) -> Figure:
     notes = [result.outcome if restitution is None else f"{result.outcome}, $e_n$ = {restitution:.4g}"]
     notes += [f"too little to be seen: {', '.join(_short(weak))}"] if _short(weak) else []
     notes += [f"no influence or no elasticity: {', '.join(_short(left_out))}"] if left_out else []
-    figure.suptitle(f"{result.scene.name or 'scene'}: elasticities d ln y / d ln p", color=_INK)
+    title(figure, f"{plain_text(name_of(result.scene, LONGEST))}: elasticities d ln y / d ln p")
     figure.supxlabel(textwrap.fill("; ".join(notes), 34 * len(panels) + 30), color="#555555")
     return figure
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from itertools import pairwise
 from pathlib import Path as FilePath
 from typing import TYPE_CHECKING, Any
 
@@ -17,7 +16,7 @@ from ..host.progress import Progress
 from ..many.batch import checked_numbers
 from ..many.collide_many import collide_many
 from ..many.results import QUANTITIES as MANY
-from ..scene.held import AXIS_LABELS, held_quantity, impact_value
+from ..scene.held import held_quantity, impact_value
 from ..scene.quantities import normal_speed
 from ..scene.scene import Scene
 from ..scene.schema import DEFAULTS, FIELDS, MEETING, SPEEDS, Field
@@ -244,45 +243,3 @@ def possible_values(entry: Field, value: float, deviation: np.ndarray) -> np.nda
             return value + moved
         moved[bad] /= 2
     return value + np.where(bad, 0.0, moved)
-
-
-def draw(data: xarray.Dataset) -> Any:
-    """Draw the result with bands of two first-order standard deviations and of the samples' 2.5 to 97.5 %.
-
-    Returns:
-        The matplotlib Figure.
-    """
-    from ..formatting.style import picture
-
-    return picture(_drawn)(data)
-
-
-def _drawn(data: xarray.Dataset) -> Any:
-    from matplotlib.figure import Figure
-
-    over = str(next(iter(data.dims)))
-    of = next(name for name in MANY if name in data)
-    x = np.degrees(data[over].values) if over == "impact.angle" else data[over].values
-    y, spread = data[of].values, 2 * data.first_order.values
-    figure = Figure(figsize=(6.6, 4.2), layout="constrained")
-    axis = figure.subplots()
-    outcomes = data.outcome.values
-    starts = [0, *(k for k in range(1, x.size) if outcomes[k] != outcomes[k - 1]), x.size]
-    for k, (start, stop) in enumerate(pairwise(starts)):  # no line across a jump
-        part = slice(start, stop)
-        label, shade = ("as given", "±2σ, first order") if k == 0 else (None, None)
-        axis.fill_between(
-            x[part], (y - spread)[part], (y + spread)[part], color="#2a6f97", alpha=0.25, linewidth=0, label=shade
-        )
-        axis.plot(x[part], y[part], color="#2a6f97", linewidth=1.6, label=label)
-    axis.plot(x, data.low.values, color="#c1554a", linewidth=0.9, linestyle="--",
-              label=f"2.5 and 97.5 % of {data.attrs['samples']} samples")  # fmt: skip
-    axis.plot(x, data.high.values, color="#c1554a", linewidth=0.9, linestyle="--")
-    unit = data[of].attrs["units"]
-    axis.set_ylabel(of.replace("_", " ") + ("" if unit == "1" else f" ({unit})"))
-    name = over.partition(".")[2]
-    axis.set_xlabel(AXIS_LABELS.get(name, "impact angle (deg)"))
-    axis.set_title(f"{of.replace('_', ' ')} with {data.attrs['uncertainty']} uncertain")
-    axis.spines[["top", "right"]].set_visible(False)
-    axis.legend()
-    return figure

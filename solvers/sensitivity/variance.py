@@ -32,7 +32,7 @@ def sobol_indices(
     *,
     of: str = "restitution",
     samples: int = 256,
-    rtol: float = 1e-6,
+    rtol: float = 1e-8,
     seed: int = 0,
     hold: str | None = None,
     client: Any = None,

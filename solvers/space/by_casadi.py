@@ -23,7 +23,7 @@ from ..model.phases import Flow, Region
 from ..scene.groups import si_values
 from .books import OPEN, extras_of, is_open, of_casadi
 from .ends import FAILED, Ends
-from .pairs import Bodies, Pairs, length
+from .pairs import Bodies, Pairs, length, spinning, still
 
 AXES = "xyz"
 EXTRAS = ("rotation",)
@@ -94,35 +94,35 @@ def groups_of(pair: Pairs, axes: np.ndarray) -> DimensionlessGroups:
 
 
 def _one(pair: Pairs, plugin: str, rtol: float, ledger: bool, budget: Budget) -> Ends:
-    axes = own_axes(pair)
-    n = groups_of(pair, axes)
-    model = load(select_model(pair.scene, True, full=ledger, space=True))
-    extras = EXTRAS + (extras_of(model) if ledger else ())
+    turns, axes = not pair.straight[0], own_axes(pair)
+    n = groups_of(pair, axes) if turns else nondimensionalise(still(pair.scene), -float(pair.opening[0]), 0.0)
+    small, whole = (select_model(pair.scene, turns, full=full, space=turns) for full in (False, ledger))
+    model, turned = load(whole), EXTRAS if turns else ()
+    extras = turned + (extras_of(model) if ledger else ())
     try:
-        path, replayed = _integrated(model, extras, select_model(pair.scene, True, space=True), n, plugin, rtol, budget)
+        path, replayed = _integrated(model, extras, small, turned, n, plugin, rtol, budget)
     except ComputationError as error:
         raise n.in_si(error) from None
     p, y = model.group_values(n.groups), replayed.y
     shown = model.values("outputs", y, p)
-    axes = _turned_back(model, replayed, p) @ axes
-
-    def vector(name: str) -> np.ndarray:
-        turned: np.ndarray = np.array([[shown[f"{name}_{axis}"] for axis in AXES]]) @ axes
-        return turned
-
     ends = Ends.blank(1)
     ends.outcome[0], ends.certified[0] = OUTCOMES.index(path.outcome), path.certified
     ends.time[0], ends.gap[0] = replayed.time * n.time, float(y[0]) * n.length
     ends.opening[0] = shown["restitution"] * n.speed
-    ends.normal[:], ends.turning[:] = vector("final_normal"), vector("final_rotation_rate") * n.rate
-    ends.spins[:, 0], ends.spins[:, 1] = vector("final_spin") * n.rate, vector("final_spin_partner") * n.rate
-    if path.separated:
+    ends.normal[:], ends.turning[:], ends.spins[:] = pair.normal, 0.0, pair.spins
+    if turns:
+        axes = _turned_back(model, replayed, p) @ axes
+        names = ("final_normal", "final_rotation_rate", "final_spin", "final_spin_partner")
+        vectors = [np.array([shown[f"{name}_{axis}"] for axis in AXES]) @ axes for name in names]
+        ends.normal[0], ends.turning[0], ends.spins[0] = vectors[0], vectors[1] * n.rate, np.array(vectors[2:]) * n.rate
+    if turns and path.separated:
         first, last = (model.values("surface_slip", each, p)["surface_slip"] for each in (model.start(p), y))
         ends.slip[0] = last / first if first > LEAST_SLIP else np.nan
     if ledger:
         ends.energy[0] = n.energy * of_casadi(
             model, p, y, {name: replayed.extra(name) for name in extras}, replayed.dry_loss, replayed.friction_loss
         )
+        ends.energy[:, :2] += 0.0 if turns else spinning(pair, pair.spins)[0]
         if is_open(ends.energy, ends.outcome > 0, rtol)[0]:
             raise ComputationError(OPEN)
     return ends
@@ -145,6 +145,7 @@ def _integrated(
     model: Model,
     extras: tuple[str, ...],
     small: ModelKey,
+    turned: tuple[str, ...],
     n: DimensionlessGroups,
     plugin: str,
     rtol: float,
@@ -154,13 +155,14 @@ def _integrated(
 
     Arguments:
         small: the reduced form of `model`, by which CVODES' events are located.
+        turned: what of the extras its last state needs.
     """
     tolerance = rtol
     while plugin != "rosenbrock":
         flow = Flow(model.choice, Region(1, 1, False), extras)
         start = model.start(model.group_values(n.groups))
         try:
-            path = EventLocator(load(small), n.groups, tolerance, EXTRAS, budget=budget).run()
+            path = EventLocator(load(small), n.groups, tolerance, turned, budget=budget).run()
             return path, replay(path, plugin, tolerance_for(tolerance, plugin, n.groups), flow, start, budget)
         except ComputationError:
             if tolerance == rtol:

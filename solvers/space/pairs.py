@@ -109,9 +109,34 @@ class Pairs:
         velocity: np.ndarray = np.where((length(across) > TURNLESS * largest)[:, None], across, 0.0)
         return velocity
 
+    @cached_property
+    def straight(self) -> np.ndarray:
+        """Mask of pairs of spheres in which nothing moves across the line of centres: head-on, with or without twist.
+
+        No torque acts on twist, so that the line never turns. What rounding alone may have made is nothing.
+        """
+        radii = np.array(Bodies.of(self.scene).radius)[:, None]
+        twists = dot(self.spins, self.normal[:, None]) * self.normal[:, None]
+        across = np.concatenate([self.sliding[:, None], radii * (self.spins - twists)], axis=1)
+        fastest = np.max(length(np.concatenate([self.sliding[:, None], radii * self.spins], axis=1)), axis=1)
+        mask: np.ndarray = np.max(length(across), axis=1) <= TURNLESS * fastest
+        return mask
+
     def part(self, which: np.ndarray) -> Pairs:
         rows = (self.normal[which], self.velocities[which], self.spins[which])
         return Pairs(self.scene, rows[0].shape[:1], *rows)
+
+
+def still(scene: Scene, own_spins: bool = False) -> Scene:
+    """The scene without spins of its own; equal spheres keep one state for both unless each has its own."""
+    changes = dict.fromkeys((["impact.spin"] if scene.impact.spin else []) + ["impact.partner_spin"] * own_spins, 0.0)
+    return scene.with_entries(changes) if changes else scene
+
+
+def spinning(pairs: Pairs, spins: np.ndarray) -> np.ndarray:
+    """Kinetic energies of spins (pairs, 2, 3), J."""
+    energies: np.ndarray = np.sum(np.array(Bodies.of(pairs.scene).inertia) * length(spins) ** 2, axis=1) / 2
+    return energies
 
 
 def checked(scene: Scene, normal: Any, velocities: Any, spins: Any) -> Pairs:

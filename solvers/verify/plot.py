@@ -15,7 +15,7 @@ from ..boundaries.on_map import map_curves
 from ..collision.text import name_of
 from ..engines.choice import collision_engine
 from ..formatting import ticks
-from ..formatting.style import INK, NOTHING, picture, plain_text
+from ..formatting.style import INK, LONGEST, NOTHING, broken, picture, plain_text, title
 from ..many.plot_map import HIGHEST, draw_contours, label_scale
 from ..many.regime_map import regime_map
 from ..scene.scene import Scene
@@ -48,8 +48,8 @@ def draw_budget(data: xarray.Dataset) -> Figure:
     panels[0].tick_params(labelbottom=len(panels) == 1)
     panels[-1].set_xlabel("Stokes number St")
     _legend(figure, data)
-    title = plain_text(name_of(scene))
-    figure.suptitle(f"{title}: energy of rotation released against losses, and the restitution that they leave")
+    name = plain_text(name_of(scene, LONGEST))
+    title(figure, f"{name}: energy of rotation released against losses, and the restitution that they leave")
     return figure
 
 
@@ -108,19 +108,19 @@ def _fine(data: xarray.Dataset) -> xarray.Dataset:
 def _terms(axes: Axes, data: xarray.Dataset, row: int, letter: str) -> None:
     """Draw released energy above zero, losses below, and the sum as a line."""
     stokes = data["stokes"].values
-    parted = np.isfinite(data["excess"].values[row])
+    parted, outcome = np.isfinite(data["excess"].values[row]), data["outcome"].values[row]
     axes.set_xscale("log")
-    gains, losses = np.zeros(stokes.size), np.zeros(stokes.size)
+    gains, losses = np.where(parted, 0.0, np.nan), np.where(parted, 0.0, np.nan)
     for name in ("rotation_released", *LOSSES):
         taken = data[name].values[row] * (1 if name == "rotation_released" else -1)
-        taken = np.where(parted, taken, 0.0)
         colour = RELEASED if name == "rotation_released" else COLOURS[name]
         # a bridge may release energy, so each sign is stacked on its side
         for side, stack in ((np.maximum(taken, 0), gains), (np.minimum(taken, 0), losses)):
-            axes.fill_between(stokes, stack, stack + side, where=parted, color=colour, linewidth=0)
+            at, low, high = broken(outcome, stokes, stack, stack + side)
+            axes.fill_between(at, low, high, color=colour, linewidth=0)
             stack += side
     excess = data["excess"].values[row]
-    axes.plot(stokes, excess, color=INK, linewidth=1.8)
+    axes.plot(*broken(outcome, stokes, excess), color=INK, linewidth=1.8)
     axes.plot(stokes, np.where(excess > 0, excess, np.nan), "o", color=INK, markersize=3.5, markerfacecolor="white")
     axes.axhline(0, color=INK, linewidth=0.6)
     for first, last in _runs(~parted):

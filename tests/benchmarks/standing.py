@@ -150,6 +150,9 @@ PEERS = (
 
 
 TIMES = (0.5, 0.6, 0.7, 1.0)
+SEARCHES = (("rosenbrock", 3), ("cvodes", 3), ("idas", 3), ("idas", 50), ("rk", 3), ("rk", 50), ("collocation", 3),
+            ("collocation", 50))  # fmt: skip
+"""CasADi's plugins, and the iterations of their event search (`max_event_iter`; 3 is the default)."""
 
 
 def ball() -> list[list[str]]:
@@ -161,16 +164,34 @@ def ball() -> list[list[str]]:
     falls = math.sqrt(2 / 9.81)
     after = [each - falls for each in TIMES]
     rows = [["exact", *(f"{0.8 * 9.81 * falls * each - 9.81 / 2 * each**2:.6f}" for each in after)]]
-    for plugin in ("rosenbrock", "cvodes", "idas"):
+    for plugin, most in SEARCHES:
         cells = []
+        options: dict[str, Any] = {"transition": jump, "max_event_iter": most}
         for end in TIMES:
             try:
-                final = ca.integrator("ball", plugin, dae, 0, [end], {"transition": jump})(x0=[1, 0], p=0.8)["xf"]
+                final = ca.integrator("ball", plugin, dae, 0, [end], options)(x0=[1, 0], p=0.8)["xf"]
                 cells.append(f"{float(final[0]):.6f}")
             except RuntimeError as error:
                 cells.append("fails: " + str(error).rpartition('returned "')[2].partition('"')[0])
-        rows.append([plugin, *cells])
+        rows.append([f"{plugin}, {most} iterations", *cells])
     return rows
+
+
+def counted(plugin: str, zeros: Callable[[ca.SX], tuple[ca.SX, ca.SX]]) -> str:
+    """How often each of two events occurs by CasADi, as y falls from 1 to -1; both are at y = 0."""
+    x, t, index = ca.SX.sym("x", 3), ca.SX.sym("t"), ca.SX.sym("index")
+    dae: dict[str, Any] = {"x": x, "t": t, "ode": ca.vertcat(-1, 0, 0), "zero": ca.vertcat(*zeros(x[0]))}
+    given = {"index": index, "t": t, "x": x, "post_x": ca.vertcat(x[0], x[1] + (index == 0), x[2] + (index == 1))}
+    jump = ca.Function("transition", given, ["index", "t", "x", "z", "p", "u"], ["post_x", "post_z"])
+    final = ca.integrator("counts", plugin, dae, 0, [2], {"transition": jump})(x0=[1, 0, 0])["xf"]
+    return f"{float(final[1]):g} and {float(final[2]):g}"
+
+
+COINCIDENT: tuple[Callable[[ca.SX], tuple[ca.SX, ca.SX]], ...] = (
+    lambda y: (y, 2 * y),
+    lambda y: (2 * y, y),
+    lambda y: (-y, y),
+)
 
 
 def _read(bulk: Any) -> list[Any]:
@@ -228,6 +249,14 @@ def text() -> str:
             table(["", *(f"{each:.0e}" for each in DISTANCES)], spent),
             "A ball that falls from 1 m and rebounds with 0.8, by CasADi's events, default tolerances: height, m.",
             table(["", *(f"at {each:g} s" for each in TIMES)], ball()),
+            "How often two events of CasADi occur at y = 0, as y falls from 1 to -1.",
+            table(
+                ["", "y, then 2 y", "2 y, then y", "-y, then y"],
+                [
+                    [plugin, *(counted(plugin, zeros) for zeros in COINCIDENT)]
+                    for plugin in ("rosenbrock", "rk", "collocation")
+                ],
+            ),
             f"Not installed: {', '.join(absent)}." if absent else "All are installed.",
             "; ".join(
                 f"{name} {machine[name]}" for name in ("date", "cpu", "casadi", "jax", "diffrax", "scikit-sundae")

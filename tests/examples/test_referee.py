@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from scipy.integrate import solve_ivp
 from wetdoublet.solvers import Scene, collide_many
 
 FOLDER = Path(__file__).resolve().parents[2] / "examples" / "referee"
@@ -79,6 +80,85 @@ def test_damping_in_liggghts_follows_the_stokes_number_of_the_moment():
     (found,) = hosts.run("liggghts", job | {"collisions": [[speed, 0.0, 5e-9]]})["found"]
     assert found["velocity"][0] / speed == pytest.approx(one_number.rebound(ratio, most), abs=2e-3)
     assert abs(one_number.exponential(ratio, most) - found["velocity"][0] / speed) > 0.05
+
+
+def pair_at_rest(e_dry: float) -> dict[str, float | str]:
+    """Two millimetre spheres in YADE's or LIGGGHTS's words, without a liquid that does anything."""
+    return {
+        "radius": 1e-3, "density": 2500.0, "friction": 0.0, "contact_time": 1e-5, "restitution": e_dry, "volume": 1e-14,
+        "surface_tension": 0.0, "contact_angle_deg": 20.0, "bridge": "Willett_numeric", "cutoff": 6e-5,
+    }  # fmt: skip
+
+
+@pytest.mark.parametrize("e_dry", [0.97, 0.5, 0.15])
+def test_a_contact_without_tension_has_the_dry_restitution(e_dry):
+    """A linear damped contact, integrated until its force vanishes; `en` would be its restitution at no overlap."""
+    import translate
+
+    en = translate.uncut_restitution(e_dry)
+    z = -math.log(en) / math.pi
+    damping, stiffness = 2 * z, 1 + z**2  # in units of the frequency
+
+    def pushes(_, y):
+        return stiffness * y[0] + damping * y[1]
+
+    pushes.terminal, pushes.direction = True, -1
+    path = solve_ivp(lambda _, y: [y[1], -pushes(_, y)], (0, 4), [0, 1], events=pushes, rtol=1e-10, atol=1e-13)
+    assert path.t_events[0].size
+    assert -path.y[1, -1] == pytest.approx(e_dry, rel=1e-7)
+    assert en < e_dry
+
+
+def test_a_dry_restitution_that_yade_cannot_have_is_refused():
+    """However strong its damping is, a contact without tension rebounds with more than exp(-2)."""
+    import translate
+
+    with pytest.raises(SystemExit, match=r"0\.1354 or more"):
+        translate.uncut_restitution(0.13)
+
+
+@pytest.mark.parametrize("e_dry", [0.9, 0.5])
+def test_yade_rebounds_with_the_dry_restitution(e_dry):
+    """YADE itself, without surface tension."""
+    import hosts
+    import translate
+
+    if hosts.command("yade") is None:
+        pytest.skip(f"yade is not installed: {hosts.INSTALL['yade']}")
+    parameters = pair_at_rest(translate.uncut_restitution(e_dry))
+    job = {"law": "capillary", "parameters": parameters, "start": 6e-5, "end": 6e-5, "longest": 1e-3}
+    (found,) = hosts.run("yade", job | {"collisions": [[1.0, 0.0, 2e-8]]})["found"]
+    assert found["velocity"][0] == pytest.approx(e_dry, abs=2e-3)
+
+
+def soulie_work(scene):
+    """Work of Soulie's force from contact to rupture at the scene's contact angle, J: integrated here."""
+    V, theta = scene.bridge.volume, scene.bridge.contact_angle
+    R = 2 * scene.reduced_radius
+    A, C = -1.1 * V**-0.53, 0.0018 * math.log(V) + 0.078
+    B = (-0.148 * math.log(V) - 0.96) * theta**2 - 0.0082 * math.log(V) + 0.48
+    x = np.linspace(0.0, (1 + theta / 2) * V ** (1 / 3), 20001)
+    return math.pi * scene.bridge.surface_tension * R**2 * np.trapezoid(np.exp(A * x + B) + C, x)
+
+
+@pytest.mark.parametrize("degrees", [0.0, 20.0, 60.0])
+def test_liggghts_has_the_contact_angle(degrees):
+    """Half the product of both angles, in rad, is the scene's; LIGGGHTS's bridge takes the work of Soulie's force."""
+    import hosts
+    import translate
+
+    beads = Scene.load(FOLDER / "beads-glycerol.toml")
+    scene = beads.with_entries({"bridge.contact_angle": math.radians(degrees)})
+    words = translate.liggghts_easo(scene, None, 1.0)
+    assert math.radians(words.parameters["contact_angle"]) ** 2 / 2 == pytest.approx(math.radians(degrees))
+    if hosts.command("liggghts") is None:
+        pytest.skip(f"liggghts is not installed: {hosts.INSTALL['liggghts']}")
+    speed = 0.15
+    elastic = words.parameters | {"viscosity": 1e-9, "restitution": 1.0}
+    job = {"law": "easo", "parameters": elastic, "start": 6e-5, "end": words.end, "longest": 1e-2}
+    (found,) = hosts.run("liggghts", job | {"collisions": [[speed, 0.0, words.step]]})["found"]
+    expected = math.sqrt(1 - 2 * soulie_work(scene) / (scene.reduced_mass * speed**2))
+    assert found["velocity"][0] / speed == pytest.approx(expected, abs=3e-4)
 
 
 def test_without_viscosity_the_equation_has_the_maximum_restitution():

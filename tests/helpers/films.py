@@ -36,3 +36,67 @@ def filmed(
     both = np.concatenate([middle - relative @ axes / 2, middle + relative @ axes / 2], axis=1) / pixel
     both += noise * random.standard_normal(both.shape)
     return {"frame": np.arange(time.size), **dict(zip(("x1", "y1", "x2", "y2"), both.T, strict=True))}
+
+
+def drawn(scene: Scene, random: np.random.Generator, *, stick: bool, noise: float | None = None) -> dict[str, object]:
+    """A film of two discs that meet, of random rate, size, noise, speeds, rotation and length; no law is solved.
+
+    Returns:
+        `film` in pixels; `rate`, `scale`; `speed`, `angle`, `restitution` as they were drawn; `step`, the motion of the
+        approach per frame over the noise; `contact`, the frames that are neither before nor after it.
+    """
+    solids = 2 * scene.particles.reduced_radius * (1 + scene.radius_ratio)
+    touch, apart = solids + scene.liquid.film_thickness, solids + scene.rupture_gap
+    size, per_diameter = math.exp(random.uniform(*np.log([12, 300]))), math.exp(random.uniform(*np.log([8, 80])))
+    pixel, rate, angle = solids / size, 10 ** random.uniform(2, 5.5), random.uniform(0, 1.2)
+    speed = rate * solids / per_diameter * math.cos(angle)  # normal
+    noise = noise if noise is not None else math.exp(random.uniform(*np.log([0.02, 0.5])))
+    frames = [int(each) for each in random.integers(0.5 * per_diameter + 6, 2 * per_diameter + 12, 2)]
+    contact = random.uniform(0.3, 1.5) * solids / speed
+    time = (np.arange(-frames[0], frames[1] + math.ceil(contact * rate)) + random.random()) / rate
+    sideways, e_n, e_t = speed * math.tan(angle) * touch / solids, random.uniform(0.1, 1.3), random.uniform(0.5, 1)
+    turn = random.uniform(0.2, 1.2) * contact * sideways / touch
+    share = np.clip(time / contact, 0, 1)
+    deep = touch - 0.7 * scene.liquid.film_thickness * np.sin(np.pi * np.minimum(share, 0.5))
+    polar = turn * share, deep if stick else np.maximum(deep, touch + (apart - touch) * (2 * share - 1))
+    relative = np.stack([polar[1] * np.cos(polar[0]), polar[1] * np.sin(polar[0])], axis=1)
+    before, after = time < 0, time > contact
+    relative[before] = [touch, 0] + time[before, None] * np.array([-speed, sideways])
+    if not stick:
+        normal, along = np.array([[math.cos(turn), math.sin(turn)], [-math.sin(turn), math.cos(turn)]])
+        velocity = e_n * speed * normal + e_t * sideways * along
+        relative[after] = apart * normal + (time[after, None] - contact) * velocity
+    direction, drift = random.uniform(0, 2 * math.pi), random.normal(size=2) * speed * time[:, None]
+    axes = np.array([[math.cos(direction), math.sin(direction)], [-math.sin(direction), math.cos(direction)]])
+    middle = drift + GRAVITY * time[:, None] ** 2 / 2
+    both = np.concatenate([middle - relative @ axes / 2, middle + relative @ axes / 2], axis=1) / pixel
+    both += noise * random.standard_normal(both.shape)
+    film = {"frame": np.arange(time.size), **dict(zip(("x1", "y1", "x2", "y2"), both.T, strict=True))}
+    step = speed / math.cos(angle) / rate / pixel / (math.sqrt(2) * noise)
+    return {
+        "film": film, "rate": rate, "scale": pixel, "speed": speed, "angle": angle, "step": step,
+        "restitution": 0.0 if stick else e_n, "contact": np.flatnonzero(~before & ~after),
+    }  # fmt: skip
+
+
+def lossy(film: dict[str, np.ndarray], lost: object) -> dict[str, np.ndarray]:
+    """The film without some frames, whose numbers are not counted."""
+    rest = {name: np.delete(values, lost) for name, values in film.items()}
+    return rest | {"frame": np.arange(rest["frame"].size)}
+
+
+def pushed(
+    film: dict[str, np.ndarray], diameter: float, most: float = 3.5 / 24, reach: float = 0.4
+) -> dict[str, np.ndarray]:
+    """The film as trackpy 0.7 with its preprocessing has it: centres pushed apart, by 3.5 px of 24 where they touch.
+
+    Arguments:
+        diameter: px.
+        most: displacement of the distance at contact, over the diameter.
+        reach: gap from which there is none, over the diameter.
+    """
+    relative = np.stack([film["x2"] - film["x1"], film["y2"] - film["y1"]])
+    distance = np.hypot(*relative)
+    far = np.clip(1 - (distance / diameter - 1) / reach, 0, 1)
+    x, y = most * diameter * far**1.4 * relative / distance / 2
+    return film | {"x1": film["x1"] - x, "y1": film["y1"] - y, "x2": film["x2"] + x, "y2": film["y2"] + y}

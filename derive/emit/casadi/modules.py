@@ -8,7 +8,7 @@ import sympy as sp
 
 from ...equations.model import Model
 from ...physics.forces import FILM, SHEAR
-from ...physics.laws.base import Law, needed
+from ...physics.laws.base import Law, LawFunction, needed
 from ...physics.scaling import first_rates, group_definitions, impact_groups, scale_definitions
 from ...vocabulary.quantities import VOCABULARY, obliquity, obliquity_pair, obliquity_space, obliquity_wall, rate_scale
 from ..provenance import Own, describe, digest, header, law_digest, model_digest
@@ -25,18 +25,34 @@ def law_module(law: Law) -> str:
     for function in law.functions:
         kept, _ = needed([function.result], function.definitions)
         arguments = ", ".join(f"{argument.name}: Any" for argument in function.arguments)
-        body += ["", f"def {function.name}({arguments}) -> Any:"]
+        sides = {side: f"sides[{k}] if sides else " for k, (_, side) in enumerate(function.kinks)}
+        more = ", sides: Any = None" if sides else ""
+        body += ["", f"def {function.name}({arguments}{more}) -> Any:"]
         count = _operations([function.result, *(expression for _, expression in kept)])
         body += _docstring(f"{function.doc}\n\nTotal operations: {count}", _INDENT)
         for symbol, expression in kept:
-            body += _assignment(symbol.name, expression, printer)
+            body += _assignment(symbol.name, expression, printer, sides.get(symbol, ""))
         lines = [*_assignment("result", function.result, printer), f"{_INDENT}return result"]
         body += [f"{_INDENT}return {printer(function.result)}"] if len(lines) == 2 else lines
         body.append("")
+        if function.kinks:
+            body += _kinks(function, arguments, printer)
     doc = f"{law.slot} law `{law.name}`: {law.meaning}.\n\nSource: {law.source}."
     falls = any(each.falls and each.name in ("force", "log_factor") for each in law.functions)  # with the gap
-    body = [*_validity(law), *(["", "FALLS = True", ""] if falls else []), *body]
+    counts = {function.name: len(function.kinks) for function in law.functions if function.kinks}
+    kinks = ["", f"KINKS = {counts}".replace("'", '"'), ""] if counts else []
+    body = [*_validity(law), *(["", "FALLS = True", ""] if falls else []), *kinks, *body]
     return _module(header(law_digest(law)), doc, ["from typing import Any", "", *_casadi(printer)], body)
+
+
+def _kinks(function: LawFunction, arguments: str, printer: Printer) -> list[str]:
+    """What vanishes at a law's kinks, in the order of its `sides`."""
+    guards = [kink for kink, _ in function.kinks]
+    lines = ["", f"def {function.name}_kinks({arguments}) -> tuple[Any, ...]:"]
+    lines += _docstring(f"Guards of the kinks of {function.name}, each zero at one.", _INDENT)
+    for symbol, expression in needed(guards, function.definitions)[0]:
+        lines += _assignment(symbol.name, expression, printer)
+    return [*lines, f"{_INDENT}return ({', '.join(kink.name for kink in guards)},)", ""]
 
 
 def _validity(law: Law) -> list[str]:
@@ -183,9 +199,9 @@ def _docstring(text: str, indent: str = "") -> list[str]:
     return [f'{indent}"""{wrapped[0]}', *(f"{indent}{line}" if line else "" for line in wrapped[1:]), f'{indent}"""']
 
 
-def _assignment(name: str, expression: sp.Expr, printer: Printer) -> list[str]:
-    """`name = expression`, with a sum too long for one line broken at its terms."""
-    line = f"{_INDENT}{name} = {printer(expression)}"
+def _assignment(name: str, expression: sp.Expr, printer: Printer, unless: str = "") -> list[str]:
+    """`name = expression`, with a sum too long for one line broken at its terms; `unless` stands in front of it."""
+    line = f"{_INDENT}{name} = {unless}{printer(expression)}"
     if len(line) <= _WIDTH:
         return [line]
     if not isinstance(expression, sp.Add):

@@ -17,9 +17,6 @@ _FUNCTIONS: dict[type, str] = {
     sp.exp: "exp", sp.log: "log", sp.sin: "sin", sp.cos: "cos", sp.tan: "tan", sp.asin: "asin", sp.acos: "acos",
     sp.atan: "atan", sp.sinh: "sinh", sp.cosh: "cosh", sp.tanh: "tanh", sp.Abs: "fabs",
 }  # fmt: skip
-_RELATIONS: dict[type, str] = {
-    sp.StrictLessThan: "<", sp.LessThan: "<=", sp.StrictGreaterThan: ">", sp.GreaterThan: ">=",
-}  # fmt: skip
 
 
 class EmissionError(ValueError):
@@ -31,14 +28,11 @@ class Printer:
 
     def __init__(self) -> None:
         self.imports: set[str] = set()
-        self._stand_ins: dict[sp.Dummy, str] = {}
 
     def __call__(self, expression: sp.Expr) -> str:
         return self._print(sp.sympify(expression))[0]
 
     def _print(self, node: sp.Basic) -> tuple[str, int]:
-        if node in self._stand_ins:
-            return self._stand_ins[node], _ATOM
         if isinstance(node, sp.Symbol):
             if not node.name.isidentifier():
                 raise EmissionError(f"symbol {node.name!r} is not a Python name")
@@ -61,14 +55,10 @@ class Printer:
             return self._power(node)
         if isinstance(node, (sp.Min, sp.Max)):
             return self._extremum(node), _ATOM
-        if isinstance(node, sp.Piecewise):
-            return self._piecewise(node), _ATOM
         if isinstance(node, AppliedUndef) and is_slot_call(node):
             return f"laws.{node.func.__name__}({self._arguments(node.args)})", _ATOM
         if type(node) in _FUNCTIONS:
             return f"{self._name(_FUNCTIONS[type(node)])}({self._arguments(node.args)})", _ATOM
-        if type(node) in _RELATIONS:
-            return f"{self._above(node.args[0], _ADD)} {_RELATIONS[type(node)]} {self._above(node.args[1], _ADD)}", _ADD
         raise EmissionError(f"no CasADi source for {type(node).__name__}: {node}")
 
     def _name(self, name: str) -> str:
@@ -131,65 +121,6 @@ class Printer:
         for other in rest:
             text = f"{name}({text}, {self._print(other)[0]})"
         return text
-
-    def _piecewise(self, node: sp.Piecewise) -> str:
-        """Nested if_else; in each branch the variable is clamped to an interior of the branch's own range.
-
-        CasADi evaluates all branches. With the variable held inside the range, neither the value nor any derivative of
-        a branch not taken can be NaN. (Clamping to the bound is not sufficient: sqrt(1 - x) has no derivative at 1.)
-        """
-        if node.args[-1][1] != sp.true:
-            raise EmissionError(f"Piecewise without a final otherwise: {node}")
-        names = set()
-        for _, condition in node.args[:-1]:
-            known = type(condition) in _RELATIONS and isinstance(condition.lhs, sp.Symbol)
-            if not known or condition.rhs.has(condition.lhs):
-                form = "is not of the form symbol < bound, so its branches cannot be guarded"
-                raise EmissionError(f"Piecewise condition {condition} {form}")
-            names.add(condition.lhs.name)
-        if len(names) > 1:
-            both = ", ".join(sorted(names))
-            raise EmissionError(f"Piecewise conditions on {both} together cannot be guarded: {node}")
-        choose = self._name("if_else")
-        text = ""
-        facts: list[tuple[sp.Basic, bool]] = []  # truth values of the conditions where a branch is taken
-        for value, condition in node.args:
-            last = condition == sp.true
-            branch_facts = facts if last else [*facts, (condition, True)]
-            branch = self._guarded(node, value, branch_facts)
-            text += branch if last else f"{choose}({self._print(condition)[0]}, {branch}, "
-            facts = [*facts, (condition, False)]
-        return text + ")" * (len(node.args) - 1)
-
-    def _guarded(self, node: sp.Piecewise, value: sp.Expr, facts: list[tuple[sp.Basic, bool]]) -> str:
-        """A branch as a function of its variable, replaced outside the branch's range by a point inside it."""
-        variable = facts[0][0].lhs
-        if variable not in value.free_symbols:
-            return self._print(value)[0]
-        point = _inside(variable, facts)
-        for probe in (value.subs(variable, point), value.diff(variable).subs(variable, point)):
-            if probe.is_number and not (probe.is_finite and probe.is_real):
-                where = f"is not regular at {variable} = {point}, so it cannot be guarded"
-                raise EmissionError(f"branch {value} of {node} {where}")
-        guard, held = self._print(variable)[0], self._print(point)[0]
-        for condition, holds in facts:
-            test = self._print(condition)[0]
-            guard = f"if_else({test}, {guard}, {held})" if holds else f"if_else({test}, {held}, {guard})"
-        stand_in = sp.Dummy(variable.name, **variable.assumptions0)
-        self._stand_ins[stand_in] = guard
-        return self._print(value.subs(variable, stand_in))[0]
-
-
-def _inside(variable: sp.Symbol, facts: list[tuple[sp.Basic, bool]]) -> sp.Expr:
-    """A point inside the range given by the conditions, away from its ends."""
-    above = [c.rhs for c, holds in facts if (type(c) in (sp.StrictGreaterThan, sp.GreaterThan)) == holds]
-    below = [c.rhs for c, holds in facts if (type(c) in (sp.StrictLessThan, sp.LessThan)) == holds]
-    low = above[0] if len(above) == 1 else sp.Max(*above) if above else None
-    high = below[0] if len(below) == 1 else sp.Min(*below) if below else None
-    if low is None:
-        assert high is not None
-        return high / 2 if variable.is_positive else high - 1
-    return low + 1 if high is None else (low + high) / 2
 
 
 def _decimal(value: sp.Rational) -> str | None:

@@ -154,7 +154,7 @@ def effects_header(provenance: str, user_events: Sequence[Event] = ()) -> str:
     body = ["switch (event) {"]
     for event in automaton.EVENTS:
         lines_of = [f"case {event_name(event)}:", *(f"    {line}" for line in _effect(event)), "    break;"]
-        body += ["#if RUBS", *lines_of, "#endif"] if dict(event.where).keys() & {"rolling"} else lines_of
+        body += ["#if ROLLS", *lines_of, "#endif"] if dict(event.where).keys() & {"rolling"} else lines_of
     for event in user_events:
         body += [f"case {event_name(event)}:", *(f"    {line}" for line in _own_effect(event)), "    break;"]
     body.append("}")

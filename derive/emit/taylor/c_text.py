@@ -98,7 +98,7 @@ class Text:
             return f"1.0/{self._at_least(sp.Pow(base, -exponent), _ATOM)}", _MUL
         if exponent.is_Integer and 2 <= exponent <= 4:
             return "(" + "*".join([self._at_least(base, _ATOM)] * int(exponent)) + ")", _ATOM
-        return f"vec_exp({self._at_least(exponent, _ATOM)}*vec_log({self(base)}))", _ATOM
+        return f"vec_exp({self._at_least(exponent, _ATOM)}*vec_log({self.vector(base)}))", _ATOM
 
 
 def _roots_together(node: sp.Mul) -> list[sp.Expr]:
@@ -204,7 +204,7 @@ class Constants:
             return self.name(rest)
         if rest not in self._hoisted:
             name, count = hint, 1
-            while name in self.prepared:
+            while name in self.prepared or f"{self._place}{name}" in self._places.values():
                 count += 1
                 name = f"{hint}_{count}"
             self.prepared[name] = rest
@@ -239,6 +239,8 @@ class Recurrences:
 
     def _factors(self, operation: Operation) -> list[str]:
         hints = [f"{operation.name}_factor"]
+        if operation.kind == "power":  # its exponent is an argument of a function of vectors
+            return [self.constants.vector(operation.factors[0], hints[0])]
         if operation.kind == "linear":
             hints = [f"{operation.name}_per_{series}" for series in operation.series] + [f"{operation.name}_offset"]
         return [self.constants.factor(factor, hint) for factor, hint in zip(operation.factors, hints, strict=False)]

@@ -112,7 +112,7 @@ def _find_at_rest() -> list[str]:
         "OUTLINE void find_events_at_rest(const rubbing *r, const lanes *l, vec h, first_event *first)",
         [line.replace("look(&first", "look(first") for line in body],
     )
-    return [*compiled_if("RUBS", lines[:-1]), ""]
+    return [*compiled_if("ROLLS", lines[:-1]), ""]
 
 
 def _search(event: Event) -> list[str]:

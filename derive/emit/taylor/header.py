@@ -18,7 +18,7 @@ from .closed_forms import WORKS, attracting, edge_function, momentum_functions, 
 from .groups_from_si import scale_function
 from .guards import series_of_guards
 from .layout import comment, compiled_if, documented, function, struct
-from .ledger import Ledger
+from .ledger import BOOKED, Ledger
 from .own_events import own_event_functions
 from .program import Program
 from .resting import FLAGS as RUBBING
@@ -68,9 +68,9 @@ class Header:
         self.recurrences = Recurrences(
             self.flow, self.constants, lambda name: f"s->{name}", passing=self.flow.passing(self._work_operations)
         )
-        self.ledger = Ledger(model, self.flow, self.recurrences, self.constants)
-        rubs = model.structure.friction and model.structure.partner != "space"
-        self.resting = self._resting() if rubs else None
+        self.resting = self._resting() if model.structure.friction else None
+        booked = self.resting.ledger.constants if self.resting else self.constants.beside(BOOKED)
+        self.ledger = Ledger(model, self.flow, self.recurrences, booked, {friction.SLIDING: 0})
 
     # ---- programs
 
@@ -81,11 +81,14 @@ class Header:
     def _resting(self) -> Resting:
         """The motion in resting contact with friction."""
         turns = self.model["turning_rate"].outputs if self.turning is not None else ()
-        outputs = [*self.model["resting_rates"].outputs, ("slip", friction.DRY_SLIP), *self.model["dry_forces"].outputs]
+        outputs = [*self.model["resting_rates"].outputs]
+        if "dry_forces" in self.model:
+            outputs += [("slip", friction.DRY_SLIP), *self.model["dry_forces"].outputs]
         outputs += [("reaction", self.model["inward_force"]["inward_force"]), *turns]
         program = Program.for_outputs(self.model.states, (value for _, value in outputs), self.model.definitions)
         result = {key: program.result(expression, f"rate_of_{key}") for key, expression in outputs}
-        return Resting(self.model, program, self.constants, result, result[turns[0][0]] if turns else None)
+        turning = result[turns[0][0]] if turns else None
+        return Resting(self.model, program, self.constants, result, turning)
 
     # ---- the complete header
 
@@ -335,7 +338,7 @@ class Header:
         lines = [f"enum {{ {', '.join(name.upper() for name in impulses)}, IMPULSES }};"]
         lines += self._vector("dry_slip", "found", impulses)
         lines += ["enum { GRIP_LIMIT, HOLDING, DRY_FORCES };"]
-        if self.resting:
+        if "dry_forces" in model:
             head = "static inline void dry_forces(const constants *c, const vec *y, vec film, vec shear, vec *found)"
             forces = self._value("dry_forces", head, {"limit": "found[GRIP_LIMIT]", "holding": "found[HOLDING]"})
             forces.insert(forces.index("{") + 1, "    (void)film; (void)shear; /* some models have no edge */")

@@ -3,6 +3,7 @@
 A structure calls a law through its slot (`bridge_force_next`), so every law of a slot fits every structure.
 """
 
+from collections.abc import Sequence
 from collections.abc import Set as AbstractSet
 
 import sympy as sp
@@ -57,14 +58,14 @@ def _function(law: Law, each: LawFunction, series: tuple[bool, ...]) -> list[str
     moving = tuple(argument for argument, moved in zip(each.arguments, series, strict=True) if moved)
     fixed = tuple(argument for argument in each.arguments if argument not in moving)
     name = f"{law.slot}_{each.name}"
-    intermediates, _ = needed([each.result], each.definitions)
+    intermediates, _ = needed([each.result, *(kink for kink, _ in each.kinks)], each.definitions)
     if not moving:
         return _plain(name, each)
     if (law.slot, each.name) in COMPARED:
         return _clearance(name, each, intermediates, moving, fixed)
     program, result = cheapest(each.result, intermediates, moving)
     constants = Constants({argument: f"c->{argument.name}" for argument in fixed})
-    lines = _recurrences(name, each.doc, program, result, constants, moving)
+    lines = _recurrences(name, each.doc, program, result, constants, moving, [kink for kink, _ in each.kinks])
     if each.falls:
         lines += [f"#define {name.upper()}_FALLS 1 /* never increases with its first argument */", ""]
     integral = _closed_integral(law, each, intermediates, moving, constants)
@@ -86,7 +87,13 @@ def _constants(name: str, constants: Constants, fixed: tuple[sp.Symbol, ...]) ->
 
 
 def _recurrences(
-    name: str, doc: str, program: Program, result: str | sp.Expr, constants: Constants, moving: tuple[sp.Symbol, ...]
+    name: str,
+    doc: str,
+    program: Program,
+    result: str | sp.Expr,
+    constants: Constants,
+    moving: tuple[sp.Symbol, ...],
+    kinks: Sequence[sp.Symbol] = (),
 ) -> list[str]:
     recurrences = Recurrences(program, constants, lambda series: series)
     value: str
@@ -97,11 +104,17 @@ def _recurrences(
     else:
         ending, value = [f"s->result[k] = {recurrences.array(result)}[k];"], result
     fields = recurrences.fields() + (["vec result[TERMS];"] if ending else [])
+    places = {kink.name: recurrences.array(program.series(kink)) for kink in kinks}
+    for kink, array in places.items():
+        if array != f"s->{kink}":  # of an argument, or of a part that has its own name
+            fields.append(f"vec {kink}[TERMS];")
+            ending.append(f"s->{kink}[k] = {array}[k];")
     series = "".join(f", const vec *{argument.name}" for argument in moving)
     values = "".join(f", vec {argument.name}" for argument in moving)
     unused = "".join(f"(void){argument.name}; " for argument in moving) + "(void)c;"
     return [
         *struct(f"{name}_series", fields),
+        *([f"#define {name}_kinks(s) {', '.join(f'(s)->{kink}' for kink in places)}", ""] if places else []),
         *documented(
             f"{doc} Coefficient k of its series; products of series: {program.cost:g}.",
             f"INLINE void {name}_next({name}_series *s, const {name}_constants *c{series}, int k)",

@@ -99,16 +99,25 @@ def factored(expression: sp.Expr) -> tuple[sp.Expr, ...]:
     return tuple(forms)
 
 
-def _series(name: str, each: LawFunction, moving: tuple[sp.Symbol, ...]) -> list[str]:
-    kept, _ = needed([each.result], each.definitions)
-    value, _ = cheapest(each.result, kept, moving)
-    law_series = {operation.name for operation in value.operations}
+def slope_program(
+    each: LawFunction, moving: tuple[sp.Symbol, ...]
+) -> tuple[Program, str | sp.Expr, Program, dict[sp.Symbol, str | sp.Expr]]:
+    """The program of a function and its result, its continuation by the slopes, and these by argument."""
+    kept, _ = needed([each.result, *(kink for kink, _ in each.kinks)], each.definitions)
+    value, result = cheapest(each.result, kept, moving)
     program, chain = value.continued(), Chain(kept)
     slopes = {argument: chain.by(each.result, argument) for argument in each.arguments}
     for symbol, expression in chain.named:
         program.define(symbol, expression)
-    forms = {argument: (slope, sp.factor(slope)) for argument, slope in slopes.items()}
+    rounds = any(value.is_Number for _, value in kept)  # a kink's width: sympy factors such expressions for minutes
+    forms = {argument: (slope,) if rounds else (slope, sp.factor(slope)) for argument, slope in slopes.items()}
     results = {argument: shortest(program, each, _by(argument)) for argument, each in forms.items()}
+    return value, result, program, results
+
+
+def _series(name: str, each: LawFunction, moving: tuple[sp.Symbol, ...]) -> list[str]:
+    value, _, program, results = slope_program(each, moving)
+    law_series = {operation.name for operation in value.operations}
     places = {symbol: f"v->{symbol.name}" for symbol in (*each.arguments, *value.named) if symbol not in moving}
     constants = Constants(places)
     recurrences = Recurrences(program, constants, lambda series: f"of->{series}" if series in law_series else series)

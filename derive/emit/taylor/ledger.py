@@ -19,13 +19,17 @@ from .program import Program
 # Terms of the ledger with a series of their own; the work against all attractions together is a state already.
 TERMS = {
     "normal_lubrication": "normal_loss", "tangential_lubrication": "tangential_loss", "attraction": "attraction_work",
+    "dry_friction": "friction_loss",
 }  # fmt: skip
 _MEANING = {
     "normal_loss": "energy dissipated by the normal force of the film, over m v0^2",
     "tangential_loss": "energy dissipated by the tangential force, over m v0^2",
     "attraction_work": "work against van der Waals forces, over m v0^2",
+    "friction_loss": "energy dissipated by the friction of the dry contact, over m v0^2",
 }
 _FLAG = "WITH_LEDGER"
+BOOKED = "c->ledger."
+"""Place of the ledger's constants."""
 
 
 class Valued(Protocol):
@@ -42,25 +46,30 @@ class Valued(Protocol):
 
 
 class Ledger:
-    """The ledger parts of one structure's header; empty for structures without a ledger.
+    """The ledger parts of one structure's header, in motion or at rest; empty for structures without a ledger.
 
     Arguments:
         flow: the program of the right-hand side, whose series are shared.
-        made: its recurrences.
-        constants: those of the structure; constants of the ledger are stored separately.
+        recurrences: its recurrences.
+        constants: of the ledger, which are stored separately.
+        mode: values of what the mode of motion holds.
     """
 
-    def __init__(self, model: Model, flow: Program, recurrences: Recurrences, constants: Constants) -> None:
+    def __init__(
+        self, model: Model, flow: Program, recurrences: Recurrences, constants: Constants, mode: Mapping[sp.Symbol, int]
+    ) -> None:
         self.model = model
         self.there = not model.structure.reduced
-        self.constants = constants.beside("c->ledger.")
+        self.constants = constants
         self.program = flow.continued()
-        rates = {TERMS[key]: rate for key, rate in model["energy_rates"].outputs if self.there and key in TERMS}
+        rates = {
+            TERMS[key]: rate.subs(mode) for key, rate in model["energy_rates"].outputs if self.there and key in TERMS
+        }
         more, _ = needed(list(rates.values()), model.definitions)
         for symbol, expression in more:  # intermediates that the equations of motion do not use
             if symbol not in flow.named and not flow.moves(symbol):
                 self.program.define(symbol, expression)
-        self._rates = {name: self.program.series(sp.sympify(rate), f"rate_of_{name}") for name, rate in rates.items()}
+        self._rates = {name: self.program.result(rate, f"rate_of_{name}") for name, rate in rates.items()}
         if any(operation.kind == "call" for operation in self.program.operations):
             raise EmissionError(f"{model.structure.name}: the ledger calls a law that the equations of motion do not")
         self.recurrences = Recurrences(self.program, self.constants, recurrences.array)
@@ -90,7 +99,9 @@ class Ledger:
     def coefficients(self) -> list[str]:
         """Coefficient k of the ledger's series and k + 1 of its states."""
         lines = self.recurrences.lines()
-        lines += [f"s->{name}[k + 1] = {self.recurrences.array(rate)}[k]*next;" for name, rate in self._rates.items()]
+        for name, rate in self._rates.items():
+            value = f"{self.recurrences.array(rate)}[k]*next" if isinstance(rate, str) else "splat(0.0)"
+            lines.append(f"s->{name}[k + 1] = {value};")
         return compiled_if(_FLAG, lines)
 
     def constants_struct(self) -> list[str]:

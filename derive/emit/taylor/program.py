@@ -171,6 +171,8 @@ class Program:
             return self._add(kind, (inner,), name, f"{kind}_of_{inner}")
         if isinstance(node, (sp.sin, sp.cos)):
             return self._sine_or_cosine(node, name)
+        if isinstance(node, sp.tan):
+            return self.series(sp.sin(node.args[0]) / sp.cos(node.args[0]), name)
         if isinstance(node, (sp.sinh, sp.cosh, sp.tanh)):
             return self.series(node.rewrite(sp.exp), name)
         raise EmissionError(f"no Taylor recurrence for {type(node).__name__}: {node}")

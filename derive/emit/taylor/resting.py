@@ -10,13 +10,16 @@ import sympy as sp
 
 from ...equations import friction
 from ...equations.model import Model
+from ...vocabulary.quantities import normal_velocity
 from .c_text import Constants, Recurrences
 from .layout import comment, compiled_if, documented, struct
+from .ledger import BOOKED, Ledger
 from .program import Program
 
 FLAGS = (friction.SLIDING, friction.ROLLING)
-SERIES = ("slip", "limit", "holding", "reaction")
+SERIES = ("slip", "limit", "holding", "reaction")  # the last alone in space, where a creep takes the place of rolling
 GRIPS = {"grip_backward": "-", "grip_forward": "+"}  # largest friction less the one that acts, in both directions
+_ARGUMENTS = "rubbing *s, const constants *c, vec film, vec shear, vec sliding, vec rolling, int k"
 # Fields of the states that are integrals along a trajectory
 QUADRATURES = (
     *compiled_if("CAPILLARY_STATE", ["vec capillary_work[TERMS];"]),
@@ -43,14 +46,19 @@ class Resting:
     ) -> None:
         self.model, self.results, self.turning = model, results, turning
         self.recurrences = Recurrences(program, constants, lambda name: f"s->{name}")
+        self.ledger = Ledger(model, program, self.recurrences, constants.beside(BOOKED), {normal_velocity: 0})
+        self._series = [name for name in SERIES if name in results]
+        self._grips = GRIPS if "holding" in results else {}
 
     def struct(self) -> list[str]:
         """The series, those of the states first, in their order."""
         fields = [f"vec {state.name}[TERMS];" for state in self.model.states]
         fields += [
             *QUADRATURES,
+            *self.ledger.states(),
             *self.recurrences.fields(),
-            *(f"vec rest_{name}[TERMS];" for name in (*SERIES, *GRIPS)),
+            *self.ledger.series(),
+            *(f"vec rest_{name}[TERMS];" for name in (*self._series, *self._grips)),
         ]
         return [*comment("Series of resting contact with friction."), *struct("rubbing", fields)]
 
@@ -66,21 +74,25 @@ class Resting:
                 "Coefficient k of the series that follow from the states, at last of the slip, of Coulomb's limit, of "
                 "the force that holds rolling surfaces together, and of the reaction. Sliding has the sign of the slip "
                 "or is 0, rolling is 1 or 0.",
-                "INLINE void rubbing_coefficients(rubbing *s, const constants *c, vec film, vec shear, vec sliding, "
-                "vec rolling, int k)",
+                f"INLINE void rubbing_coefficients({_ARGUMENTS})",
                 [
                     "(void)film; (void)shear; (void)sliding; (void)rolling;",
                     *self.recurrences.lines(),
-                    *(f"s->rest_{name}[k] = {rate(self.results[name])};" for name in SERIES),
+                    *(f"s->rest_{name}[k] = {rate(self.results[name])};" for name in self._series),
                     *(
                         f"s->rest_{name}[k] = s->rest_limit[k] {sign} s->rest_holding[k];"
-                        for name, sign in GRIPS.items()
+                        for name, sign in self._grips.items()
                     ),
                 ],
             ),
             *documented(
                 "Coefficient k + 1 of the states.",
-                "INLINE void rubbing_next(rubbing *s, const constants *c, int k)",
-                ["(void)c;", "double next = 1.0/(k + 1);", *rates],
+                f"INLINE void rubbing_next({_ARGUMENTS})",
+                [
+                    "(void)c; (void)film; (void)shear; (void)sliding; (void)rolling;",
+                    "double next = 1.0/(k + 1);",
+                    *rates,
+                    *self.ledger.coefficients(),
+                ],
             ),
         ]

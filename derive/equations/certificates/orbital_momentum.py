@@ -24,6 +24,8 @@ potential of the attractions (in the functions below distances are over a):
 With the lever arm at mid-gap, G + slip energy is the energy above the least one with this L at d.
 """
 
+from dataclasses import replace
+
 import sympy as sp
 
 from ...physics.laws.base import Definition
@@ -32,11 +34,17 @@ from ...physics.scaling import DISTANCE, nondimensional
 from ...physics.structure import Structure
 from ...vocabulary.quantities import a, m, orbital_momentum, rate_scale, spin, v0, x
 from ..intermediates import SLIP
-from .attraction import admits  # noqa: F401 -- it covers what the attraction certificate covers
+from . import attraction
 from .pendulum import Functions
 
 RIGID = sp.Symbol("rigid_share", nonnegative=True)  # 1/(rho/a + surface_exchange), with omega = xi at the distance rho
 UNIT = sp.Symbol("rotation_energy_unit", positive=True)  # m a^2 Omega^2 over m v0^2
+
+
+def admits(structure: Structure) -> bool:
+    """True for what the attraction certificate covers, and on strings with friction, where the test is no proof."""
+    rubs = bool(structure.friction) and structure.strings
+    return attraction.admits(replace(structure, friction="") if rubs else structure)
 
 
 def spheres_inertia() -> sp.Expr:

@@ -20,6 +20,7 @@ class LawFunction:
         for_proof: used by a stick certificate only. A law may lack it; then that certificate is not available.
         falls: the function does not increase with its first argument (proved in `checks`), as certificates require.
         references: its publications, if not those of the law.
+        kinks: of a user's law, the definitions that vanish at a kink, each with the one that is its sign.
     """
 
     name: str
@@ -30,6 +31,7 @@ class LawFunction:
     for_proof: bool = False
     falls: bool = False
     references: tuple[Reference, ...] = ()
+    kinks: tuple[tuple[sp.Symbol, sp.Symbol], ...] = ()
 
     def __post_init__(self) -> None:
         known = set(self.arguments)

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from matplotlib.figure import Figure
 
 from ....generated.automaton import STICK
-from ...formatting.style import picture, plain_text
+from ...formatting.style import LONGEST, picture, plain_text, title
 from ..outcome import Outcome
 from ..text import against, is_followed_on, name_of, prefix, reason, stopped
 from .frames import Frame, frames
@@ -30,7 +30,7 @@ def draw(collision: Outcome) -> Figure:
     strip = min(_STRIP * high / across, 2.0) + 0.45
     figure = Figure(figsize=(WIDTH, 1.0 + strip + rows * _ROW + 0.75 * bool(rows)), layout="constrained")
     grid = figure.add_gridspec(1 + bool(rows), 1, height_ratios=[rows * _ROW + 0.75, strip] if rows else [strip])
-    figure.suptitle(_title(collision))
+    title(figure, _title(collision))
     if rows:
         time_panels(figure, grid[0], collision, rows, pictures)
     axes = figure.add_subplot(grid[-1])
@@ -50,7 +50,7 @@ def _short(value: float) -> str:
 
 
 def _title(collision: Outcome) -> str:
-    name = plain_text(name_of(collision.scene)) + against(collision.scene)
+    name = plain_text(name_of(collision.scene, LONGEST)) + against(collision.scene)
     impact = f"St {collision.stokes:.4g}, {math.degrees(collision.angle):.4g}°{_spins(collision)}"
     numbers = f"{impact}, $e_n$ = {collision.restitution:.4g}"
     parts = [reason(collision), stopped(collision) if collision.outcome == "stick" else ""]
@@ -79,7 +79,7 @@ def _note(collision: Outcome, pictures: Sequence[Frame]) -> str:
 
 
 def _caption(frame: Frame, collision: Outcome, latest: float, last: Frame) -> str:
-    factor, unit = prefix(latest)
+    factor, unit = prefix(max(latest, frame.time))
     time = "initial contact" if frame.time == 0 else f"{_short(frame.time / factor)} {micro(unit + 's')}"
     moved = ""
     if _turns(collision) and frame.wall:

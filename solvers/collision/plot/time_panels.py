@@ -29,6 +29,7 @@ _NEXT = 2.6  # this column extends to the next event if that comes within this m
 _DECADE = 10.0  # gaps whose largest and smallest values differ by more are drawn on a logarithmic axis
 _LETTER = 0.078  # width of a character of an event's label, inches
 _MANY, _LABELS = 50, 6  # most lines and labels of events in a column
+_RATES = ("rotation_rate", "spin", "spin_partner")
 
 
 @dataclass(frozen=True)
@@ -64,7 +65,7 @@ def time_panels(figure: Figure, place: Any, collision: Outcome, rows: int, pictu
     for column in columns:
         _fill(column, collision, rows, last=column is whole)
         _events(column, collision)
-    _match(columns, time, np.asarray(data["normal_velocity"]))
+    _match(columns, time)
     for row, text in ((0, "a"), (2, "b")):
         if row < rows:
             letter(panels[0][row], text)
@@ -94,22 +95,26 @@ def _fill(column: Column, collision: Outcome, rows: int, last: bool) -> None:
     factor, unit = column.unit
     time = np.asarray(data["time"]) / factor
     _gap(column.panels[0], time, np.asarray(data["gap"]), collision, last)
-    velocity = column.panels[1]
-    size, name = prefix(float(np.max(np.abs(data["normal_velocity"]))))
-    velocity.plot(time, np.asarray(data["normal_velocity"]) / size, color=ORANGE)
+    velocity, approach = column.panels[1], [-collision.speed]  # also where it ends at first touch
+    size, name = prefix(float(np.max(np.abs([*approach, *data["normal_velocity"]]))))
+    normal = np.concatenate([approach, data["normal_velocity"]]) / size
+    velocity.plot(np.concatenate([time[:1], time]), normal, color=ORANGE)
     velocity.axhline(0, color=GREY, linewidth=0.6)
     velocity.set_ylabel(f"normal\nvelocity ({micro(name + 'm/s')})")
     if rows == 4:
         rates, angle = column.panels[2:]
+        most = max(float(np.max(np.abs(data[each]))) for each in _RATES if each in data)
+        size, name = next((unit for unit in ((1e6, "M"), (1e3, "k")) if most > 10 * unit[0]), (1.0, ""))
         pair, wall = "spin_partner" in data, collision.scene.wall
         if not wall:
-            rates.plot(time, data["rotation_rate"], color=GREEN, label="ω, line of centres")
+            rates.plot(time, np.asarray(data["rotation_rate"]) / size, color=GREEN, label="ω, line of centres")
         label = "ξ, sphere" if pair or wall else "ξ, each sphere"
-        rates.plot(time, data["spin"], color=PURPLE, linestyle=(0, (5, 1.5)), label=label)
+        rates.plot(time, np.asarray(data["spin"]) / size, color=PURPLE, linestyle=(0, (5, 1.5)), label=label)
         if pair:
-            rates.plot(time, data["spin_partner"], color=ORANGE, linestyle=(0, (1, 1)), label="ξ, partner")
+            partner = np.asarray(data["spin_partner"]) / size
+            rates.plot(time, partner, color=ORANGE, linestyle=(0, (1, 1)), label="ξ, partner")
         rates.axhline(0, color=GREY, linewidth=0.6)
-        rates.set_ylabel(f"rotation\nrate{'s' * (not wall)} (rad/s)")
+        rates.set_ylabel(f"rotation\nrate{'s' * (not wall)} ({name}rad/s)")
         if wall:  # a wall has no rotating line of centres; show the distance moved along it
             size, name = prefix(float(np.max(np.abs(data["sliding_velocity"]))))
             angle.plot(time, np.asarray(data["sliding_velocity"]) / size, color=INK)
@@ -213,26 +218,21 @@ def _grouped(marks: Sequence[tuple[float, str]], near: float) -> list[tuple[floa
     return labels
 
 
-def _match(columns: Sequence[Column], time: np.ndarray, velocity: np.ndarray) -> None:
-    """Give both columns the same scales, except the velocity after the approach, which is often much smaller."""
+def _match(columns: Sequence[Column], time: np.ndarray) -> None:
+    """Give both columns the same scales, except of the angle, which is small in the approach."""
     if len(columns[0].panels) > 2:
         columns[-1].panels[2].legend(fontsize=7.5, frameon=False, loc="best")
     if len(columns) == 1:
         return
     zoomed, whole = columns
     for row, panel in enumerate(zoomed.panels):
-        if row == 3:  # the angle has its own scale in each column as well
+        if row == 3:
             turned = np.asarray(panel.lines[0].get_ydata())[time <= zoomed.end * (1 + 1e-9)]
             panel.set_ylim(-0.08 * turned.max(), 1.12 * turned.max())
-        elif row != 1:
+        else:
             whole.panels[row].sharey(panel)
             whole.panels[row].tick_params(labelleft=False)
         whole.panels[row].set_ylabel("")
-    later = velocity[time >= whole.shaded]
-    scale = prefix(float(np.max(np.abs(velocity))))[0]
-    low, high = min(float(np.min(later)), 0.0) / scale, max(float(np.max(later)), 0.0) / scale
-    room = 0.15 * (high - low) or 1.0
-    whole.panels[1].set_ylim(low - room, high + room)
 
 
 def letter(axes: Axes, text: str) -> None:

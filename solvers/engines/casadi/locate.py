@@ -44,7 +44,7 @@ from ...certificates import (
 )
 from ...errors import CheckFailed, ComputationError
 from ...model.model import Model
-from ...model.phases import Flow, Phase, WatchedEvents
+from ...model.phases import Flow, Phase, WatchedEvents, kinks_along
 from ...model.rebound import rebounded
 from ...scene.contact import contact_gap, contact_word
 from ...scene.user_model import OwnEvent
@@ -61,6 +61,7 @@ _DOUBLED, _MORE = 2.0, 64  # the same where a certificate is tried after each, a
 _NOW_AND_THEN = 20  # phases of chatter between two checks of the certificate
 _STANDSTILL = 1e-100  # in v0; CasADi's Rosenbrock divides by squares of slopes, which underflow
 _STRONG = 1e4  # square root of a force over m v0^2/x0
+_ON_KINK = 1e-11  # of a guard: below it the side is that towards which it changes
 _EVENT_OF = {event.name: event for event in EVENTS}
 _GAP, _VELOCITY = 0, 1  # indices in the state
 
@@ -205,8 +206,6 @@ class EventLocator:
         why, remedy = CREEPS, "a larger --rtol, or "
         if self.phase.resting:
             why = RESTS
-            if not (self.model.space and self.model.friction):  # the kernel has no such rest in space
-                remedy = f"engine taylor, {remedy}"
         elif phases > min(CHATTER_PHASES, most // (4 * CALL)):
             why, remedy = CHATTERS, ""  # which no tolerance shortens
         return self._error(
@@ -239,7 +238,25 @@ class EventLocator:
                 watched = all(getattr(self.phase, part) == value for part, value in each.row.where)
                 if watched and self.y[mark] > 0.5 and values[each.name] <= 0:
                     return self._own_event(each, 0.0, None)
+        self._choose_sides()
         return self._run_phase()
+
+    def _choose_sides(self) -> None:
+        """The side of every kink in the phase that begins: of one that is met, that towards which its guard changes."""
+        model = self.model
+        if not model.kinks:
+            return
+        sides = self.phase.sides or (1,) * len(model.kinks)
+        for _ in range(2):
+            self.phase = self.phase.with_(sides=sides)
+            guards, rates = kinks_along(self._flow())(self.y, self.p).full().T
+            sides = tuple(np.where(np.where(abs(guards) > _ON_KINK, guards, rates) < 0, -1, 1).tolist())
+        if sides != self.phase.sides and not self.phase.resting:
+            where = ", ".join(name for name, one, other in zip(model.kinks, sides, self.phase.sides) if one != other)
+            raise self._error(
+                f"the motion stays on a step of a law's force ({where})",
+                "write the step as a steep slope, as tanh(u/u0)",
+            )
 
     def _proved(self, elapsed: float) -> bool:
         """True if the collision ends here as a stick, by a certificate or by energy."""
@@ -326,13 +343,14 @@ class EventLocator:
         CasADi may report a later one, or none beside the minimum of another function. The gap is monotone within a
         phase, so every function of it that is negative at the stop has one earlier zero.
         """
+        rows = (row.name for row in self.model.events if not row.dips or row not in EVENTS)
         crossed = [
-            self._refined(find, stop, row.name, level)
-            for row in self.model.events
-            if (not row.dips or row not in EVENTS)
-            and row.name in find.events
-            and row.name != stop.event
-            and find.value(row.name, stop.y, self.p, self.phase.motion, level) < 0
+            self._refined(find, stop, name, level)
+            for name in (*rows, *self.model.kinks)
+            if name in find.events
+            and name != stop.event
+            and find.value(name, stop.y, self.p, self.phase.motion, level)
+            < (-_ON_KINK if name in self.model.kinks else 0)
         ]
         return min(crossed, key=lambda hit: hit.time, default=stop)
 
@@ -355,6 +373,9 @@ class EventLocator:
         return EventHit(event, after, y_after, False)
 
     def _happens(self, name: str, elapsed: float) -> bool:
+        if name in self.model.kinks:
+            self._next(PhaseRun(self.phase, elapsed, name, ()))
+            return False
         own = next((each for each in self.model.own_events if each.name == name), None)
         return self._own_event(own, elapsed, name) if own else self._act(_EVENT_OF[name], elapsed)
 

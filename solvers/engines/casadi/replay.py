@@ -164,7 +164,7 @@ def _integrate_onto_event(
     motion = float(step.phase.motion)
     parameters = np.append(p, [motion, 0.0])
     duration = step.duration
-    size = next(event.scale for event in flow.model.events if event.name == step.event)
+    size = next((each.scale for each in flow.model.events if each.name == step.event), "")  # of a kink: 1
     scale = float(p[list(flow.model.groups).index(size)]) if size else 1.0
     nearer = np.inf
     for _ in range(_TRIES):

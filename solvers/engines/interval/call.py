@@ -110,4 +110,4 @@ def enclose(engine: Engine, ranges: Mapping[str, Range], moving: tuple[str, ...]
     engine.library.interval_prove(*data)
     outcome, why, steps, rebounds, _, low, high, gap, panels, spread = result.tolist()
     counts = (int(panels), int(spread))
-    return Enclosure(int(outcome), Why(int(why)), int(steps), int(rebounds), (low, high), gap, *counts)
+    return Enclosure(int(outcome), Why(int(why)), int(steps), int(rebounds), (low + 0.0, high), gap, *counts)  # no -0.0

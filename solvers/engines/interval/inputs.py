@@ -2,22 +2,26 @@
 
 from __future__ import annotations
 
+import itertools
 import math
-from collections.abc import Mapping
+from collections.abc import Container, Mapping, Sequence
 from dataclasses import dataclass
 
 from ...errors import InputError
 from ...host.arguments import check_mapping
 from ...model.model import select_model
-from ...scene.groups import si_values
+from ...scene.held import impact_quantity
+from ...scene.quantities import quantities
 from ...scene.scene import Scene
-from ...scene.user_model import fields
+from ...scene.schema import ALTERNATIVES
 from .build import Engine, NotProvable, engine
 from .call import Range
 
 Within = float | Mapping[str, float | tuple[float | str, float | str]]
-MOST = 6  # entries of a box
+MOST = 6  # entries of a box, and quantities that they move
 _ACCEPTED = "LO and HI of one unit, LO below HI, or a relative uncertainty such as 1e-4"
+_READ = 2.0**-50  # above the rounding of an end that is read, relative
+_COMPUTED = 2.0**-48  # above that of a quantity that is computed from entries
 
 
 @dataclass(frozen=True)
@@ -25,11 +29,13 @@ class Inputs:
     """What a proof is about.
 
     Arguments:
+        box: low and high of the entries that are not exact, SI, as the scene gives them.
         ranges: low and high of each quantity, SI; the same number twice where it is exact.
         moving: the quantities that are not exact.
     """
 
     scene: Scene
+    box: Mapping[str, Range]
     ranges: Mapping[str, Range]
     moving: tuple[str, ...]
 
@@ -37,72 +43,37 @@ class Inputs:
     def of(cls, scene: Scene, within: Within | None = None) -> Inputs:
         """The stored numbers of a scene, or the box around them.
 
+        Every quantity is monotone in every entry, so that corners have its least and its largest value. The number by
+        which the scene gives the impact's speed stays where the box does not name it.
+
         Arguments:
-            within: relative uncertainty of the impact (Stokes number or speed, and angle), or by entry: a relative
-                uncertainty, or both ends.
+            within: relative uncertainty of the impact (its speed as the scene gives it, and angle), or by entry: a
+                relative uncertainty, or both ends.
 
         Raises:
-            InputError: an entry that is no number, an end that is not admissible, an empty or reversed range.
+            InputError: an entry that the scene does not have or that is no number, an empty or reversed range, a corner
+                that is no admissible scene.
         """
-        speed, angle = scene.need_impact()
-        values = dict(si_values(scene, speed, angle))
-        entry = scene.impact.stokes
-        if entry is not None and scene.speed_of(entry) == speed:  # as it was given, without rounding the speed
-            values["stokes"] = entry
-        first = "stokes" if "stokes" in values else "speed"
-        ranges = {name: (value, value) for name, value in values.items()}
-        if within is None:
-            return cls(scene, ranges, ())
-        if isinstance(within, Mapping):
-            check_mapping(within, "within", "ranges by dotted name")
-            moved = dict(cls._range(scene, name, width, values) for name, width in within.items())
-        else:
+        given = impact_quantity(scene)
+        entries = {**scene.entries, "impact.angle": scene.need_impact()[1]}
+        if within is not None and not isinstance(within, Mapping):
             part = _relative(within, "within")
-            moved = {name: _around(values[name], part) for name in (first, "angle") if values[name]}
-            if moved.get("angle", (0.0, 0.0))[1] >= math.pi / 2:
-                raise InputError("within", within, "an uncertainty that keeps the angle below 90 deg")
-        if len(moved) > MOST:
-            raise InputError("within", len(moved), f"at most {MOST} entries")
-        return cls(scene, ranges | moved, tuple(name for name, (low, high) in moved.items() if low < high))
-
-    @staticmethod
-    def _range(scene: Scene, name: str, width: object, values: Mapping[str, float]) -> tuple[str, Range]:
-        known = fields(scene.package)
-        if name not in known:
-            raise InputError("within", name, "entries of a scene file by dotted name", "is not an entry")
-        field, label = known[name], f"within {name}"
-        quantity = {"impact.stokes": "stokes"}.get(name, field.quantity)
-        if not quantity:
-            raise InputError(label, width, "an entry that is a number by itself", "is no range of numbers")
-        absent = {"speed"} if "stokes" in values else set()
-        absent |= set() if scene.pair else {"impact_partner_spin"}
-        if quantity not in values or quantity in absent:
-            raise InputError(label, width, "an entry that this scene has", "is not there")
-
-        def at(end: float) -> dict[str, float]:
-            try:
-                changed = scene.with_entries({name: end / field.factor})
-            except InputError:
-                raise InputError(label, width, "an entry that this scene has", "is not there") from None
-            return {quantity: end, **si_values(changed, *changed.need_impact())}
-
-        times = round(at(values[quantity])[quantity] / values[quantity]) if values[quantity] else 1  # 2 beside a wall
-        if isinstance(width, tuple) and len(width) == 2:
-            low, high = (field.number(end, label=label) * field.factor * times for end in width)
-            if not low < high:
-                raise InputError(label, list(width), _ACCEPTED, "is empty or reversed")
-        else:
-            low, high = _around(values[quantity], _relative(width, label))
-            for end in (low, high):
-                field.number(end / field.factor / times, label=label)
-        for end in (low, high):
-            moved = at(end / times)
-            known_others = values.keys() & moved.keys() - {quantity, *absent}
-            others = sorted(each for each in known_others if moved[each] != values[each])
-            if others or not math.isclose(moved[quantity], end, rel_tol=1e-12):
-                problem = f"decides {others[0]} as well" if others else f"is not {quantity} alone"
-                raise InputError(label, width, "an entry that decides nothing else", problem)
-        return quantity, (low, high)
+            within = {name: part for name in (f"impact.{given}", "impact.angle") if entries[name]}
+        ends = check_mapping(within or {}, "within", "ranges by dotted name")
+        box = {name: _ends(scene, name, width) for name, width in ends.items()}
+        if len(box) > MOST:
+            raise InputError("within", len(box), f"at most {MOST} entries")
+        corners = [dict(zip(box, corner, strict=True)) for corner in itertools.product(*box.values())]
+        values = [_quantities(scene, entries, corner) for corner in corners]
+        exact = {end * scene.fields[name].factor for name, pair in box.items() for end in pair}
+        ranges = {name: _hull([corner[name] for corner in values], exact) for name in values[0]}
+        moving = tuple(name for name, (low, high) in ranges.items() if low < high)
+        if scene.ways.volume == "coating" and {"volume", "radius_ratio"} <= {*moving}:
+            accepted = "entries but the radii, whose volume from coatings need not be monotone"
+            raise InputError("within", list(box), accepted, "moves the ratio of the radii")
+        if len(moving) > MOST:
+            raise InputError("within", len(moving), f"entries that move at most {MOST} quantities")
+        return cls(scene, box, ranges, moving)
 
     def engine(self) -> Engine:
         """The engine that encloses these collisions.
@@ -110,8 +81,6 @@ class Inputs:
         Raises:
             NotProvable: there is none for this scene here.
         """
-        if len({low > 0 for low in (self.ranges["angle"])}) > 1 and not self.scene.wall:
-            raise NotProvable("the box holds head-on and oblique impacts")
         if self.scene.pendulum is not None:
             raise NotProvable("pendulum strings are not enclosed")
         spins = (self.ranges.get(name, (0.0, 0.0)) for name in ("impact_spin", "impact_partner_spin"))
@@ -123,12 +92,62 @@ class Inputs:
         return engine(select_model(self.scene, oblique, fold=True), own, len(self.moving))
 
 
+def _quantities(scene: Scene, entries: Mapping[str, float | str], corner: Mapping[str, float]) -> dict[str, float]:
+    """The quantities at a corner, whose scene must be admissible; of an impact by Stokes number that, and no speed."""
+    try:
+        if corner:
+            scene.with_si(corner, hold=impact_quantity(scene))
+    except InputError as error:
+        problem = f"{error.problem}, at a corner of the box"
+        raise InputError(f"within {error.field}", error.value, error.accepted, problem) from None
+    entries = {**entries, **corner}
+    values = quantities(entries, scene.ways)
+    if "impact.stokes" in entries:
+        values["stokes"] = entries["impact.stokes"]
+        del values["speed"]
+    return values
+
+
+def _ends(scene: Scene, name: str, width: object) -> Range:
+    """Low and high of an entry, SI, as the scene gives it; what reading them rounds is outward."""
+    known, label = scene.fields, f"within {name}"
+    if name not in known:
+        raise InputError("within", name, "entries of a scene file by dotted name", "is not an entry")
+    field, tables = known[name], {entry.partition(".")[0] for entry in scene.entries}
+    value = scene.entries.get(name, field.default if name.partition(".")[0] in tables else None)
+    if isinstance(value, str) or field.choices or field.flag:
+        raise InputError(label, width, "an entry that this scene gives as a number", "is no range of numbers")
+    if value is None:
+        same = [other for ways in ALTERNATIVES if name in ways for other in ways if other in scene.entries]
+        accepted = "an entry that this scene has" + "".join(f": {other}" for other in same)
+        raise InputError(label, width, accepted, "is not there")
+    if isinstance(width, tuple) and len(width) == 2:
+        low, high = (scene.si_number(name, end, label) for end in width)
+        if not low < high:
+            raise InputError(label, list(width), _ACCEPTED, "is empty or reversed")
+    else:
+        away = abs(value) * _relative(width, label)
+        low, high = value - away, value + away
+        if not low < high or not (field.range.holds(low) and field.range.holds(high)):
+            raise InputError(label, width, f"{field.accepts}, at both ends", "is no range around " + repr(value))
+    low, high = _outward(low, high, _READ)
+    return max(low, field.range.low), min(high, field.range.high)
+
+
+def _outward(low: float, high: float, part: float) -> Range:
+    return math.nextafter(low - abs(low) * part, -math.inf), math.nextafter(high + abs(high) * part, math.inf)
+
+
+def _hull(values: Sequence[float], exact: Container[float]) -> Range:
+    """The range of a quantity with these values at the corners, of which those in `exact` are an entry's own."""
+    low, high = min(values), max(values)
+    if low == high:
+        return low, high
+    outer = _outward(low, high, _COMPUTED)
+    return low if low in exact else outer[0], high if high in exact else outer[1]
+
+
 def _relative(width: object, label: str) -> float:
     if isinstance(width, bool) or not isinstance(width, (int, float)) or not 0 < width < 1:
         raise InputError(label, width, _ACCEPTED, "is empty or reversed" if width == 0 else "is no range")
     return float(width)
-
-
-def _around(value: float, part: float) -> Range:
-    away = abs(value) * part
-    return math.nextafter(value - away, -math.inf), math.nextafter(value + away, math.inf)

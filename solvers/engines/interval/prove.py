@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
+from time import perf_counter
 from typing import Any
 
 from ....generated.automaton import OUTCOMES
@@ -28,6 +30,8 @@ class Proof:
         smallest_gap: a bound below the gap up to separation, m; None for a stick, and if nothing is proved.
         steps: of the enclosure.
         ranges: low and high of the quantities that the proof holds for, SI.
+        box: low and high of the entries of the box, SI, as the scene gives them.
+        seconds: wall time of the proof.
 
     Example:
         >>> from wetdoublet.solvers import prove
@@ -42,10 +46,17 @@ class Proof:
     steps: int
     rebounds: int
     ranges: Mapping[str, Range]
+    box: Mapping[str, Range]
     scene: Scene
+    seconds: float = field(compare=False)
+
+    @property
+    def proved(self) -> bool:
+        """True if the outcome is proved, as is the proof itself."""
+        return self.outcome is not None
 
     def __bool__(self) -> bool:
-        return self.outcome is not None
+        return self.proved
 
     def __str__(self) -> str:
         if self.outcome is None or self.restitution is None:
@@ -55,22 +66,22 @@ class Proof:
             lines = [f"proved: {self.outcome}"]
             lines += [f"restitution e_n between {low:.17g} and {high:.17g}"] if high > 0 else []
             lines += [f"{self.rebounds} rebounds, {self.steps} steps of the enclosure"]
-        for name, (low, high) in self.ranges.items():
-            if low < high:
-                lines.append(f"for every {name.replace('_', ' ')} between {low:.10g} and {high:.10g} (SI)")
+        lines += [f"for every {name} between {low:.10g} and {high:.10g} (SI)" for name, (low, high) in self.box.items()]
         return "\n".join(lines)
 
     def to_dict(self) -> dict[str, Any]:
         """The JSON object of `wetdoublet prove --json`."""
         return {
-            "proved": self.outcome is not None,
+            "proved": self.proved,
             "outcome": self.outcome,
             "restitution": None if self.restitution is None else list(self.restitution),
             "reason": self.reason,
             "smallest_gap": self.smallest_gap,
             "rebounds": self.rebounds,
             "steps": self.steps,
+            "seconds": self.seconds,
             "inputs": {name: list(ends) for name, ends in self.ranges.items()},
+            "within": {name: list(ends) for name, ends in self.box.items()},
             **origin(self.scene),
         }
 
@@ -94,8 +105,9 @@ def prove(
         speed: normal speed of the impact instead, m/s or a string with its unit.
         angle: impact angle, rad or a string with its unit.
         relative_speed: magnitude of the relative velocity, in place of the normal speed.
-        within: prove the outcome for a whole box: a relative uncertainty of Stokes number (or speed) and angle, or by
-            entry an uncertainty or both ends, as {"liquid.viscosity": ("1.9 Pa s", "2.1 Pa s")}.
+        within: prove the outcome for a whole box: a relative uncertainty of the impact as the scene gives it (Stokes
+            number or speed, and angle), or by entry an uncertainty or both ends, as
+            {"liquid.viscosity": ("1.9 Pa s", "2.1 Pa s")}. A volume is in m^3 where the scene gives it so.
 
     Raises:
         InputError: an entry, or a box that is empty, reversed or not admissible.
@@ -111,7 +123,7 @@ def prove(
 
 def prove_inputs(inputs: Inputs, digits: bool = True) -> Proof:
     """The proof for inputs that are checked; with `digits` the restitution is enclosed narrowly where that is quick."""
-    x0 = inputs.scene.liquid.film_thickness
+    start, x0 = perf_counter(), inputs.ranges["film_thickness"][0]
     found: Enclosure | None = None
     try:
         engine = inputs.engine()
@@ -127,9 +139,11 @@ def prove_inputs(inputs: Inputs, digits: bool = True) -> Proof:
         outcome=OUTCOMES[found.outcome - 1] if found and proved else None,
         restitution=found.restitution if found and proved else None,
         reason=reason,
-        smallest_gap=found.smallest_gap * x0 if found and found.outcome > 1 else None,
+        smallest_gap=math.nextafter(found.smallest_gap * x0, 0.0) if found and found.outcome > 1 else None,
         steps=found.steps if found else 0,
         rebounds=found.rebounds if found else 0,
         ranges=inputs.ranges,
+        box=inputs.box,
         scene=inputs.scene,
+        seconds=perf_counter() - start,
     )

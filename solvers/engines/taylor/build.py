@@ -15,8 +15,9 @@ from ...host.user_cache import found, has, kept, loaded
 from ...model.model import select_model
 from ...scene.scene import Scene
 from ..machine import here
+from ..settings import RTOL
 from .headers import headers, tangents
-from .orders import ORDERS
+from .orders import order_for
 from .shipped import is_shipped, shipped
 from .source import Variant, emitted_headers, flags, source, stem
 
@@ -26,7 +27,8 @@ _PATIENCE = 1.0  # s that a compilation may last before a remark
 def kernel_supports(scene: Scene, obliquities: Collection[bool] = (True, False), gradients: bool = False) -> bool:
     """True if the kernel can integrate a scene here.
 
-    Its laws have recurrences (and derivatives), and its kernel of the lowest order is shipped or there is a compiler.
+    Its laws have recurrences (and derivatives), and its kernel of the default tolerance is shipped or there is a
+    compiler.
 
     Arguments:
         obliquities: True for oblique and False for head-on collisions, which have kernels of their own.
@@ -35,8 +37,7 @@ def kernel_supports(scene: Scene, obliquities: Collection[bool] = (True, False),
     keys = [select_model(scene, oblique, fold=not gradients) for oblique in obliquities]
     if not all(headers(each) and (tangents(each) if gradients else True) for each in keys):
         return False
-    variants = (Variant(each, ORDERS[0][1], gradients=gradients) for each in keys)
-    # the lowest order stands for all: the others may need a compiler
+    variants = (Variant(each, order_for(RTOL), gradients=gradients) for each in keys)
     return all(is_shipped(each) for each in variants) or compiler() is not None
 
 
@@ -88,7 +89,11 @@ def _compiled(variant: Variant) -> bytes | None:
         try:
             return kept(_entry(variant, text, flagged), lambda: compiled(text, flagged))
         except (CannotCompile, OSError) as error:
-            say_once(f"{tool} cannot compile the Taylor kernel ({error}): other engines answer")
+            ours = "source.c:" in str(error)  # a place in the text that we emit, not a failure of the compiler
+            what = (
+                "the C emitted for the Taylor kernel is wrong" if ours else f"{tool} cannot compile the Taylor kernel"
+            )
+            say_once(f"{what} ({error}): {'please report the model; ' * ours}other engines answer")
             return None
 
 

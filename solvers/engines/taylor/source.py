@@ -22,7 +22,12 @@ FLAGS = ("-O2", "-funroll-loops", *_COMMON)
 RECORD_FLAGS = ("-O1", "-fexpensive-optimizations", "-ftree-pre", "-fgcse", *_COMMON)
 _ONCE = "#pragma once"
 # What only kernels of models with declared events contain is taken out of the others' text, and so out of their digest.
-_OWN_EVENTS = re.compile(r"#if OWN_EVENTS\n.*?^#endif /\* OWN_EVENTS \*/\n", re.MULTILINE | re.DOTALL)
+_OWN_EVENTS, _KINKS = (
+    re.compile(rf"#if {name}\n.*?^#endif /\* {name} \*/\n", re.MULTILINE | re.DOTALL)
+    for name in ("OWN_EVENTS", "KINKS")
+)
+_GUARDS = re.compile(r"^#define (\w+)_kinks\(s\) (.*)$", re.MULTILINE)
+_STRUCT, _MEMBER = re.compile(r"typedef struct \{([^}]*)\} series;"), re.compile(r"\b(\w+)_series (\w+);")
 
 
 @dataclass(frozen=True)
@@ -68,7 +73,8 @@ class Variant:
 def source(variant: Variant, emitted: tuple[str, ...]) -> str:
     """C source of a kernel, from its emitted headers."""
     whole = resolved('#include "entry.h"\n', files(variant, emitted))
-    return whole if has_events(variant.choice) else _OWN_EVENTS.sub("", whole)
+    whole = whole if has_events(variant.choice) else _OWN_EVENTS.sub("", whole)
+    return whole if "#define KINKS_OF" in whole else _KINKS.sub("", whole)
 
 
 def files(variant: Variant, emitted: tuple[str, ...]) -> dict[str, str]:
@@ -93,15 +99,29 @@ def files(variant: Variant, emitted: tuple[str, ...]) -> dict[str, str]:
         "MOST_STEPS": MOST_STEPS,
         "MIDGAP_ARM": int(slots.get("arm") == "midgap"),
     }
+    kinks = _kinks(emitted)
+    settings["READS_SERIES"] |= int(bool(kinks))
     return {
         **({} if own else {"own_events.h": ""}),
+        **({} if kinks else {"kinks.h": ""}),
         "settings.h": "\n".join(
             [_ONCE, *(f"#define {name} {value}" for name, value in settings.items()), _binomials(variant.order), ""]
         ),
         "layout.h": f'{_ONCE}\n#include "vector.h"\n{declarations(variant.ledger, own, variant.space)}\n',
         **automaton(variant.choice),
-        "model.h": "\n".join([_ONCE, '#include "series.h"', '#include "whole_series.h"', *emitted]),
+        "model.h": "\n".join([_ONCE, '#include "series.h"', '#include "whole_series.h"', *emitted, *kinks]),
     }
+
+
+def _kinks(emitted: tuple[str, ...]) -> list[str]:
+    """The guards of a structure's kinks, in the series of its laws: how many, and where."""
+    counts = {name: guards.count(",") + 1 for text in emitted for name, guards in _GUARDS.findall(text)}
+    members = [each for text in emitted for block in _STRUCT.findall(text) for each in _MEMBER.findall(block)]
+    laws = [(name, member) for name, member in members if name in counts]
+    if not laws:
+        return []
+    places = ", ".join(f"{name}_kinks(&(s)->{member})" for name, member in laws)
+    return [f"#define KINKS {sum(counts[name] for name, _ in laws)}", f"#define KINKS_OF(s) {places}", ""]
 
 
 def _binomials(order: int) -> str:

@@ -66,7 +66,7 @@ export class Curves {
         (each) => [each.columns.time.map((t) => t / unit), each.columns[panel.column].map((v) => v / scale)] as uPlot.AlignedData,
       );
       plot.root.querySelector(".u-title")!.textContent = `${panel.label}, ${small}${panel.unit}`;
-      plot.axes[0]!.label = k === panels.length - 1 ? `time, ${letter}s` : undefined!;
+      plot.axes[0]!.label = k === panels.length - 1 ? `time, ${letter}s${this.stretched ? ` (stretched: logarithmic beyond ${short(this.tau / unit)})` : ""}` : undefined!;
       plot.scales.x!.asinh = this.tau / unit;
       plot.setData(tables.length > 1 ? uPlot.join(tables) : tables[0]!);
     });

@@ -207,7 +207,7 @@ class Page {
   private sceneChoice(): HTMLElement {
     const made = el("select", { id: "preset" }, ...labels.map((text, k) => el("option", { value: `${k}`, ...(k === this.place ? { selected: "" } : {}) }, text)));
     made.addEventListener("change", () => void open(Number(made.value), this.state).then(() => document.getElementById("preset")!.focus()));
-    return el("label", { class: "row" }, "Scene ", made);
+    return el("label", { class: "row speed" }, "Scene ", made);
   }
 
   private kindChoice(): HTMLSelectElement {

@@ -21,7 +21,7 @@ export function quantity(x: number, unit: string): string {
 }
 
 export const degrees = (x: number): string => `${short((x * 180) / Math.PI)}°`;
-export const percent = (x: number): string => `${(100 * x).toFixed(1)} %`;
+export const percent = (x: number): string => `${(100 * x).toFixed(1).replace(/^-(?=0\.0$)/, "")} %`;
 export const pretty = (unit: string): string =>
   unit.replace(/\bum\b/, "µm").replace("deg", "°").replace(/\^?3\b/, "³").replace(/\^?2\b/, "²").replace("mPas", "mPa s");
 

@@ -39,8 +39,12 @@ _LANES = """\
 #else
 #define LANES 1
 #endif
-#if defined(__FAST_MATH__)
-#error "NaN and infinity are compared here: compile without -ffast-math"
+#include <float.h>
+#if defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__) || defined(_M_FP_FAST)
+#error "NaN and infinity are compared here: compile without -ffast-math and -ffinite-math-only"
+#endif
+#if defined(__ASSOCIATIVE_MATH__) || (defined(FLT_EVAL_METHOD) && FLT_EVAL_METHOD != 0 && FLT_EVAL_METHOD != 1)
+#error "Sums are rounded as they stand, to doubles: compile without -fassociative-math and with -mfpmath=sse"
 #endif
 """
 

@@ -4,6 +4,7 @@ from pathlib import Path
 
 import pytest
 import sympy as sp
+from wetdoublet.derive.emit.compare import same
 from wetdoublet.derive.equations.model import derive
 from wetdoublet.derive.physics.structure import Structure
 from wetdoublet.derive.user.declarations import ModelFileError
@@ -24,7 +25,10 @@ def model(body: str) -> UserModel:
     ("body", "said"),
     [
         ('event("snap", guard=k - u)', "line 4: event snap.guard: 'k - separation_rate' term"),
-        ('event("snap", guard=k)', "event snap.guard: k never changes; accepted: an expression of x, u, omega or xi"),
+        (
+            'event("snap", guard=k)',
+            "event snap.guard: k never changes; accepted: an expression of x, u, omega, xi, beta or t",
+        ),
         ('event("snap", guard=sp.Symbol("speed_of_light") - u)', "is not known to an event; accepted: x, u, omega"),
         ('event("snap", guard=d - x, where="outside")', "event snap.where: 'outside' is not accepted; accepted: "),
         ('event("snap", guard=d - x, jump={x: d})', "surfaces move apart and together continuously: a gap"),
@@ -99,3 +103,57 @@ def test_structures_that_cannot_have_an_event():
         Structure(True, True, False, reduced=True): False,
     }
     assert {structure: event.there(structure) for structure in wanted} == wanted
+
+
+def test_the_angle_turned_and_the_time_are_states():
+    """What a guard watches beside the motion is integrated with it, also in resting contact; the pendulum has it."""
+    both = model('event("late", guard=1 + 0*t - beta - k*t)')
+    made = both.extended(derive(OBLIQUE))
+    rates = made["right_hand_side"].by_name
+    assert same(rates["angle_turned"], made["turning_rate"].by_name["rotation"])
+    assert rates["time_passed"] == 1
+    assert {made["start"].by_name[name] for name in ("angle_turned", "time_passed")} == {0}
+    assert made["resting_rates"].by_name["time_passed"] == 1
+    pendulum = both.extended(derive(Structure(True, False, True)))
+    assert "angle_turned" not in {state.name for state in pendulum.states}
+    assert sp.Symbol("rotation", real=True) in pendulum["events"].by_name["late"].free_symbols
+    head_on = both.extended(derive(Structure(False, True, False)))
+    assert "angle_turned" not in {state.name for state in head_on.states}
+    assert "late" in head_on["events"].by_name
+    turning = model('event("late", guard=1 - beta)').extended(derive(Structure(False, True, False)))
+    assert "late" not in turning["events"].by_name
+
+
+@pytest.mark.parametrize(
+    ("second", "waits"),
+    [
+        ('guard=d - x, where="opening"', "before_first - 1/2"),
+        ('guard=3*(d - x)*m/(x*d), where="opening"', "before_first - 1/2"),
+        ('guard=d - x, where="closing"', ""),
+        ('guard=x - d, where="opening"', ""),
+        ('guard=(d - x)*u, where="opening"', ""),
+        ('guard=d - 2*x, where="opening"', ""),
+    ],
+)
+def test_an_event_with_the_guard_of_an_earlier_one_waits_for_it(second: str, waits: str):
+    """Where a guard is a positive multiple of an earlier one, in the same place, the order of the file decides."""
+    made = model(f'event("first", guard=d - x, where="opening", jump={{u: u/2}})\nevent("second", {second})')
+    guard = made.extended(derive(OBLIQUE))["events"].by_name["second"]
+    assert (str(guard) == waits) if waits else not guard.has(sp.Symbol("before_first", nonnegative=True))
+
+
+def test_an_event_waits_and_then_watches_its_guard_where_the_earlier_one_changes_it():
+    """A guard of u after a jump of u, and one on the other side of a reversal: the guard itself decides when."""
+    body = (
+        'event("first", guard=k*d - u, where="opening", jump={u: u/2})\nevent("second", guard=k - u/d, where="opening")'
+    )
+    guard = model(body).extended(derive(OBLIQUE))["events"].by_name["second"]
+    mark = sp.Symbol("before_first", nonnegative=True)
+    assert guard.subs(mark, 1) == 1
+    assert guard.subs(mark, 0).has(sp.Symbol("normal_velocity", real=True))
+
+
+def test_an_event_may_have_a_name_of_several_words():
+    """The word of reports, and with underscores the name in emitted code."""
+    (event, _) = model('event("quarter turn", guard=1 - beta)').events
+    assert (event.name, event.proposed.word, event.mark.name) == ("quarter_turn", "quarter turn", "before_quarter_turn")

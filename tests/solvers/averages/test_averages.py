@@ -16,7 +16,7 @@ from wetdoublet.solvers import (
     collide_pair,
     collision_averages,
 )
-from wetdoublet.solvers.averages.dataset import QUANTITIES
+from wetdoublet.solvers.averages.dataset import QUANTITIES, table
 from wetdoublet.solvers.averages.sizes import PROPORTIONAL, scene_of_sizes
 from wetdoublet.solvers.averages.speeds import Speeds
 from wetdoublet.solvers.host.compiler import compiler
@@ -260,6 +260,21 @@ def test_the_command_writes_both_formats(tmp_path: Path) -> None:
     done = run("averages", "granulation", "--speeds", "1 m")
     assert done.exit_code == 2
     assert "--speeds" in done.output
+
+
+def test_a_table_for_a_person_has_units_and_the_numbers() -> None:
+    """Each column has a name and a unit; what is not defined is a dash; a line for each pair."""
+    radii = ["50 um", "200 um"]
+    found = collision_averages("granulation", speeds="1 m/s", radii=radii, tolerance=1e-3, wrt="liquid.viscosity")
+    lines = table(found).splitlines()
+    assert lines[0] == "relative speed 1 m/s, all impact angles"
+    assert all(head in lines[2] for head in ("radius (um)", "partner (um)", "e_n of all", "rate (m^3/s)"))
+    pairs = [line.split() for line in lines[3:7]]
+    assert [pair[:2] for pair in pairs] == [["50", "50"], ["50", "200"], ["200", "50"], ["200", "200"]]
+    assert [float(pair[2]) for pair in pairs] == pytest.approx(found.stick_probability.values.ravel(), rel=1e-4)
+    assert pairs[0][7:9] == ["-", "-"]  # e_n and e_t of those that separate: none does
+    last = lines[-1].split()
+    assert float(last[-1]) == pytest.approx(float(found.gradient[1, 1, -1, 0]), rel=1e-4)
 
 
 def test_without_a_compiler_it_says_so(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -107,13 +107,20 @@ def test_glass_has_friction_only_if_asked_for() -> None:
 
 
 def assert_the_kernel_agrees(expected: Collision, scene: Scene, **impact: Any) -> None:
-    """The kernel goes through resting contact with friction itself, to the same events and the same end."""
-    found = collide(scene, engine="taylor", ledger=False, **impact)
-    assert (found.outcome, found.certified, found.engine) == (expected.outcome, expected.certified, "taylor")
-    assert [event.kind for event in found.events] == [event.kind for event in expected.events]
-    times = [[event.time for event in each.events] for each in (found, expected)]
-    assert times[0] == pytest.approx(times[1], rel=1e-6)
-    assert found.restitution == pytest.approx(expected.restitution, rel=1e-7)
+    """The kernel goes through resting contact with friction itself, to the same events, losses and end."""
+    assert expected.energy is not None
+    for ledger in (False, True):
+        found = collide(scene, engine="taylor", ledger=ledger, **impact)
+        assert (found.outcome, found.certified, found.engine) == (expected.outcome, expected.certified, "taylor")
+        assert [event.kind for event in found.events] == [event.kind for event in expected.events]
+        times = [[event.time for event in each.events] for each in (found, expected)]
+        assert times[0] == pytest.approx(times[1], rel=1e-6)
+        assert found.restitution == pytest.approx(expected.restitution, rel=1e-7)
+    assert found.energy is not None and abs(found.energy.residual) < 1e-8 * found.energy.largest
+    for term in ("dry_friction", "tangential_lubrication", "dry_contact"):
+        assert getattr(found.energy, term) == pytest.approx(
+            getattr(expected.energy, term), abs=1e-7 * expected.energy.largest
+        )
 
 
 @pytest.mark.slow
@@ -182,9 +189,27 @@ def test_a_doublet_that_rolls_at_rest_while_its_spins_equalise_sticks() -> None:
     found = collide(Scene.from_dict(entries), engine="rosenbrock")
     assert found.outcome == "stick" and found.certified
     assert [event.kind for event in found.events][-2:] == ["rests", "rolls"]
-    by_kernel = collide(Scene.from_dict(entries), engine="taylor", ledger=False)
-    assert (by_kernel.outcome, by_kernel.certified, by_kernel.engine) == ("stick", True, "taylor")
+    for ledger in (False, True):
+        by_kernel = collide(Scene.from_dict(entries), engine="taylor", ledger=ledger)
+        assert (by_kernel.outcome, by_kernel.certified, by_kernel.engine) == ("stick", True, "taylor")
     assert found.energy is not None and abs(found.energy.residual) < 1e-8 * found.energy.initial
+
+
+def test_chatter_with_friction_on_strings_is_a_stick_as_without() -> None:
+    """A hundred thousand rebounds on glassy liquid, each lower than the last: friction of solids has no part in it."""
+    entries = {
+        "particles.roughness": "10 nm", "particles.dry_restitution": 0.5, "liquid.viscosity": "0.01 Pa s",
+        "liquid.glass_transition_pressure": "1e5 Pa", "bridge.law": "mikami", "bridge.volume": 0.01,
+        "bridge.surface_tension": "0.05 N/m", "bridge.contact_angle": "20 deg",
+    }  # fmt: skip
+    scene = Scene.load("pendulum").with_entries(entries)
+    smooth, rubbed = (
+        collide(each, stokes=1.0, angle=ANGLE, engine="taylor")
+        for each in (scene, scene.with_entries({"particles.friction": 0.2}))
+    )
+    for found in (smooth, rubbed):
+        assert (found.outcome, found.certified, found.engine) == ("stick", False, "taylor")
+        assert len(found.events) > 40 and found.reversal == "glass"
 
 
 def test_slip_that_friction_reverses_wholly_may_be_zero() -> None:

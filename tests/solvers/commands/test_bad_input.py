@@ -73,6 +73,7 @@ BAD = [
     ("sensitivity granulation --of restitution,restitution", "--of", 'has "restitution" twice', "every name once"),
     ("boundary granulation --angle 40 --wrt bridge.volume,bridge.volume", "--wrt", "twice", "every name once"),
     ("averages granulation --wrt ,", "--wrt", "names nothing", "names, separated by commas"),
+    ("averages granulation -o averages.py", "-o", "unsupported suffix", ".nc, .csv"),
     ("scenes --new powder --hold stokes", "--new", "given together with --hold", "--new NAME alone"),
     ("collide granulation --angle 90deg", "--angle", '"90deg"', "< 90 deg"),
     ("collide granulation --angle -5deg", "--angle", '"-5deg"', ">= 0 deg"),
@@ -236,6 +237,27 @@ def test_scenes():
     assert Scene.from_toml(changed).liquid.viscosity == 3.0
     changed = run("scenes", "granulation", "--angle", "20deg", "--speed", "1 m/s").stdout
     assert changed.endswith('[impact]\nspeed = "1 m/s"\nangle = "20deg"\n')
+
+
+def test_a_bare_generate_beside_no_source_asks_where_to(monkeypatch, tmp_path):
+    """An installed package has no tree to rewrite: `--out` or `--check` are named, and nothing is written."""
+    from wetdoublet.solvers.commands import generate
+
+    monkeypatch.setattr(generate, "OWN", tmp_path / "generated")
+    result = run("generate")
+    assert result.exit_code == 2
+    assert str(tmp_path / "generated") in result.stderr and "--out DIR, or --check" in result.stderr
+    assert not (tmp_path / "generated").exists()
+
+
+def test_the_names_of_a_model_file_are_listed_with_units():
+    """Each with its unit and meaning, all of them those that the import gives."""
+    from wetdoublet.derive import user
+
+    rows = {line[:16].strip(): line[16:24].strip() for line in run("generate", "--names").stdout.splitlines()}
+    assert rows["x"] == "m" and rows["sigma"] == "N/m" and rows["beta"] == "rad" and rows["t"] == "s"
+    assert rows.keys() == {name for name, value in vars(user).items() if isinstance(value, user.sp.Expr)} - {"pi"}
+    assert run("generate", "--names", "--template").exit_code == 2
 
 
 def test_generate_and_verify(module, tmp_path):

@@ -1,6 +1,7 @@
 """The enclosing engine's own arithmetic against exact rationals and 200 digits, with mutants of it; what it refuses."""
 
 import ctypes
+import platform
 import re
 from fractions import Fraction
 
@@ -8,7 +9,9 @@ import mpmath
 import numpy as np
 import pytest
 from wetdoublet.solvers import InputError, Scene, collide, prove
-from wetdoublet.solvers.engines.interval.build import FLAGS, RUNTIME, NotProvable, engine, source
+from wetdoublet.solvers.engines.interval.build import FLAGS, RUNTIME, NotProvable, Why, engine, source
+from wetdoublet.solvers.engines.interval.call import BOX, enclose
+from wetdoublet.solvers.engines.interval.inputs import Inputs
 from wetdoublet.solvers.engines.machine import here
 from wetdoublet.solvers.host.compiler import compiler, library
 from wetdoublet.solvers.host.user_cache import loaded
@@ -118,6 +121,24 @@ def test_infinite_ends_stay_enclosed(operations: ctypes.CDLL) -> None:
     assert results(operations, ADD, np.array([[1.0, np.inf, -np.inf, 0.0]])).tolist() == [line]
 
 
+@pytest.mark.parametrize("vectors", [True, False], ids=["as compiled here", "without vectors"])
+def test_products_of_all_ends_are_the_least_that_hold_them(runtime: str, vectors: bool) -> None:
+    """676 pairs of intervals with ends among 0, 1, 2 of either sign and both infinities: zero times an infinite end is
+    zero, as the end is no member. An end that is no number makes the whole line.
+    """
+    text = runtime if vectors else runtime.replace("#if defined(__AVX__)\n    const", "#if 0\n    const")
+    assert vectors or text != runtime
+    ends = (-np.inf, -2.0, -1.0, 0.0, 1.0, 2.0, np.inf)
+    members = [(a, b) for a in ends for b in ends if a <= b and not a == b in (np.inf, -np.inf)]
+    pairs = np.array([(*x, *y) for x in members for y in members])
+    assert len(pairs) == 676
+    products = np.array([[p * q if p and q else 0.0 for p in (a, b) for q in (c, d)] for a, b, c, d in pairs.tolist()])
+    found = results(compiled(text), MUL, pairs)
+    assert (found == np.column_stack([products.min(1), products.max(1)])).all()
+    unknown = results(compiled(text), MUL, np.array([[np.nan, 1.0, 1.0, 2.0], [0.0, 1.0, 0.0, np.nan]]))
+    assert unknown.tolist() == [[-np.inf, np.inf]] * 2
+
+
 FUNCTIONS = {ROOT: mpmath.sqrt, EXP: mpmath.exp, LOG: mpmath.log, SINE: mpmath.sin, COSINE: mpmath.cos}
 
 
@@ -195,6 +216,36 @@ def test_the_rounding_mode_is_restored() -> None:
     assert prove("granulation", stokes=0.3, angle="20 deg").outcome == "bounce"
     assert (1.0 + 2**-54, -1.0 - 2**-54) == (1.0, -1.0)
     assert (0.1 + 0.2).hex() == "0x1.3333333333334p-2"
+
+
+FLUSHED = """
+#include <xmmintrin.h>
+__attribute__((visibility("default"))) unsigned flush(unsigned bits)
+{
+    const unsigned before = _mm_getcsr();
+    _mm_setcsr((before & ~0x8040u) | bits);
+    return before & 0x8040u;
+}
+"""
+
+
+@pytest.mark.skipif(platform.machine() not in ("x86_64", "AMD64"), reason="bits of another processor")
+def test_another_library_may_flush_small_numbers_to_zero() -> None:
+    """Results, operands or both: the engine keeps small numbers all the same, and leaves that setting as it was; one
+    that does not is refused at load.
+    """
+    flush = loaded(library(FLUSHED, (*here()[0].flags, *FLAGS)), ctypes.CDLL).flush
+    key = select_model(Scene.load("granulation"), False, fold=True)
+    kept, text = engine(key, False, 0).library, source(key, False, 0).replace("fesetenv(FE_DFL_ENV)", "(void)0")
+    mutant = loaded(library(text, (*here()[0].flags, *FLAGS)), ctypes.CDLL)
+    for bits in (0x8000, 0x40, 0x8040):
+        try:
+            flush(bits)
+            started = kept.interval_start(), mutant.interval_start()
+        finally:
+            after = flush(0)
+        assert (*started, after) == (1, 0, bits)
+    assert mutant.interval_start() == 1
 
 
 def test_a_compiler_that_ignores_rounding_is_refused() -> None:
@@ -284,6 +335,58 @@ def test_a_box_across_a_boundary_is_not_proved() -> None:
     proof = prove("granulation", stokes=0.1155, angle="5 deg", within=0.05)
     assert not proof
     assert proof.reason
+
+
+def test_a_start_that_is_not_finite_is_too_wide() -> None:
+    """Speeds from 0 on, over which nothing is bounded: nothing is followed, from the origin neither."""
+    spinning = Scene.load("granulation").with_entries({"impact.spin": 300.0}).with_impact(stokes=0.1, angle=0.5)
+    inputs = Inputs.of(spinning, {"impact.stokes": 1e-3})
+    found = enclose(inputs.engine(), {**inputs.ranges, "stokes": (0.0, 0.1)}, inputs.moving, BOX)
+    assert (found.outcome, found.why, found.rebounds) == (0, Why.TOO_WIDE, 0)
+
+
+def test_ends_hold_the_decimals_that_are_given() -> None:
+    """200 random ends with units: the exact number lies in the box, whatever its double is."""
+    random, scene = np.random.default_rng(5), Scene.load("granulation").with_impact(stokes=0.3, angle=0.3)
+    for unit, exact in (("mPa s", Fraction(1, 1000)), ("cP", Fraction(1, 1000)), ("lbf s/ft^2", None)):
+        for _ in range(70):
+            low, high = sorted(f"{digits}" for digits in random.uniform(1, 9, 2).round(3))
+            box = Inputs.of(scene, {"liquid.viscosity": (f"{low} {unit}", f"{high} {unit}")}).ranges["viscosity"]
+            factor = exact or Fraction("4.4482216152605") / Fraction("0.3048") ** 2
+            assert Fraction(box[0]) <= Fraction(low) * factor
+            assert Fraction(high) * factor <= Fraction(box[1])
+            assert box[1] - box[0] <= (float(high) - float(low)) * float(factor) * (1 + 1e-11) + 1e-16
+
+
+def test_corners_are_admissible_scenes() -> None:
+    """Two ranges of which each is admissible: a roughness above the thinnest film, a rupture within the thickest."""
+    scene = Scene.load("granulation").with_impact(stokes=0.3, angle=0.3)
+    film = {"liquid.film_thickness": ("1 um", "8 um")}
+    for more, entry in (
+        ({"particles.roughness": ("0.2 um", "2 um")}, "particles.roughness"),
+        ({"bridge.volume": (1e-7, 0.1), "liquid.film_thickness": ("1 um", "8.1 um")}, "bridge.volume"),
+    ):
+        with pytest.raises(InputError, match=rf"within {entry}.* corner"):
+            prove(scene, within={**film, **more})
+
+
+def test_a_relative_speed_is_boxed_as_it_is_given() -> None:
+    """The range of the impact is of the relative speed: the normal one follows from it and the angle."""
+    scene = Scene.load("granulation").with_impact(relative_speed=0.5, angle="60 deg")
+    proof = prove(scene, within=1e-3)
+    assert set(proof.box) == {"impact.relative_speed", "impact.angle"}
+    assert "impact.relative_speed between 0.4995 and 0.5005" in str(proof)
+    speeds = [v * np.cos(a) for v in proof.box["impact.relative_speed"] for a in proof.box["impact.angle"]]
+    assert proof.ranges["speed"] == pytest.approx((min(speeds), max(speeds)), rel=1e-14)
+    assert proof.ranges["speed"][0] <= min(speeds) < max(speeds) <= proof.ranges["speed"][1]
+
+
+def test_a_proof_has_what_its_json_has() -> None:
+    """Proved or not, and the wall time."""
+    for proof in (prove("granulation", stokes=0.3, angle=0.3), prove("pendulum", stokes=0.3, angle=0.3)):
+        told = proof.to_dict()
+        assert (proof.proved, proof.seconds) == (told["proved"], told["seconds"]) == (bool(proof), proof.seconds)
+        assert proof.seconds > 0
 
 
 def test_a_bad_box_is_shown_as_it_was_given() -> None:

@@ -145,32 +145,62 @@ def test_a_pair_that_rests_for_a_while_is_no_proved_stick(
     assert OUTCOMES[wrong.outcome - 1] == "stick"
 
 
+PAIR = {"partner.radius": "200 um", "partner.mass": "8e-5 g"}
+
+
 @pytest.mark.parametrize(
-    ("changes", "entry", "other"),
+    ("changes", "entry", "moved"),
     [
-        ({"partner.radius": "200 um", "partner.mass": "8e-5 g"}, "particles.reduced_radius", "radius_ratio"),
-        ({"partner.radius": "200 um", "partner.mass": "8e-5 g", "impact.spin": 10.0}, "impact.spin", "partner_spin"),
-        ({"bridge.volume": "1e-13 m^3"}, "particles.reduced_radius", "volume"),
-        ({"impact.spin": 10.0}, "impact.partner_spin", "is not there"),
+        (PAIR, "particles.reduced_radius", {"reduced_radius", "radius_ratio"}),
+        (PAIR | {"impact.spin": 10.0}, "impact.spin", {"impact_spin", "impact_partner_spin"}),
+        (PAIR | {"partner.density": "2500 kg/m^3"}, "partner.radius", {"reduced_radius", "reduced_mass"}),
+        ({"bridge.volume": "1e-13 m^3"}, "particles.reduced_radius", {"reduced_radius", "volume"}),
     ],
 )
-def test_an_entry_that_decides_several_quantities_is_no_box(changes: dict[str, object], entry: str, other: str) -> None:
-    """A radius of an unequal pair, a spin of both, a radius beside a volume in m^3, a spin that both share: refused."""
-    scene = Scene.load("granulation").with_entries(changes).with_impact(stokes=0.1, angle=0.5)
-    with pytest.raises(InputError, match=other):
-        prove(scene, within={entry: 1e-4})
+def test_an_entry_that_decides_several_quantities_moves_all_of_them(
+    changes: dict[str, object], entry: str, moved: set[str]
+) -> None:
+    """A radius of an unequal pair, a spin of both, a radius beside a density or a volume in m^3: ends lie within."""
+    density = "partner.density" in changes
+    given = {name: value for name, value in changes.items() if not (density and name == "partner.mass")}
+    scene = Scene.load("granulation").with_entries(given).with_impact(stokes=0.3, angle=0.5)
+    proof = prove(scene, within={entry: 1e-4})
+    assert moved <= {name for name, (low, high) in proof.ranges.items() if low < high}
+    assert proof.restitution is not None
+    for end in proof.box[entry]:
+        found = collide(scene.with_entries({entry: end}, hold="stokes"), ledger=False)
+        assert proof.restitution[0] - 1e-8 <= found.restitution <= proof.restitution[1] + 1e-8
 
 
-def test_the_far_end_of_a_range_is_looked_at_and_a_wall_counts_twice() -> None:
-    """A spin from its present value on would move the partner's, too; the radius beside a wall is twice the pair's."""
-    pair = {"partner.radius": "200 um", "partner.mass": "8e-5 g"}
-    with pytest.raises(InputError, match="partner_spin"):
-        prove(
-            Scene.load("granulation").with_entries(pair),
-            stokes=0.0522,
-            angle=1.0,
-            within={"impact.spin": (0.0, 1000.0)},
-        )
+@pytest.mark.parametrize(
+    ("changes", "within", "problem"),
+    [
+        ({"impact.spin": 10.0}, {"impact.partner_spin": 1e-4}, "is not there"),
+        ({}, {"liquid.density": 1e-4}, "is not there"),
+        ({}, {"particles.diameter": ("199 um", "201 um")}, "particles.reduced_radius"),
+        ({}, {"bridge.volume": ("1e-13 m^3", "1.1e-13 m^3")}, "is a volume, where the scene gives V/R"),
+        ({"liquid.glass_transition_pressure": None}, {"liquid.glass_transition_pressure": 1e-4}, "is not there"),
+    ],
+)
+def test_an_entry_that_the_scene_does_not_have_is_no_box(
+    changes: dict[str, object], within: dict[str, object], problem: str
+) -> None:
+    """By a relative width or by both ends; another of the same meaning is named."""
+    entries = dict(Scene.load("granulation").given) | changes
+    text = Scene("granulation", tuple((name, value) for name, value in entries.items() if value is not None))
+    with pytest.raises(InputError, match=problem):
+        prove(text, stokes=0.1, angle=0.5, within=within)
+
+
+def test_the_volume_of_coatings_on_unequal_radii_is_no_box() -> None:
+    """The part of a coating that flows into the bridge falls with one radius and rises with the other."""
+    partner = {"partner.diameter": "0.8 mm", "partner.density": "2500 kg/m3"}
+    with pytest.raises(InputError, match="ratio of the radii"):
+        prove(Scene.load("glass-beads-water").with_entries(partner), within={"particles.diameter": 1e-4})
+
+
+def test_the_radius_beside_a_wall_counts_twice() -> None:
+    """The pair's reduced radius there is twice that of the entry."""
     wall = Scene.load("granulation").with_entries({"partner.wall": True}).with_impact(stokes=0.1, angle=0.3)
     box = prove(wall, within={"particles.reduced_radius": ("50 um", "50.001 um")})
     ends = [

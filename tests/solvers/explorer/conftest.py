@@ -37,7 +37,7 @@ def firefox(compiler: None, tmp_path_factory: pytest.TempPathFactory) -> Iterato
 
 
 @pytest.fixture(scope="module")
-def browser(compiler: None) -> Iterator[Any]:
+def browser() -> Iterator[Any]:
     """Chromium without a window."""
     playwright = pytest.importorskip("playwright.sync_api", reason="needs playwright (pip install playwright)")
     if BROWSER is None:
@@ -53,7 +53,7 @@ def files(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
 
 
 @pytest.fixture
-def opened(browser: Any, files: dict[str, Path], tmp_path: Path) -> Iterator[Any]:
+def opened(browser: Any, compiler: None, files: dict[str, Path], tmp_path: Path) -> Iterator[Any]:
     """Opens the page of a scene by name."""
     contexts = []
 

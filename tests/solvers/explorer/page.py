@@ -13,7 +13,7 @@ SCENES = {
     "granulation": GRANULATION,
     "dry": Scene.load("granulation-dry-bridge").with_entries({"attraction.hamaker": 1e-19}),
     "strings": Scene.load("pendulum"),
-    "coating": LACTOSE,
+    "coating": LACTOSE.with_entries({"name": "a-very-long-name-of-a-scene-that-says-all-about-it-and-its-liquid"}),
     "beads": Scene.load("glass-beads-water").with_entries({"bridge.law": "willett", "model.arm": "surface"}),
     "unequal": LACTOSE.with_entries(
         {"partner.diameter": "500 um", "partner.density": "1.54 g/cm3", "particles.friction": 0.3}

@@ -12,10 +12,14 @@ from pathlib import Path
 
 import pytest
 from wetdoublet.solvers import InputError, Scene
+from wetdoublet.solvers.explorer import module as modules
+from wetdoublet.solvers.explorer.build import texts
 from wetdoublet.solvers.explorer.knobs import knobs
+from wetdoublet.solvers.explorer.module import BUILT as FOLDER
 from wetdoublet.solvers.explorer.module import module
 from wetdoublet.solvers.explorer.page_of_scene import explore
 from wetdoublet.solvers.export.law.texts import LawSource, source
+from wetdoublet.solvers.scene.scenefile import PRESETS
 
 ROOM = Path(__file__).parents[3] / "solvers" / "explorer"
 BUILT = ("page.css", "page.js", "worker.js")
@@ -49,27 +53,70 @@ def test_the_bundle_names_no_address():
         assert all(each.startswith(("://www.w3.org/", "s://github.com/leeoniya/uPlot")) for each in found), found
 
 
+def embedded(page: str) -> dict[str, bytes]:
+    """The modules of a page by their digests."""
+    data = json.loads(page.partition('id="scene">')[2].partition("</script>")[0])
+    return {digest: gzip.decompress(base64.b64decode(text)) for digest, text in data["modules"].items()}
+
+
 @pytest.mark.slow
 def test_a_law_is_compiled_to_the_same_bytes_again(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
     """In another place, with an empty cache; a page has each module under the digest of its bytes."""
     pages = []
     for folder in ("one", "other"):
         monkeypatch.setenv("WETDOUBLET_CACHE", str(tmp_path / folder))
-        try:
-            pages.append(explore("granulation-dry-bridge").html)
+        try:  # strings with friction do not come with the package
+            pages.append(explore(Scene.load("pendulum").with_entries({"particles.friction": 0.2})).html)
         except InputError as error:
             pytest.skip(str(error))
     assert pages[0] == pages[1]
-    data = json.loads(pages[0].partition('id="scene">')[2].partition("</script>")[0])
-    for digest, text in data["modules"].items():
-        assert hashlib.sha256(gzip.decompress(base64.b64decode(text))).hexdigest() == digest
+    for digest, content in embedded(pages[0]).items():
+        assert hashlib.sha256(content).hexdigest() == digest
+
+
+def without_compiler(monkeypatch: pytest.MonkeyPatch, empty: Path) -> None:
+    """No program on the path, no ziglang, nothing compiled before."""
+    monkeypatch.setenv("PATH", str(empty))
+    monkeypatch.setenv("WETDOUBLET_CACHE", str(empty / "cache"))
+    monkeypatch.setitem(sys.modules, "ziglang", None)
+
+
+def test_all_presets_open_without_a_compiler(monkeypatch: pytest.MonkeyPatch, tmp_path: Path):
+    """Their modules come with the package, as the files are named."""
+    without_compiler(monkeypatch, tmp_path)
+    page = explore(*PRESETS).html
+    assert {*embedded(page).values()} <= {gzip.decompress(path.read_bytes()) for path in FOLDER.glob("*.wasm.gz")}
+
+
+@pytest.mark.slow
+def test_the_modules_in_the_package_are_those_of_its_laws():
+    """`python -m wetdoublet.solvers.explorer.build` writes what is missing and removes what is left over."""
+    names = [path.name.split(".") for path in FOLDER.glob("*.wasm.gz")]
+    assert {name for name, *_ in names} == {*texts()}
+    for path in FOLDER.glob("*.wasm.gz"):
+        assert path.name.split(".")[1] == hashlib.sha256(path.read_bytes()).hexdigest()[:32]
+
+
+def test_a_damaged_module_is_not_used(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+):
+    """It is named, and the law compiled as one that does not come with the package."""
+    without_compiler(monkeypatch, tmp_path)
+    for path in FOLDER.glob("*.wasm.gz"):
+        content = bytearray(path.read_bytes())
+        content[len(content) // 2] ^= 1
+        (tmp_path / path.name).write_bytes(content)
+    for path in (ROOM / "built" / name for name in BUILT):
+        shutil.copy(path, tmp_path)
+    monkeypatch.setattr(modules, "BUILT", tmp_path)
+    with pytest.raises(InputError, match=r"wetdoublet\[explorer\]"):
+        assert explore("granulation-dry-bridge").html
+    assert "is damaged" in capsys.readouterr().err
 
 
 def test_without_a_compiler_the_extra_is_named(monkeypatch: pytest.MonkeyPatch, tmp_path: Path):
     """One line that says what to install."""
-    monkeypatch.setenv("PATH", str(tmp_path))
-    monkeypatch.setenv("WETDOUBLET_CACHE", str(tmp_path / "cache"))
-    monkeypatch.setitem(sys.modules, "ziglang", None)
+    without_compiler(monkeypatch, tmp_path)
     with pytest.raises(InputError, match=r"wetdoublet\[explorer\]"):
         module(LawSource("", "int nothing;\n", (), ()))
 

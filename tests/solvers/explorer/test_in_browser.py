@@ -2,20 +2,48 @@
 
 import json
 import math
+import os
 import random
+import subprocess
+import sys
 import time
 import urllib.parse
 from pathlib import Path
 from typing import Any
 
 import pytest
-from wetdoublet.solvers import Scene, explore
+from wetdoublet.solvers import Scene, collide, explore
+from wetdoublet.solvers.scene.scenefile import PRESETS
 
-from .page import GRANULATION
+from .page import GRANULATION, Page
 
 pytestmark = pytest.mark.slow
 
 ADDRESSES = 200
+
+
+@pytest.fixture(scope="module")
+def cache(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A cache that begins empty."""
+    return tmp_path_factory.mktemp("cache")
+
+
+@pytest.mark.parametrize("preset", PRESETS)
+def test_a_preset_opens_without_a_compiler(preset: str, browser: Any, cache: Path, tmp_path: Path):
+    """The command on a machine without one writes the page, and the page has the answer of Python."""
+    (tmp_path / "ziglang.py").write_text("raise ImportError")
+    blocked = {"PATH": str(tmp_path), "PYTHONPATH": str(tmp_path), "WETDOUBLET_CACHE": str(cache)}
+    command = [sys.executable, "-m", "wetdoublet", "explore", preset, "-o", str(tmp_path / "page.html")]
+    done = subprocess.run(command, env=os.environ | blocked, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    tab = browser.new_page()
+    page, expected = Page(tab, tmp_path / "page.html"), collide(preset)
+    found = page.ask("wetdoublet.shown().found")
+    assert ("stick", "stick-rotate-separate", "bounce")[found["outcome"]] == expected.outcome
+    if expected.outcome != "stick":
+        assert found["restitution"] == pytest.approx(expected.restitution, rel=1e-7)
+    assert page.complaints == []
+    tab.close()
 
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])
@@ -151,6 +179,41 @@ def test_the_keyboard_alone(opened: Any):
 def test_no_width_needs_scrolling_sideways(width: int, opened: Any):
     page = opened("unequal", viewport={"width": width, "height": 800})
     assert page.ask("document.documentElement.scrollWidth <= innerWidth")
+
+
+@pytest.mark.parametrize("width", [400, 1400])
+def test_choices_stay_in_their_panel(width: int, opened: Any):
+    """That of a scene with a long name too."""
+    page = opened("coating", viewport={"width": width, "height": 900})
+    inside = "s => { const a = s.getBoundingClientRect(), b = s.closest('.card').getBoundingClientRect(); "
+    inside += "return a.left >= b.left && a.right <= b.right }"
+    choices = page.ask(f"[...document.querySelectorAll('select')].map({inside})")
+    assert len(choices) == 5 and all(choices)
+
+
+def test_energies_have_no_negative_zero(opened: Any):
+    """While the collision goes on no part of the energy is written as -0.0 %."""
+    page = opened("coating", "impact.speed=3")
+    scrub = page.tab.locator(".player input")
+    for step in range(0, 1000, 25):
+        scrub.fill(str(step))
+        assert "-0.0 %" not in page.tab.inner_text(".energy")
+
+
+def test_a_stretched_axis_of_time_says_so(opened: Any):
+    """Where it is logarithmic stands in its label, as long as it is stretched."""
+    page = opened("coating", "impact.speed=3")
+    page.ask(
+        "() => { const c = CanvasRenderingContext2D.prototype, f = c.fillText; window.texts = [];"
+        " c.fillText = function (text, ...rest) { texts.push(text); return f.call(this, text, ...rest) } }"
+    )
+    box = page.tab.get_by_label("slow down the fast beginning")
+    for stretched in (False, True):
+        page.ask("() => { texts.length = 0 }")
+        box.set_checked(stretched)
+        page.until("texts.some(text => text.startsWith('time, '))")
+        label = page.ask("texts.find(text => text.startsWith('time, '))")
+        assert ("logarithmic beyond" in label) == stretched
 
 
 @pytest.mark.parametrize("outcome", [0, 1, 2])

@@ -57,6 +57,7 @@ def arrivals(scene: Scene, count: int, seed: int = 1) -> tuple[np.ndarray, np.nd
     spins[::3] = np.sum(spins * axis[:, None], axis=2, keepdims=True)[::3] * axis[::3, None]
     velocities[::10, 1] = velocities[::10, 0] - (speed * normal)[::10]
     spins[::10] = 0.0
+    spins[10::20] = 30.0 * normal[10::20, None] * (speed / a)[10::20, None]  # twist alone
     return normal, velocities, spins
 
 
@@ -97,6 +98,14 @@ def test_two_spheres_are_those_of_collide_pair(law: Law):
 def test_a_sphere_and_a_wall_are_those_of_collide_pair(walled: Law):
     """A wall that moves, with sliding, rolling and twist in different directions."""
     agree(walled, WALL, 60)
+
+
+@pytest.mark.slow
+def test_spheres_that_rest_in_friction_are_those_of_collide_pair(tmp_path: Path):
+    """They slide and roll in solid contact until their rotation opens it, or for good."""
+    entries = {"particles.friction": 0.1, "particles.dry_restitution": 0.2, "liquid.viscosity": "1 mPa s"}
+    scene = OWN.with_entries(entries | {"liquid.glass_transition_pressure": "1e12 Pa"})
+    agree(Law(scene, written(scene, tmp_path / "resting"), *STRICT), scene, 60)
 
 
 @pytest.mark.slow

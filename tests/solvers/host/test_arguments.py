@@ -105,6 +105,17 @@ def test_a_wrong_argument_is_named(name, argument):
         assert argument in field or field.startswith(NAMED.get(argument, argument)), (said, line)
 
 
+@pytest.mark.parametrize("name", FUNCTIONS)
+def test_a_mistyped_keyword_is_answered_by_the_nearest(name):
+    """What is no argument of a public function is bad input, and the argument that is meant is named."""
+    known = list(inspect.signature(getattr(public, name)).parameters)
+    for argument in known:
+        with pytest.raises(InputError, match=f"is no argument of {name}, did you mean") as caught:
+            getattr(public, name)("granulation", **{f"{argument}z": 1})
+        assert caught.value.field == f"{argument}z"
+        assert caught.value.accepted == ", ".join(known)
+
+
 METHODS = {
     "load": lambda value: Scene.load("granulation", model=value),
     "from_toml": Scene.from_toml,

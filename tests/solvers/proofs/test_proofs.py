@@ -2,9 +2,11 @@
 
 import ctypes
 import math
+from pathlib import Path
 
 import numpy as np
 import pytest
+import xarray as xr
 from wetdoublet.solvers import InputError, Scene, collide, collide_many, prove, prove_boundary, prove_map
 from wetdoublet.solvers.engines.interval.build import FLAGS, Engine, engine, source
 from wetdoublet.solvers.engines.interval.call import BOX, enclose
@@ -115,9 +117,41 @@ def test_a_part_of_a_box_may_rebound_at_initial_contact() -> None:
     assert low < above.restitution < high
 
 
-@pytest.mark.parametrize("edges", [{"stokes": [0.2, 0.1]}, {"stokes": [0.1]}, {"angle": [0.0, 0.1]}, {"depth": -1}])
+def test_cells_from_head_on_impacts_on_hold_both() -> None:
+    """From 0 deg on: sticks and bounces on either side of the film's limit, head-on and at up to 2 deg."""
+    scene = Scene.load("granulation")
+    for stokes, outcome in ((0.05, "stick"), (0.3, "bounce")):
+        edges = [stokes, 1.01 * stokes]
+        found = prove_map(scene, stokes=edges, angle=np.radians([0, 2]), depth=4)
+        assert found.shares[outcome] == 1.0
+        computed = collide_many(scene, stokes=edges, angle=np.radians([[0.0], [1e-6], [2]]))
+        assert {OUTCOMES[code] for code in computed.outcome.values.ravel().tolist()} == {outcome}
+    box = prove(scene, stokes=0.3, angle=0.1, within={"impact.angle": ("0 deg", "2 deg")})
+    ends = [collide(scene, stokes=0.3, angle=angle, ledger=False).restitution for angle in (0.0, math.radians(2))]
+    assert box.restitution[0] <= min(ends) < max(ends) <= box.restitution[1]
+
+
+def test_without_a_bridge_no_cell_from_head_on_on_is_a_stick() -> None:
+    """Head-on the film alone decides, and at any angle the pair separates: such a cell is undecided."""
+    found = prove_map("granulation-dry-bridge", stokes=[0.05, 0.051], angle=np.radians([0, 2]), depth=2)
+    assert found.shares["stick"] == 0.0
+
+
+def test_a_map_is_a_dataset(tmp_path: Path) -> None:
+    """Cells with the word of their code and their ends cover the rectangle; what is undecided is an attribute."""
+    found = prove_map("granulation", stokes=[0.1, 0.11, 0.12], angle=np.radians([20, 20.5]), depth=7)
+    found.to_dataset().to_netcdf(tmp_path / "cells.nc")
+    data = xr.load_dataset(tmp_path / "cells.nc")
+    area = (np.diff(np.log(data.stokes), axis=1) * np.diff(data.angle, axis=1)).ravel()
+    assert area.sum() == pytest.approx(np.log(1.2) * np.radians(0.5))
+    assert data.undecided_area == pytest.approx(area[data.outcome.values == -1].sum() / area.sum())
+    assert 0 < data.undecided_area < 1
+    assert found.to_dict()["undecided_area"] == data.undecided_area
+
+
+@pytest.mark.parametrize("edges", [{"stokes": [0.2, 0.1]}, {"stokes": [0.1]}, {"angle": [-0.1, 0.1]}, {"depth": -1}])
 def test_bad_maps_name_what_is_wrong(edges: dict[str, object]) -> None:
-    """Edges that do not rise, head-on angles and a negative depth."""
+    """Edges that do not rise, an angle below 0 and a negative depth."""
     given = {"stokes": [0.1, 0.2], "angle": [0.1, 0.2]} | edges
     with pytest.raises(InputError, match=next(iter(edges))):
         prove_map("granulation", **given)  # type: ignore[arg-type]

@@ -232,3 +232,67 @@ def test_a_law_of_too_many_events_is_not_exported(snaps):
     """The events are more than the kernel has room for, and the error says that the model has none."""
     with pytest.raises(InputError, match="few events"):
         law_texts(scene(snaps))
+
+
+TURNS = '''"""The collision ends when the doublet has turned far enough, or after a time."""
+from wetdoublet.derive.user import *
+
+last = quantity("last", unit="{}", default=1000.0, meaning="angle or time at which it ends")
+event("at last", guard=last - {}, ends="stick")
+'''
+
+
+@pytest.mark.parametrize(("unit", "watched"), [("1", "beta"), ("s", "t")])
+def test_guards_of_angle_and_time(tmp_path: Path, unit: str, watched: str):
+    """An end at an angle, or at a time: where the library's own trajectory is then, by every engine."""
+    path = tmp_path / "turns.py"
+    path.write_text(TURNS.format(unit, watched))
+    impact = {"stokes": 0.02, "angle": math.radians(75)}
+    library = collide(Scene.load("granulation"), **impact, trajectory=True, engine="cvodes", rtol=1e-12).trajectory
+    place = int(0.6 * library.time.size)
+    end = float((library.rotation if watched == "beta" else library.time)[place])
+    own = Scene.load("granulation", model=path).with_entries({"custom.last": end})
+    for engine in ("taylor", "rosenbrock", "cvodes"):
+        found = collide(own, **impact, engine=engine)
+        assert found.engine == engine
+        assert (found.events[-1].kind, found.outcome) == ("at last", "stick")
+        assert found.events[-1].time == pytest.approx(float(library.time[place]), rel=1e-7)
+
+
+TWO = '''"""Two events at one gap."""
+from wetdoublet.derive.user import *
+
+place = quantity("place", unit="m", default="5 um", meaning="a gap")
+{}
+'''
+HALF, END = (
+    'event("half", guard={}, where="opening", jump={{u: u / 2}})',
+    'event("end", guard={}, where="opening", ends="separated")',
+)
+
+
+@pytest.mark.parametrize("ends_first", [False, True])
+def test_of_two_events_at_once_the_order_of_the_file_counts(tmp_path: Path, ends_first: bool):
+    """Half the speed, then the end; or the end alone: by every engine, with derivatives."""
+    guards = ("place - x", "3*(place - x)*m/x")
+    rows = (
+        [END.format(guards[0]), HALF.format(guards[1])]
+        if ends_first
+        else [HALF.format(guards[1]), END.format(guards[0])]
+    )
+    path = tmp_path / "two.py"
+    path.write_text(TWO.format("\n".join(rows)))
+    own = Scene.load("granulation", model=path).with_impact(stokes=0.08, angle=ANGLE)
+    own = own.with_impact(speed=own.speed, angle=ANGLE)
+    alone = tmp_path / "alone.py"
+    alone.write_text(TWO.format(END.format(guards[0])))
+    single = collide(Scene.load("granulation", model=alone).with_impact(speed=own.speed, angle=ANGLE))
+    for engine in ("taylor", "rosenbrock", "cvodes"):
+        found = collide(own, engine=engine)
+        assert [event.kind for event in found.events][1:] == (["end"] if ends_first else ["half", "end"])
+        assert found.restitution == pytest.approx(single.restitution / (1 if ends_first else 2), rel=1e-7)
+        assert found.contact_time == pytest.approx(single.contact_time, rel=1e-7)
+    gradient = sensitivities(own, of=["restitution"], wrt=["custom.place"]).gradient["restitution"]["custom.place"]
+    step = 5e-11
+    sides = [collide(own.with_entries({"custom.place": 5e-6 + s}), rtol=1e-12).restitution for s in (-step, step)]
+    assert gradient == pytest.approx((sides[1] - sides[0]) / (2 * step), rel=1e-6)

@@ -150,3 +150,21 @@ def test_junk_is_an_input_error(text):
         assert math.isfinite(read(text))
     except InputError as error:
         assert len(str(error).splitlines()) == 1
+
+
+@pytest.mark.parametrize(
+    ("text", "si", "meant"),
+    [
+        ("2.5 gr/cm3", "kg/m^3", "a gram is g"),
+        ("3 kgr", "kg", "a gram is g"),
+        ("150 px", "m", "scale"),
+        ("2 mil", "m", "thou"),
+        ("2 mil", "rad", "thou"),
+        ("7 cps", "Pa s", "cP"),
+    ],
+)
+def test_words_that_pint_reads_as_another_unit_are_refused(text, si, meant):
+    """A grain, a style sheet's pixel, an angle of artillery, counts per second: not what a laboratory means."""
+    with pytest.raises(InputError, match=meant):
+        read(text, si)
+    assert read("2 thou", "m") == pytest.approx(50.8e-6, rel=1e-12)

@@ -123,8 +123,7 @@ def test_band_against_samples(tmp_path: Path) -> None:
     # 32 points of a Sobol sequence, the next order in sigma: a few percent
     assert found.sampled.values[1:] == pytest.approx(found.first_order.values[1:], rel=0.06)
     assert (found.low <= found.restitution).all()
-    figure = uncertainty.draw(found)
-    figure.savefig(tmp_path / "band.png")
+    found.wetdoublet.plot(tmp_path / "band.png")
     assert (tmp_path / "band.png").stat().st_size > 10_000
 
 

@@ -4,8 +4,12 @@ import math
 
 import numpy as np
 import pytest
+from wetdoublet.generated.automaton import OUTCOMES
 from wetdoublet.solvers import Scene, collide, collide_pair
 from wetdoublet.solvers.host.compiler import compiler
+from wetdoublet.solvers.space.books import residual
+from wetdoublet.solvers.space.by_kernel import by_kernel
+from wetdoublet.solvers.space.pairs import checked
 
 from ...helpers.in_space import Arrival, Spatial, collided
 from ...helpers.random_in_space import arrivals, differences, quantities, request
@@ -79,6 +83,32 @@ def test_in_a_plane_it_is_the_planar_collision_rest_included(engine, friction):
     assert found.spins.values[:, 1] == pytest.approx(planar.final_spin, rel=1e-7)
 
 
+def by_kernel_alone(scene, arrival, rtol=1e-10):
+    """The ends of a pair by the kernel with vectors, without and with ledger; no other engine is asked."""
+    pairs = checked(scene, *(np.array(each) for each in (arrival.normal, arrival.velocities, arrival.spins)))
+    for ledger in (False, True):
+        ends, handed_over = by_kernel(pairs, rtol, 1, ledger)
+        assert not handed_over.any()
+        yield ends
+    assert np.all(np.abs(residual(ends.energy)) < 1e-9 * ends.energy[:, 0])
+
+
+@pytest.mark.parametrize("friction", [0.02, 0.3])
+def test_the_kernel_creeps_where_surfaces_roll(friction):
+    """In a plane but for a tilt of 1e-9: with and without ledger as the planar kernel, which has a mode for rolling."""
+    scene = rough(friction, **RESTS, **{"impact.spin": SPIN})
+    speed = scene.speed_of(5.0)
+    planar = collide(scene, stokes=5.0, angle=0.3, engine="taylor", rtol=1e-10)
+    sideways = speed * math.tan(0.3) * (1 + scene.liquid.film_thickness / (4 * scene.reduced_radius))
+    tilt = 1e-9 * SPIN
+    moving = ((0.0, 0.0, speed), (sideways, 0.0, 0.0))
+    for ends in by_kernel_alone(scene, Arrival((0.0, 0.0, 1.0), moving, ((tilt, SPIN, 0.0), (tilt, SPIN, 0.0)))):
+        assert OUTCOMES[int(ends.outcome[0])] == planar.outcome
+        assert ends.time[0] == pytest.approx(planar.contact_time, rel=1e-7)
+        assert ends.spins[0, :, 1] == pytest.approx(planar.final_spin, rel=1e-7)
+    assert ends.energy[0, -1] == pytest.approx(planar.energy.dry_friction, rel=1e-6)
+
+
 def test_the_direction_of_sliding_turns_at_rest():
     """A doublet with other spins slides at rest in space until it is released, as the reference finds."""
     scene = rough(0.05, **RESTS)
@@ -94,3 +124,9 @@ def test_the_direction_of_sliding_turns_at_rest():
     apart = differences(bodies, arrival, row, quantities(bodies, arrival, end))
     assert max(apart.values()) < 1e-7, apart
     assert abs(float(found["energy.residual"])) < 1e-9 * float(found["energy.initial"])
+    for ends in by_kernel_alone(scene, arrival):
+        assert OUTCOMES[int(ends.outcome[0])] == end.outcome == "bounce"
+        assert ends.time[0] == pytest.approx(float(found.time), rel=1e-8)
+        np.testing.assert_allclose(ends.normal[0], found.normal, rtol=0, atol=1e-7)
+        np.testing.assert_allclose(ends.spins[0], found.spins, rtol=0, atol=1e-8 * SPIN)
+    assert ends.energy[0, -1] == pytest.approx(float(found["energy.dry_friction"]), rel=1e-8)

@@ -14,6 +14,7 @@ import pytest
 from wetdoublet.solvers import Scene, boundary, collide, collide_many
 from wetdoublet.solvers.collision.by_casadi import by_casadi
 from wetdoublet.solvers.commands.cli import main
+from wetdoublet.solvers.commands.verify import command as verify
 from wetdoublet.solvers.engines.casadi.locate import CHATTERS, locate
 from wetdoublet.solvers.engines.casadi.replay import Stopped
 from wetdoublet.solvers.errors import ComputationError
@@ -200,6 +201,12 @@ def test_a_count_that_cannot_be(count: str, capsys: pytest.CaptureFixture[str]) 
     """`--stress` takes a whole number above 0; anything else is bad input that names the option."""
     assert run("verify", "--stress", count) == 2
     assert "--stress" in capsys.readouterr().err
+
+
+def test_without_a_count_there_are_as_many_scenes_as_the_help_says() -> None:
+    """The value of a bare `--stress` stands in its line of the help, and is one that a person waits for."""
+    option = next(each for each in verify.params if each.name == "stress")
+    assert f"[{option.flag_value}]" in option.help and int(option.flag_value) == 500
 
 
 def test_a_weak_glass_just_after_first_touch() -> None:

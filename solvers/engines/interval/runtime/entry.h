@@ -77,8 +77,9 @@ static void prove(proof *w, const options *o)
     end(w, UNPROVED, TOO_MANY_STEPS);
 }
 
-/* `quantities`: low, high of each in SI (NaN if absent); `moving`: for each its column among the parameters, or -1. */
-static void set_up(proof *w, const double *quantities, const int *moving)
+/* `quantities`: low, high of each in SI (NaN if absent); `moving`: for each its column among the parameters, or -1. False if
+ * the states at initial contact are not finite. */
+static int set_up(proof *w, const double *quantities, const int *moving)
 {
     dual box[QUANTITIES], centre[QUANTITIES], y[STATES], first[STATES];
     memset(w, 0, sizeof *w);
@@ -113,13 +114,14 @@ static void set_up(proof *w, const double *quantities, const int *moving)
         for (int j = 0; j < DIRECTIONS; j++)
             by[i][j] = HAS(&y[i], j) ? y[i].d[j] : iv_point(0.0);
     }
-    map_set(&w->p, &w->s, at, by); /* of a point at the origin */
+    return map_set(&w->p, &w->s, at, by) || end(w, UNPROVED, TOO_WIDE); /* of a point at the origin */
 }
 
-/* Two thirds that meet three halves, and so on: true if the machine and the compiler round upward here. */
+/* Two thirds that meet three halves, and so on: true if the machine and the compiler round upward here, and keep numbers near
+ * zero. */
 static int rounds_upward(void)
 {
-    volatile double one = 1.0, three = 3.0, tiny = 0x1p-80, big = DBL_MAX, ten = 10.0;
+    volatile double one = 1.0, three = 3.0, tiny = 0x1p-80, big = DBL_MAX, ten = 10.0, least = 0x1p-1074;
     const iv third = iv_div(iv_point(one), iv_point(three)), sum = iv_add(iv_point(one), iv_point(tiny));
     const iv tenth = iv_div(iv_point(one), iv_point(ten)), square = iv_mul(tenth, iv_neg(tenth));
     const iv same = iv_square(tenth), low = iv_sub(iv_point(one), iv_point(tiny)), root = iv_root(iv_point(three - one));
@@ -127,20 +129,24 @@ static int rounds_upward(void)
         iv_lo(tenth) < iv_hi(tenth) && iv_lo(square) < iv_hi(square) && iv_lo(same) < iv_hi(same) &&
         iv_lo(same) == -iv_hi(square) && iv_hi(iv_add(iv_point(big), iv_point(big))) == INFINITY &&
         iv_lo(iv_add(iv_point(big), iv_point(big))) == big && iv_lo(root) < iv_hi(root) &&
-        iv_lo(root)*iv_lo(root) > 1.99 && one + tiny > one && -((-one) - tiny) == one;
+        iv_lo(root)*iv_lo(root) > 1.99 && one + tiny > one && -((-one) - tiny) == one &&
+        iv_hi(iv_square(iv_point(least))) > 0.0;
 }
 
 #define EXPORTED __attribute__((visibility("default"), noinline))
 
-/* Run with rounding upward, which is restored. A call by pointer, so that nothing is moved across. */
+/* Run with rounding upward and small numbers that are not flushed to zero, as another library may have set it; all is as before
+ * afterwards. A call by pointer, so that nothing is moved across. */
 typedef void body(void *);
 static void rounded(body *run, void *argument)
 {
     body *volatile called = run;
-    const int mode = fegetround();
+    fenv_t before;
+    fegetenv(&before);
+    fesetenv(FE_DFL_ENV);
     fesetround(FE_UPWARD);
     called(argument);
-    fesetround(mode);
+    fesetenv(&before);
 }
 
 typedef struct {
@@ -171,8 +177,8 @@ static void run_proof(void *argument)
     proof *w = r->w;
     const double *s = r->settings;
     const options o = {(int)s[0], (int)s[1], (int)s[2], s[3], s[4], s[5], (int)s[6]};
-    set_up(w, r->quantities, r->moving);
-    prove(w, &o);
+    if (set_up(w, r->quantities, r->moving))
+        prove(w, &o);
     const double result[RESULTS] = {w->outcome, w->why, w->steps, w->rebounds, w->criterion, iv_lo(w->speed), iv_hi(w->speed),
         w->smallest, (double)w->panels, most_spread(w)};
     memcpy(r->result, result, sizeof result);

@@ -138,17 +138,19 @@ static void first_rates(const problem *p, flow *s, double gap, const bounds *now
         rates[i] = iv_magnitude(rate[i + 1])/(i ? speed : 1.0);
 }
 
-/* True if every trajectory from the box opens up to the rupture gap; `speed` encloses u there. The region is left as it is
- * at the end. Panels are so short that w changes by less than a third: beside a saddle the pair opens so slowly that its
- * distance from the saddle is what they must resolve. */
+/* True if every trajectory from the box opens up to the rupture gap; `speed` encloses u there: between the bounds at the
+ * ends of panels from the low end of that gap on (derive/checks/enclosure.py). The region is left as it is at the end. Panels are
+ * so short that w changes by less than a third: beside a saddle the pair opens so slowly that its distance from the saddle is
+ * what they must resolve. */
 static int funnel(problem *p, flow *s, const iv *x, region at_start, double panel, iv *speed, long *panels)
 {
     bounds now, after;
     const iv w = iv_mul(iv_point(0.5), iv_square(x[NORMAL_VELOCITY])), edge = p->level[TANGENTIAL_EDGE].v;
-    const double last = iv_hi(p->level[RUPTURE_GAP].v), width = panel;
+    const double first = iv_lo(p->level[RUPTURE_GAP].v), last = iv_hi(p->level[RUPTURE_GAP].v), width = panel;
     region here = at_start;
     double at = iv_lo(x[GAP]), least = 0.0, rates[OPENING] = {0.0};
     int start = 1;
+    iv ruptured = {-INFINITY, -INFINITY}; /* w of those that have */
     now.low[0] = iv_lo(w);
     now.high[0] = iv_hi(w);
     for (int i = 1; i < OPENING; i++) {
@@ -178,9 +180,10 @@ static int funnel(problem *p, flow *s, const iv *x, region at_start, double pane
             enter_region(p, here);
             continue;
         }
-        if (start && to > smaller(film_end, shear_end))
+        const double end = smaller(at < first ? first : last, smaller(film_end, shear_end));
+        if (start && to > end)
             return 0;
-        to = start ? to : smaller(smaller(to, last), smaller(film_end, shear_end));
+        to = start ? to : smaller(to, end);
         const iv gap = iv_of(at, to), length = iv_sub(iv_point(to), iv_point(at));
         const iv h = start ? iv_of(0.0, iv_hi(length)) : length;
         ++*panels;
@@ -190,7 +193,7 @@ static int funnel(problem *p, flow *s, const iv *x, region at_start, double pane
                 return 0;
             continue;
         }
-        if (start || to >= last) /* trajectories start, or end, anywhere within this panel */
+        if (start) /* trajectories start anywhere within this panel */
             for (int i = 0; i < OPENING; i++) {
                 after.low[i] = smaller(now.low[i], after.low[i]);
                 after.high[i] = larger(now.high[i], after.high[i]);
@@ -198,8 +201,10 @@ static int funnel(problem *p, flow *s, const iv *x, region at_start, double pane
         for (int i = 0; i < OPENING; i++)
             rates[i] = larger(fabs(after.low[i] - now.low[i]), fabs(after.high[i] - now.high[i]))/iv_hi(h);
         now = after;
+        if (to >= first)
+            ruptured = iv_hull(ruptured, iv_of(now.low[0], now.high[0]));
         if (to >= last) {
-            *speed = speed_of(now.low[0], now.high[0]);
+            *speed = speed_of(iv_lo(ruptured), iv_hi(ruptured));
             return iv_positive(*speed);
         }
         at = to;

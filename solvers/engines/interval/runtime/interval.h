@@ -39,8 +39,21 @@ static inline double iv_middle(iv a)
     return smaller(larger(middle, iv_lo(a)), iv_hi(a));
 }
 
-/* A product of an infinite end and zero is NaN, which the larger one of two drops: the end is no member. An end that is
- * NaN all the same stays so in sums, and `iv_checked` makes it the whole line. */
+/* A product with an infinite end: times zero it is zero, as the end is no member. NaN makes it the whole line. */
+static iv unbounded_product(iv a, iv b)
+{
+    const double left[2] = {-a[0], a[1]}, right[2] = {-b[0], b[1]};
+    iv all = {-INFINITY, -INFINITY};
+    for (int i = 0; i < 4; i++) {
+        const double x = left[i & 1], y = right[i >> 1];
+        if (x != x || y != y)
+            return iv_line();
+        all = iv_hull(all, x == 0.0 || y == 0.0 ? iv_point(0.0) : (iv){-x*y, x*y});
+    }
+    return all;
+}
+
+/* `iv_checked` makes a sum of products with an end that is NaN the whole line. */
 static inline iv iv_times(iv a, iv b)
 {
 #if defined(__AVX__)
@@ -48,10 +61,14 @@ static inline iv iv_times(iv a, iv b)
     const __m256d right = _mm256_set_m128d((__m128d)iv_swap(b), (__m128d)b);
     __m256d one = _mm256_mul_pd(left, right); /* hi hi -lo -lo */
     __m256d two = _mm256_mul_pd(_mm256_xor_pd(left, minus), right); /* -lo -lo hi hi */
+    if (__builtin_expect(_mm256_movemask_pd(_mm256_cmp_pd(one, two, _CMP_UNORD_Q)), 0))
+        return unbounded_product(a, b);
     one = _mm256_max_pd(one, _mm256_permute2f128_pd(two, two, 1));
     const __m128d low = _mm256_castpd256_pd128(one), high = _mm256_extractf128_pd(one, 1);
     return (iv)_mm_max_pd(_mm_unpacklo_pd(high, low), _mm_unpackhi_pd(high, low));
 #else
+    if (__builtin_expect(!(iv_finite(a) && iv_finite(b)), 0))
+        return unbounded_product(a, b);
     return (iv){larger(larger(a[0]*b[1], a[1]*b[0]), larger(-a[0]*b[0], -a[1]*b[1])),
         larger(larger(a[0]*b[0], a[1]*b[1]), larger(-a[0]*b[1], -a[1]*b[0]))};
 #endif

@@ -10,6 +10,7 @@
 #include "effects.h"
 #include "guards.h"
 #include "implicit.h"
+#include "kinks.h"
 #include "model.h"
 #include "nearness.h"
 #include "queue.h"
@@ -136,7 +137,11 @@ static void expand_states(expansion *e, const lanes *l, const fixed *f)
 #endif
 #if RUBS
     if (bits(l->alive & l->resting))
+#if SPACE
+        expand_rubbing(&e->r, &e->s, &f->c, l, bits(e->turns) ? &e->turning : 0);
+#else
         expand_rubbing(&e->r, &e->s, &f->c, l);
+#endif
 #endif
 }
 
@@ -180,7 +185,7 @@ static first_event event_of_step(queue *q, expansion *e, const lanes *l, const f
     }
 #endif
     first_event first = find_events(&e->s, l, f, h);
-#if RUBS
+#if ROLLS
     if (bits(l->alive & l->resting))
         find_events_at_rest(&e->r, l, h, &first);
 #endif
@@ -245,6 +250,9 @@ static void leave_to_others(queue *q, lanes *l, fixed *f, mask lost, mask falls)
     /* only steps of series are recorded, and implicit.h ignores the purpose */
     slow = q->step_room || q->t->purpose != WHOLE ? 0 : slow;
 #endif
+#if KINKS
+    slow = 0; /* implicit.h takes derivatives across kinks */
+#endif /* KINKS */
     EACH_OF(lane, slow)
         park(q, l, f, lane);
     EACH_OF(lane, bits(spent)) {
@@ -288,6 +296,9 @@ static void run(queue *q)
 #endif
         mask creeps;
         vec h = length_of_step(q, &e, &l, &f, &creeps);
+#if KINKS
+        h = before_kinks(&e.s, h, creeps);
+#endif /* KINKS */
         first_event first = event_of_step(q, &e, &l, &f, h);
         mask falls = l.alive & (first.time <= 1.0);
         h = choose(falls, h*first.time, h);

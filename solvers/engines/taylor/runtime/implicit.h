@@ -143,7 +143,7 @@ static mask clear_of_events(const lanes *l, const fixed *f, const vec *from, con
     mask opens = from[NORMAL_VELOCITY] > 0.0;
     mask goes_on = (opens & (to[NORMAL_VELOCITY] > 0.0)) | (NOT(opens) & (to[NORMAL_VELOCITY] < 0.0));
     mask clear = (l->resting | (goes_on & (opens ^ l->closing))) & guards_kept(l, f, from, to);
-#if RUBS
+#if ROLLS
     if (bits(l->resting))
         clear &= NOT(l->resting) | keeps_rubbing(&f->c, l, from, to);
 #endif

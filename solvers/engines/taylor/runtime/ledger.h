@@ -15,14 +15,6 @@ static void book_rebound(ledger *book, const constants *c, const vec *y, int lan
     book->dry += in_lane(rebound_loss(c, y), lane);
 }
 
-#if FRICTION
-/* Books what a tangential impulse costs in this state. */
-static void book_friction(ledger *book, const constants *c, const vec *y, double impulse, int lane)
-{
-    book->friction += in_lane(friction_loss(c, y, splat(impulse)), lane);
-}
-#endif
-
 /* Books the remaining kinetic energy of a rebound that rests as dry contact. */
 static void book_rest(ledger *book, const vec *y, int lane)
 {
@@ -42,6 +34,9 @@ static void close_book(ledger *book, const constants *c, const vec *y, int lane)
     book->normal = LANE(y[NORMAL_LOSS], lane);
 #if defined(TANGENTIAL)
     book->tangential = LANE(y[TANGENTIAL_LOSS], lane);
+#endif
+#if FRICTION
+    book->friction = LANE(y[FRICTION_LOSS], lane);
 #endif
 #if ATTRACTION
     book->attraction = LANE(y[ATTRACTION_WORK], lane);

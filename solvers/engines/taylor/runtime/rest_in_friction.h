@@ -1,16 +1,17 @@
 /* Resting contact with friction: the surfaces slide against Coulomb's limit, or roll without slip.
  *
  * The gap is held and the tangential states go on, by recurrences of their own (derive/emit/taylor/resting.py). A lane
- * slides until its slip vanishes, and rolls while friction can hold the surfaces together. As
- * solvers/engines/casadi/locate.py; with derivatives or a ledger, such collisions are left to it.
+ * slides until its slip vanishes, and rolls while friction can hold the surfaces together; in space it slides in the
+ * direction of its slip, and creeps. As solvers/engines/casadi/locate.py; with derivatives it is left to that.
  */
 #pragma once
 
 #include "friction.h"
 #include "model.h"
 #include "state.h"
+#include "turning_axes.h"
 
-#if RUBS
+#if ROLLS
 /* Whether friction can hold the surfaces of a lane together; `sense` is that in which they are driven past each other. */
 static int can_hold(const lanes *l, const fixed *f, int lane, double *sense)
 {
@@ -53,16 +54,37 @@ static int rubs(lanes *l, const fixed *f, int lane)
     return 0;
 }
 
+/* Lanes whose slip or hold keeps half its value between two states. */
+static mask keeps_rubbing(const constants *c, const lanes *l, const vec *from, const vec *to)
+{
+    vec before[DRY_FORCES], after[DRY_FORCES], slip[IMPULSES], later[IMPULSES];
+    dry_forces(c, from, l->film, l->shear, before);
+    dry_forces(c, to, l->film, l->shear, after);
+    dry_slip(c, from, slip);
+    dry_slip(c, to, later);
+    mask slides_on = 2.0*l->sliding*later[SLIP] > l->sliding*slip[SLIP];
+    mask holds = 2.0*(after[GRIP_LIMIT] - vec_abs(after[HOLDING])) > before[GRIP_LIMIT] - vec_abs(before[HOLDING]);
+    return choose_whole(l->rolling != 0.0, holds, (l->sliding == 0.0) | slides_on);
+}
+#endif
+
+#if RUBS
 /* The series of lanes that rest, in place of those without friction. */
+#if SPACE
+OUTLINE void expand_rubbing(rubbing *r, series *s, const constants *c, const lanes *l, const axes *turning)
+#else
 OUTLINE void expand_rubbing(rubbing *r, series *s, const constants *c, const lanes *l)
+#endif
 {
     vec (*a)[TERMS] = (vec (*)[TERMS])s, (*own)[TERMS] = (vec (*)[TERMS])r;
     for (int state = 0; state < STATES; state++)
         own[state][0] = l->y[state];
     for (int k = 0; k <= ORDER; k++) {
         rubbing_coefficients(r, c, l->film, l->shear, l->sliding, l->rolling, k);
-        if (k < ORDER)
-            rubbing_next(r, c, k);
+        if (k < ORDER) {
+            rubbing_next(r, c, l->film, l->shear, l->sliding, l->rolling, k);
+            TURN(own, k)
+        }
         for (int state = 0; state < STATES; state++)
             a[state][k] = choose(l->resting, own[state][k], a[state][k]);
         s->acceleration[k] = choose(l->resting, -r->rest_reaction[k], s->acceleration[k]);
@@ -88,21 +110,8 @@ static void rubbing_rates(rubbing *r, const constants *c, const lanes *l, const 
     for (int state = 0; state < STATES; state++)
         own[state][0] = y[state];
     rubbing_coefficients(r, c, l->film, l->shear, l->sliding, l->rolling, 0);
-    rubbing_next(r, c, 0);
+    rubbing_next(r, c, l->film, l->shear, l->sliding, l->rolling, 0);
     for (int state = 0; state < STATES; state++)
         rate[state] = choose(l->resting, own[state][1], rate[state]);
-}
-
-/* Lanes whose slip or hold keeps half its value between two states. */
-static mask keeps_rubbing(const constants *c, const lanes *l, const vec *from, const vec *to)
-{
-    vec before[DRY_FORCES], after[DRY_FORCES], slip[IMPULSES], later[IMPULSES];
-    dry_forces(c, from, l->film, l->shear, before);
-    dry_forces(c, to, l->film, l->shear, after);
-    dry_slip(c, from, slip);
-    dry_slip(c, to, later);
-    mask slides_on = 2.0*l->sliding*later[SLIP] > l->sliding*slip[SLIP];
-    mask holds = 2.0*(after[GRIP_LIMIT] - vec_abs(after[HOLDING])) > before[GRIP_LIMIT] - vec_abs(before[HOLDING]);
-    return choose_whole(l->rolling != 0.0, holds, (l->sliding == 0.0) | slides_on);
 }
 #endif

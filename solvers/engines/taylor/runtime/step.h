@@ -67,21 +67,7 @@ static inline vec step_size(const series *s, const fixed *f, mask *creeps)
     return power_of(step);
 }
 
-#if SPACE
-/* Subtracts from coefficient k + 1 what the axes turn. */
-static inline void turn_along(series *s, const axes *w, int k)
-{
-    vec (*a)[TERMS] = (vec (*)[TERMS])s;
-    for (int first = FIRST_VECTOR; first < MODEL_STATES; first += 3)
-        for (int part = 0; part < 3; part++)
-            a[first + part][k + 1] -= swept(w, &a[first][k], TERMS, part)*(1.0/(k + 1));
-}
-#define TURN(k) if (turning) turn_along(w, turning, k);
-#else
-#define TURN(k)
-#endif
-
-#define TERM(k) if (k < ORDER) { coefficients(w, c, film, shear, moving, k); TURN(k) }
+#define TERM(k) if (k < ORDER) { coefficients(w, c, film, shear, moving, k); TURN(w, k) }
 #define GLASS_TERM(k) if (k <= ORDER) glass_coefficients(s, c, k);
 
 /* Series of the states from their first coefficients. Unless others are read later, they are local: most of their

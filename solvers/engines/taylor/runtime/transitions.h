@@ -66,7 +66,7 @@ static void rub(queue *q, lanes *l, fixed *f, int lane, int kind, int rests)
 #endif
 #endif
 #if WITH_LEDGER
-    book_friction(q->books + LANE(l->index, lane), &f->c, l->y, o.impulse, lane);
+    LANE(l->y[FRICTION_LOSS], lane) += in_lane(friction_loss(&f->c, l->y, splat(o.impulse)), lane);
 #endif
     (void)q;
     for (int state = 0; state < MODEL_STATES; state++)
@@ -143,9 +143,11 @@ static void rebounds(queue *q, lanes *l, fixed *f, int lane, int kind)
         LANE(l->y[NORMAL_VELOCITY], lane) = 0.0;
         opens(l, f, lane);
         LANE(l->resting, lane) = TRUTH;
-#if RUBS
+#if ROLLS
         if (rubs(l, f, lane))
             note(q, LANE(l->index, lane), KIND_ROLLS, LANE(l->time, lane));
+#elif RUBS
+        LANE(l->sliding, lane) = 1.0;
 #endif
         if (!TURNS || (!STRINGS && LANE(l->shear, lane) == 0.0)) /* the reaction never vanishes (derive/checks/friction.py) */
             sticks_for_good(q, l, f, lane, 1);

@@ -32,6 +32,15 @@ static inline vec swept(const axes *w, const vec *v, int stride, int k)
     return w->velocity[next]*v[last*stride] - w->velocity[last]*v[next*stride];
 }
 
+/* Subtracts from coefficient k + 1 of the states what the axes turn. */
+static inline void turn_along(vec (*a)[TERMS], const axes *w, int k)
+{
+    for (int first = FIRST_VECTOR; first < MODEL_STATES; first += 3)
+        for (int part = 0; part < 3; part++)
+            a[first + part][k + 1] -= swept(w, &a[first][k], TERMS, part)*(1.0/(k + 1));
+}
+#define TURN(states, k) if (turning) turn_along((vec (*)[TERMS])(states), turning, k);
+
 /* The states after a step, from these axes into the laboratory's. */
 static void turn_back(const axes *w, vec h, vec *y)
 {
@@ -49,4 +58,6 @@ static void turn_back(const axes *w, vec h, vec *y)
             y[first + k] = cosine*v[k] + sine*over*swept(w, v, 1, k) + (1.0 - cosine)*along*over*w->velocity[k];
     }
 }
+#else
+#define TURN(states, k)
 #endif

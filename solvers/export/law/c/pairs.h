@@ -99,20 +99,26 @@ static plane plane_of(const bodies *b, const arrival *a)
 {
     plane made;
     vector3 chosen = a->turning;
-    double size[3], most, given;
+    double size[3], most, given, aside;
     size[0] = length(a->sliding);
     for (int k = 0; k < 2; k++)
         size[1 + k] = b->radius[k]*length(a->spin[k]);
     most = larger(size[0], larger(size[1], size[2]));
+    aside = size[0];
+    for (int k = 0; k < 2; k++)
+        aside = larger(aside, b->radius[k]*length(across(a->spin[k], a->normal)));
+    made.is_plane = aside <= TURNLESS*most;
+    made.axis = times(0.0, a->normal);
+    made.turning = made.spin[0] = made.spin[1] = 0.0;
+    if (made.is_plane) /* nothing turns the line of centres: no torque acts on twist */
+        return made;
     if (!(size[0] > TURNLESS*most))
         chosen = a->spin[size[2] > size[1]];
     chosen = across(chosen, a->normal);
     given = length(chosen);
-    made.is_plane = !(most > 0.0);
-    made.axis = times(given > 0.0 && most > 0.0 ? 1.0/given : 0.0, chosen);
-    made.turning = made.spin[0] = made.spin[1] = 0.0;
-    if (!(given > 0.0 && most > 0.0)) /* nothing rotates, or twist alone */
+    if (!(given > 0.0)) /* the faster spin is twist alone */
         return made;
+    made.axis = times(1.0/given, chosen);
     made.turning = dot(a->turning, made.axis);
     given = larger(most, larger(largest(a->velocity[0]), largest(a->velocity[1])));
     most = (b->contact + b->film)*length(plus(a->turning, -made.turning, made.axis));

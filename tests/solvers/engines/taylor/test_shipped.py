@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 from wetdoublet.solvers import Scene, compile_kernels
-from wetdoublet.solvers.engines import machine
+from wetdoublet.solvers.engines import machine, ship
 from wetdoublet.solvers.engines.settings import RTOL
 from wetdoublet.solvers.engines.taylor import shipped
 from wetdoublet.solvers.engines.taylor.orders import order_backward
@@ -25,16 +25,17 @@ import pathlib, sys
 
 sys.modules["ziglang"] = None  # as if not installed
 import wetdoublet as wd
-from wetdoublet.solvers.engines import machine
+from wetdoublet.solvers.engines import machine, ship
 
 if sys.argv[2:]:
     lesser = machine.sets_of(sys.argv[2], [])
     machine.here = lambda: lesser
+from wetdoublet.solvers.engines import ship
 from wetdoublet.solvers.engines.taylor import build, shipped
 
 shipped.FOLDER = pathlib.Path(sys.argv[1])
 one = wd.collide("granulation", stokes=0.3, angle=0, ledger=False)
-values = [each for each in shipped.variants() if each.choice.structure == "head_on_bridge" and not each.gradients]
+values = [each for each in ship.variants() if each.choice.structure == "head_on_bridge" and not each.gradients]
 sizes = [build.size_of(each) for each in values]
 print(one.engine, one.restitution.hex(), min(sizes))
 """
@@ -74,7 +75,7 @@ def build(folder: Path, *sets: str) -> Path:
     command = [
         sys.executable,
         "-m",
-        shipped.__name__,
+        ship.__name__,
         str(folder),
         *sets,
         "--structure",
@@ -128,7 +129,7 @@ def test_a_lesser_processor_loads_the_baseline(built: Path, tmp_path: Path) -> N
 @pytest.mark.parametrize("rtol", [RTOL, FIT_RTOL])
 def test_derivatives_at_default_tolerances_are_shipped(rtol: float) -> None:
     """Of collisions and of fits, which have a looser default; for every preset in which the laws are the usual ones."""
-    there = set(shipped.variants())
+    there = set(ship.variants())
     for name in ("granulation", "pendulum", "granulation-dry-bridge"):
         for oblique in (True, False):
             variant = variant_of(Scene.load(name), oblique, order_backward(rtol), rotation=False, backward=True)

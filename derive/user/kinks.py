@@ -1,0 +1,195 @@
+"""Kinks of a law: each a guard, on either side of which the law is smooth.
+
+`Abs`, `Max`, `Min`, `sign` and the conditions of a `Piecewise` have no Taylor series where they change. Each becomes a
+guard k, a named part of the law, and a side, k/|k|, so that |k| is side k. Steps and phases end where a guard is zero.
+Where a side is not fixed it is k/sqrt(k^2 + WIDTH^2), which no result can tell from it. Powers, roots and logarithms of
+what may vanish are rounded alike, and what vanishes is a guard.
+"""
+
+from collections.abc import Collection, Iterable
+from dataclasses import replace
+
+import sympy as sp
+from sympy.core.relational import Relational
+from sympy.logic.boolalg import BooleanFunction
+
+from ..physics.laws.base import LawFunction, needed
+from ..physics.scaling import ScalingError
+from ..vocabulary.quantities import normal_velocity
+
+WIDTH = sp.Rational(1, 10**10)
+_SQUARE = sp.Symbol("squared_width", positive=True)  # named: sympy factors no numbers of twenty digits
+_FLAT = (sp.Max, sp.Min, sp.Piecewise, sp.Heaviside)  # may vanish over a range, not only at a point
+
+
+class KinkError(ScalingError):
+    """A condition that is no guard; the message names it and says what is."""
+
+
+def smooth(function: LawFunction, still: Collection[sp.Symbol]) -> LawFunction:
+    """A law's function with a guard for every kink; the function itself if it has none.
+
+    Arguments:
+        still: arguments that are constant along a trajectory.
+
+    Raises:
+        KinkError: a condition that is no comparison of numbers.
+    """
+    smoothing = _Smoothing({argument for argument in function.arguments if argument not in still})
+    for symbol, value in function.definitions:
+        smoothing.definitions.append((symbol, smoothing(value)))
+        smoothing.written[symbol] = value.xreplace(smoothing.written)
+    result = smoothing(function.result)
+    definitions = needed([result, *(kink for kink, _ in smoothing.kinks)], smoothing.definitions)[0]
+    return replace(function, result=result, definitions=tuple(definitions), kinks=tuple(smoothing.kinks))
+
+
+def freed(expression: sp.Expr) -> sp.Expr:
+    """An expression with positive common factors, and with them dimensions, in front of its kinks."""
+
+    def front(node: sp.Basic) -> sp.Basic:
+        marks = sp.symbols(f"part:{len(node.args)}", cls=sp.Dummy, positive=True)
+        whole = sp.factor(sp.Add(*(mark * part for mark, part in zip(marks, node.args, strict=True))))
+        factors = [part for part in sp.Mul.make_args(whole) if part.is_positive and not part.has(*marks)]
+        return sp.Mul(*factors) * node.func(*(sp.expand(part / sp.Mul(*factors)) for part in node.args))
+
+    def compared(node: Relational) -> sp.Basic:
+        factors = sp.Mul.make_args(sp.factor(node.lhs - node.rhs))
+        return node.func(sp.Mul(*(-1 if part.is_negative else part for part in factors if not part.is_positive)), 0)
+
+    result = expression.replace(lambda node: isinstance(node, (sp.Abs, sp.Max, sp.Min)), front)  # the inner ones first
+    return result.xreplace({node: compared(node) for node in result.atoms(Relational)})
+
+
+def rounded(expression: sp.Expr) -> sp.Expr:
+    """An expression with its kinks rounded within WIDTH."""
+    smoothing = _Smoothing(expression.free_symbols)
+    result = smoothing(expression)
+    for symbol, value in reversed(smoothing.definitions):
+        result = result.subs(symbol, value)
+    return result
+
+
+class _Smoothing:
+    """Expressions with kinks -> smooth ones; their guards and sides are added to `definitions`."""
+
+    def __init__(self, moving: Collection[sp.Symbol]) -> None:
+        self.moving = set(moving)
+        self.definitions: list[tuple[sp.Symbol, sp.Expr]] = [(_SQUARE, WIDTH**2)]
+        self.written: dict[sp.Basic, sp.Basic] = {}  # named parts as they were written
+        self.kinks: list[tuple[sp.Symbol, sp.Symbol]] = []
+        self._sides: dict[sp.Expr, sp.Expr] = {}
+
+    def __call__(self, node: sp.Expr) -> sp.Expr:
+        if isinstance(node, sp.Piecewise):
+            return self._piecewise(node)
+        if isinstance(node, sp.Pow):
+            return self._power(node)
+        arguments = [self(argument) for argument in node.args]
+        if isinstance(node, sp.Abs):
+            return self._side(arguments[0]) * arguments[0]
+        if isinstance(node, sp.sign):
+            return self._side(arguments[0])
+        if isinstance(node, sp.Heaviside):
+            return self._step(arguments[0])
+        if isinstance(node, (sp.Max, sp.Min)):
+            return self._extreme(arguments, 1 if isinstance(node, sp.Max) else -1)
+        if isinstance(node, sp.log) and self._vanishes(node.args[0]):
+            inner = node.args[0]
+            return sp.log(self._squared(self(inner.args[0] if isinstance(inner, sp.Abs) else inner))) / 2
+        return node.func(*arguments) if node.args else node
+
+    def _moves(self, expression: sp.Expr) -> bool:
+        definitions = dict(self.definitions)
+        return any(
+            s in self.moving or (s in definitions and self._moves(definitions[s])) for s in expression.free_symbols
+        )
+
+    def _vanishes(self, base: sp.Expr) -> bool:
+        """True if an expression may pass zero along a trajectory."""
+        return not base.xreplace(self.written).is_positive and self._moves(base)
+
+    def _side(self, inner: sp.Expr) -> sp.Expr:
+        """1 where an expression is positive and -1 where it is negative."""
+        factors = sp.Mul.make_args(sp.factor_terms(inner))
+        known = sp.Mul(*(sp.sign(factor) for factor in factors if factor.is_positive or factor.is_negative))
+        rest = sp.Mul(*(factor for factor in factors if not (factor.is_positive or factor.is_negative)))
+        if rest == 1 or rest.is_nonnegative:
+            return known
+        if -rest in self._sides:
+            known, rest = -known, -rest
+        if rest not in self._sides:
+            kink, side = self._named("kink", rest), sp.Symbol(f"side_{len(self._sides) + 1}", real=True)
+            self.definitions.append((side, kink / sp.sqrt(kink**2 + _SQUARE)))
+            self._sides[rest] = side
+            if self._moves(rest):
+                self.kinks.append((kink, side))
+        return known * self._sides[rest]
+
+    def _named(self, what: str, value: sp.Expr) -> sp.Expr:
+        """A part with a name, which no expansion takes apart: differences keep their digits."""
+        if value.is_Symbol and what != "kink":
+            return value
+        symbol = sp.Symbol(f"{what}_{len(self.definitions) + 1}", real=True)
+        self.definitions.append((symbol, value))
+        return symbol
+
+    def _squared(self, inner: sp.Expr) -> sp.Expr:
+        """The rounded square of what may vanish, which is a guard."""
+        self._side(inner)
+        return self._named("base", inner) ** 2 + _SQUARE
+
+    def _step(self, inner: sp.Expr) -> sp.Expr:
+        """1 where an expression is positive and 0 where it is negative."""
+        return (1 + self._side(inner)) / 2
+
+    def _extreme(self, values: Iterable[sp.Expr], sign: int) -> sp.Expr:
+        first, *others = values
+        for other in others:
+            larger = (1 + sign * self._side(first - other)) / 2
+            first = larger * first + (1 - larger) * other
+        return first
+
+    def _power(self, node: sp.Pow) -> sp.Expr:
+        base, exponent = node.base, self(node.exp)
+        if not self._vanishes(base) or (exponent.is_Integer and exponent.is_positive):
+            return self(base) ** exponent
+        if isinstance(base, sp.Abs):
+            return self._squared(self(base.args[0])) ** (exponent / 2)
+        inner = self(base)
+        if exponent.is_Integer:
+            if base == normal_velocity:  # of a force that vanishes with it
+                return (inner / self._squared(inner)) ** -exponent
+            return inner**exponent
+        if isinstance(base, sp.Pow) and base.exp == 2:
+            return self._squared(self(base.base)) ** exponent
+        if base.xreplace(self.written).has(*_FLAT):  # stays zero where the base is
+            return inner * self._squared(inner) ** ((exponent - 1) / 2)
+        return self._squared(inner) ** (exponent / 2)
+
+    def _piecewise(self, node: sp.Piecewise) -> sp.Expr:
+        *cases, (result, last) = node.args
+        if last != sp.true:
+            raise KinkError(f"{node} says nothing elsewhere: end it with (value, True)")
+        result = self(result)
+        for value, condition in reversed(cases):
+            holds = self._holds(condition)
+            result = holds * self(value) + (1 - holds) * result
+        return result
+
+    def _holds(self, condition: sp.Basic) -> sp.Expr:
+        """1 where a condition holds and 0 where it does not."""
+        if condition in (sp.true, sp.false):
+            return sp.Integer(condition == sp.true)
+        if isinstance(condition, (sp.Eq, sp.Ne)):  # at a point, which a trajectory only passes
+            return sp.Integer(isinstance(condition, sp.Ne))
+        if isinstance(condition, Relational):
+            return self._step(self(condition.gts - condition.lts))
+        parts = [self._holds(part) for part in condition.args] if isinstance(condition, BooleanFunction) else []
+        if isinstance(condition, sp.And):
+            return sp.Mul(*parts)
+        if isinstance(condition, sp.Or):
+            return 1 - sp.Mul(*(1 - part for part in parts))
+        if isinstance(condition, sp.Not):
+            return 1 - parts[0]
+        raise KinkError(f"the condition {condition} is no comparison; accepted: <, <=, >, >=, &, |, ~")

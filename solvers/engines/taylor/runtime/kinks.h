@@ -1,0 +1,29 @@
+/* Kinks of a user's laws: a step ends where a guard vanishes, as its series know nothing of the other side.
+ *
+ * Only kernels with kinks contain the blocks `#if KINKS` (source.py). Behind a kink the side is that of the guard, which
+ * is rounded within WIDTH of derive/user/kinks.py: there steps are as short as the series demand.
+ */
+#pragma once
+
+#include "events.h"
+#include "model.h"
+
+#if KINKS
+static const double ON_KINK = 4e-10; /* of a guard: nearer, the rounded side is in sight of the series */
+
+/* The part of a step before the first kink. */
+OUTLINE vec before_kinks(const series *s, vec h, mask creeps)
+{
+    const vec *guards[] = {KINKS_OF(s)};
+    first_event first = {splat(NO_ROOT), splat_mask(0), splat(0.0)};
+    for (int which = 0; which < KINKS; which++) {
+        vec guard[TERMS];
+        for (int k = 0; k <= ORDER; k++)
+            guard[k] = k > EXACT ? choose(creeps, damping(k)*guards[which][k], guards[which][k]) : guards[which][k];
+        mask close = (vec_abs(guard[0]) > ON_KINK) & NOT(least_of(guard, h) > 0.0);
+        if (bits(close))
+            look(&first, close, guard, splat(0.0), choose(guard[0] > 0.0, splat(1.0), splat(-1.0)), h, splat_mask(0));
+    }
+    return choose(first.time <= 1.0, h*first.time, h);
+}
+#endif /* KINKS */

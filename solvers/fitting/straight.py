@@ -1,0 +1,169 @@
+"""Whether tracked centres move uniformly before and after an impact: lost frames, uneven times, bent paths.
+
+Lost frames and uneven times displace positions along the motion, never across it: the scatter across is the noise.
+A tracker that takes two near discs for a larger or a smaller shape displaces them along their line of centres.
+"""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from scipy.special import fdtri, stdtr, stdtrit
+
+LEAST = 4  # frames of a line
+_RARE = 1e-6  # probability of an alarm about a film without fault
+REACH = 0.4  # gap up to which trackers are known to displace touching discs, over the distance of touching solids
+_BENT = 1e-3  # probability below which they are bent near contact
+_STRAIGHT = 0.02  # probability from which frames do not differ from those farther away
+_ZONES = (0.07, 0.15, 0.3, 0.5)  # widths in which a tracker may displace, over the distance of touching solids
+_GAPS = np.arange(1, 26) / 25  # gaps up to which frames may be left out, likewise
+_STEPS = (0.5, 0.3, 0.15, 0.05)  # quantiles of the steps that are tried as the motion of one frame
+_CLEAR = 6.0  # noise, below which a step cannot be told from it
+_JUMPS = 500  # most jumps that are looked for
+_UNEVEN = 0.2  # scatter along the motion, over a step, from which a speed cannot be trusted
+_NAMED = 6  # places in a sentence
+
+
+@dataclass(frozen=True)
+class Flight:
+    """Frames before or after an impact: times, relative positions (n, 2), and what names them."""
+
+    time: np.ndarray
+    places: np.ndarray
+    names: Sequence[str]
+
+    def part(self, which: np.ndarray) -> "Flight":
+        """The frames of a mask."""
+        return Flight(self.time[which], self.places[which], [self.names[k] for k in np.flatnonzero(which).tolist()])
+
+    def residuals(self, values: np.ndarray) -> np.ndarray:
+        """Of a straight line in time through values (n, ...)."""
+        since, off = self.time - self.time.mean(), values - values.mean(axis=0)
+        return np.asarray(off - np.multiply.outer(since, since @ off / (since @ since)))
+
+    @property
+    def axes(self) -> np.ndarray:
+        """Unit vectors along and across the motion."""
+        x, y = (self.time - self.time.mean()) @ self.places
+        return np.array([[x, y], [-y, x]]) / (math.hypot(x, y) or 1.0)
+
+    def gaps(self, solids: float) -> np.ndarray:
+        return np.asarray(np.linalg.norm(self.places, axis=1) - solids)
+
+
+def _noise(paths: Sequence[Flight], floor: float) -> tuple[float, int]:
+    """Standard deviation of a coordinate across the motion, at least `floor`, and its degrees of freedom."""
+    paths = [each for each in paths if each.time.size >= LEAST]
+    squares = sum(float((each.residuals(each.places @ each.axes[1]) ** 2).sum()) for each in paths)
+    freedom = sum(each.time.size - 2 for each in paths)
+    return max(math.sqrt(squares / max(freedom, 1)), floor), freedom
+
+
+def _lost(path: Flight, interval: float, sigma: float, freedom: int) -> tuple[np.ndarray, bool]:
+    """Whole frames that are lost after each (-1: its picture is there twice), and whether noise is all that remains.
+
+    As few as possible: none to begin with, then what the longer of the steps, and shorter ones, suggest.
+    """
+    steps = np.diff(path.places @ path.axes[0])
+    counted = np.maximum(np.rint(np.diff(path.time) / interval), 1)
+    lost = [_refined(path, np.zeros(steps.size), interval, sigma, freedom)]
+    for step in np.quantile(steps / counted, _STEPS):
+        if not lost[-1][1] and step > _CLEAR * sigma:
+            more = np.maximum(np.rint(steps / step) - counted, 0)
+            lost.append(_refined(path, more, interval, sigma, freedom))
+    return lost[-1] if lost[-1][1] else lost[0]
+
+
+def _refined(path: Flight, lost: np.ndarray, interval: float, sigma: float, freedom: int) -> tuple[np.ndarray, bool]:
+    """The frames lost, begun from a guess, and whether noise is all that remains.
+
+    The most significant jump is a number of whole steps of the motion: frames behind it are later by so many.
+    """
+    along, number = path.places @ path.axes[0], np.arange(path.time.size - 1, 0, -1)  # of frames behind each
+    least = -stdtrit(freedom, _RARE / path.time.size) * sigma
+    for _ in range(_JUMPS):
+        time = path.time + np.append(0, lost.cumsum()) * interval
+        off, since = replace(path, time=time).residuals(along), time - time.mean()
+        after, moment = off[::-1].cumsum()[-2::-1], since[::-1].cumsum()[-2::-1]
+        spread = np.maximum(number - number**2 / time.size - moment**2 / (since @ since), 1e-9)
+        k = int(np.argmax(after**2 / spread))
+        jump = after[k] / spread[k]
+        step = (since @ along - jump * moment[k]) / (since @ since) * interval  # of a line with this jump
+        more = round(jump / step) if abs(jump) < 1e6 * abs(step) else 0
+        twice = int((path.places[k] == path.places[k + 1]).all())
+        if abs(after[k]) <= least * math.sqrt(spread[k]) or more == 0 or lost[k] + more < -twice:
+            break
+        lost = lost + more * (np.arange(lost.size) == k)
+    return lost, not _odd(off, sigma, freedom)
+
+
+def _odd(off: np.ndarray, sigma: float, freedom: int) -> bool:
+    """Whether residuals of a line are larger than the noise makes them."""
+    return bool((off**2).sum() / (off.size - 2) > sigma**2 * fdtri(off.size - 2, freedom, 1 - _RARE))
+
+
+def uneven(paths: Sequence[Flight], interval: float, floor: float) -> tuple[str, float]:
+    """What is wrong with the times of the paths, in words, and at how many places frames are lost.
+
+    Where steps are not clear of the noise every frame counts; infinite if lost frames do not explain it.
+
+    Arguments:
+        interval: time between two frames.
+        floor: standard deviation of a coordinate that rounding makes.
+    """
+    sigma, freedom = _noise(paths, floor)
+    where, most, explained, total = list[str](), 0.0, True, 0.0
+    for path in paths:
+        raw = path.residuals(path.places @ path.axes[0])
+        scatter = math.sqrt(float((raw**2).sum()) / (raw.size - 2))
+        step = float(np.linalg.norm(path.places[-1] - path.places[0])) / (path.time[-1] - path.time[0]) * interval
+        lost, clear = _lost(path, interval, sigma, freedom)
+        if lost.any() or (_odd(raw, sigma, freedom) and scatter > _UNEVEN * step):
+            most, explained = max(most, scatter / sigma), explained and clear
+        total += np.count_nonzero(lost) if step > _CLEAR * sigma else float(np.abs(lost).sum())
+        for k in np.flatnonzero(lost).tolist():
+            where.append(f"{f'{lost[k]:.0f} lost' if lost[k] > 0 else 'the same picture again'} after {path.names[k]}")
+    text = f"scatter {most:.2g} times as much along the motion as across it: "
+    if most and explained:
+        more = f" and at {len(where) - _NAMED} other places" if len(where) > _NAMED else ""
+        text += f"is a frame missing that the numbers of the frames do not count? {', '.join(where[:_NAMED])}{more}"
+    elif most:
+        text += "are frames missing here and there that their numbers do not count, or are times rounded?"
+    return text if most else "", total if explained else math.inf
+
+
+def _bent(paths: Sequence[Flight], edge: float, solids: float, floor: float) -> tuple[float, float]:
+    """How far frames near a gap are displaced outward along the line of centres, against those farther away.
+
+    Returns:
+        standard deviations, and the probability of as many by the scatter across the motion.
+    """
+    most, rare = 0.0, 1.0
+    for zone in _ZONES:
+        far = edge + zone * solids
+        sigma, freedom = _noise([each.part(each.gaps(solids) >= far) for each in paths], floor)
+        for path in paths if freedom else ():
+            weight = np.maximum(far - path.gaps(solids), 0.0)[:, None]
+            push = path.residuals(weight * path.places / np.linalg.norm(path.places, axis=1)[:, None])
+            size = math.sqrt(float((push**2).sum()))
+            if size > 1e-9 * solids**2:
+                away = float((push * path.residuals(path.places)).sum()) / (size * sigma)
+                chance = 2 * len(_ZONES) * len(paths) * float(stdtr(freedom, -abs(away)))
+                most, rare = (away, chance) if chance < rare else (most, rare)
+    return most, rare
+
+
+def near_contact(paths: Sequence[Flight], solids: float, floor: float) -> tuple[float, float]:
+    """Standard deviations by which frames near contact are displaced outward, and the gap from which they are not.
+
+    At least the gap to which trackers are known to displace, where the film has frames beyond it; infinity if nowhere.
+    """
+    most, rare = _bent(paths, 0.0, solids, floor)
+    if rare > _BENT:
+        return 0.0, 0.0
+    for gap in solids * np.append(_GAPS[_GAPS >= REACH], _GAPS):
+        far = [each.part(each.gaps(solids) >= gap) for each in paths]
+        if min(each.time.size for each in far) >= LEAST and _bent(far, gap, solids, floor)[1] > _STRAIGHT:
+            return most, float(gap)
+    return (most, math.inf) if rare < _RARE else (0.0, 0.0)

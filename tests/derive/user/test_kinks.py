@@ -1,0 +1,99 @@
+"""Kinks of laws: guards and sides, the written law on either side of each, and what is refused where it is declared."""
+
+from pathlib import Path
+from random import Random
+
+import pytest
+import sympy as sp
+from wetdoublet.derive.checks.user import model_checks
+from wetdoublet.derive.user.kinks import WIDTH
+from wetdoublet.derive.user.modelfile import read
+
+from ...helpers.random_laws import random_law
+
+HEAD = "from wetdoublet.derive.user import *\n"
+FILM = 'law("film", "mine", resistance=6*pi*mu*a**2*u/x*(1 - x/x0)**2*({}))'
+KINKED = [
+    "1 + Abs(u/v0 + 0.3)", "Max(x/x0 - 0.4, 0)**0.5", "Min(Abs(u)/v0, 0.2)**3", "Abs(u/v0)**0.7",
+    "Piecewise((1 + u/v0, u < 0), (2, x > 0.3*x0), (x/x0, True))", "Piecewise((1, (u > 0) & (x < x0/2)), (3, True))",
+    "Max(x - 0.4*x0, 0)/x0", "Abs(u + Max(u, -v0/2))/v0", "sqrt((x/x0 - 0.6)**2)", "exp(-Abs(x/x0 - 0.5))", "1 + sp.sign(u)/2", "(1 - x/x0)**1.5", "Abs(log(Abs(u/v0)))",
+]  # fmt: skip
+
+
+def film(factor: str):
+    """The film's resistance with this factor: as written and as emitted."""
+    model = read(Path("mine.py"), HEAD + FILM.format(factor))
+    return model.written[0]["resistance"], model.laws[0]["resistance"]
+
+
+@pytest.mark.parametrize("factor", KINKED)
+def test_on_either_side_the_law_is_the_written_one(factor: str):
+    """Value and slopes away from the kinks are those of sympy's own functions, to the square of the width over the distance."""
+    written, emitted = film(factor)
+    given = [sp.Symbol("gap", positive=True), *(s for s in written.arguments if s.name == "normal_velocity")]
+    random = Random(1)
+    for _ in range(20):
+        at = dict(zip(given, (random.uniform(0.05, 0.95), random.uniform(-1, 1)), strict=False))
+        for variable in (None, *given):
+            one, other = (each(*each.arguments) for each in (written, emitted))
+            if variable is not None:
+                step = sp.Rational(1, 10**6)
+                one = (one.subs(variable, variable + step) - one.subs(variable, variable - step)) / (2 * step)
+                other = other.diff(variable)
+            expected = sp.re(one.subs(at).evalf(30))
+            assert float(other.subs(at).evalf(30)) == pytest.approx(float(expected), rel=1e-7, abs=1e-9), at
+
+
+def test_guards_are_what_vanishes():
+    """A kink in the velocity has the velocity as its guard, whatever positive factor it is written with."""
+    forms = (
+        "Piecewise((1, u >= 0), (2, True))",
+        "Piecewise((1, u/v0 >= 0), (2, True))",
+        "Piecewise((2, 3*u < 0), (1, True))",
+    )
+    laws = [film(form)[1] for form in forms]
+    values = [dict(law.definitions)[kink] for law in laws for kink, _ in law.kinks]
+    assert [value.name for value in values] == ["normal_velocity"] * 3
+    velocity = sp.Symbol("normal_velocity", real=True)
+    sides = [[law(*law.arguments).subs(velocity, at) for law in laws] for at in (-0.5, 0.5)]
+    for each in sides:
+        assert sp.simplify(each[0] - each[1]) == sp.simplify(each[0] - each[2]) == 0
+
+
+def test_positive_quantities_are_no_kinks():
+    """The gap and sums of positive terms are emitted as they are written."""
+    written, emitted = film("(x/x0)**0.7 + Abs(x) / x0 + sqrt(1 + x/x0) + Max(x/x0, 0)")
+    assert (written.result, emitted.kinks) == (emitted.result, ()) or emitted.kinks == ()
+
+
+def test_what_is_zero_over_a_range_stays_zero():
+    """A root of Max(k, 0) is no force where k is negative: less than any tolerance, not the root of the width."""
+    _, emitted = film("1 + Max(u/v0, 0)**0.5")
+    gap, velocity = sp.Symbol("gap", positive=True), sp.Symbol("normal_velocity", real=True)
+    value = emitted(*emitted.arguments).subs({gap: sp.Rational(1, 2), velocity: -sp.Rational(1, 2)})
+    assert float(value.evalf(40) - sp.Rational(1, 2)) == pytest.approx(0.0, abs=float(WIDTH) ** 1.4)
+
+
+@pytest.mark.parametrize(
+    ("body", "said"),
+    [
+        (FILM.format("1 + asin(x/x0/2)"), "no Taylor recurrence for asin"),
+        (FILM.format("1 + v0/u"), "does not vanish at rest"),
+        (FILM.format("Piecewise((1, u > 0), (2, u < 0))"), "says nothing elsewhere"),
+        (FILM.format("1 + 1/Abs(x/x0 - 0.37)"), ""),
+    ],
+)
+def test_what_no_engine_has_is_refused(body: str, said: str):
+    """`generate` refuses a law with the reason; a pole inside a branch is found where it is met."""
+    failing = [check.figure for check in model_checks(Path("mine.py"), HEAD + body)[1] if not check.ok]
+    assert any(said in figure for figure in failing) or not said
+
+
+@pytest.mark.parametrize("number", range(6))
+def test_random_laws_are_emitted_or_refused_with_a_sentence(number: int):
+    """Every form of a law drawn at random is the same function, or its check says what is wrong."""
+    slot, text = random_law(number)
+    checks = model_checks(Path("mine.py"), text)[1]
+    emission = [check for check in checks if check.name.startswith(f"emission: {slot}")]
+    assert emission
+    assert all(check.figure for check in checks)

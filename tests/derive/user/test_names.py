@@ -1,0 +1,64 @@
+"""Names of declarations: whatever a word means elsewhere, it is refused by name or does no harm."""
+
+import keyword
+from pathlib import Path
+
+import casadi
+import pytest
+from wetdoublet.derive.emit.casadi.modules import law_module
+from wetdoublet.derive.user.declarations import ModelFileError, collecting, event, law, let, quantity
+from wetdoublet.derive.user.modelfile import read
+from wetdoublet.derive.user.names import taken
+from wetdoublet.derive.vocabulary.quantities import VOCABULARY, sigma, x
+
+HEAD = "from wetdoublet.derive.user import *\n"
+WORDS = sorted(word for word in taken() if word.islower())
+FREE = [word for word in WORDS if word not in VOCABULARY]
+
+
+def test_the_list_has_every_kind_of_word():
+    """Keywords of Python, C and C++, functions of mathematics, and arguments, variables and imports of emitted code."""
+    c = {"double", "int", "register", "restrict", "template", "new", "namespace", "near", "linux"}
+    emitted = {"gap_over_radius", "film_force", "state", "groups", "laws", "distance", "result", "if_else", "fmax"}
+    assert {*keyword.kwlist, *c, *emitted, "sqrt", "exp", "viscosity"} <= taken().keys()
+
+
+@pytest.mark.parametrize(
+    "declare", [quantity, lambda word: event(word, guard=x), lambda word: quantity("q", group=word)]
+)
+def test_a_reserved_word_is_refused_by_name(declare):
+    """No quantity that is a group as it is, and no event, bears a word that means something where it is written."""
+    for word in WORDS:
+        with collecting(), pytest.raises(ModelFileError, match="is taken already: it is|accepted: a name") as caught:
+            declare(word)
+        assert caught.value.value == word
+
+
+def test_a_quantity_with_a_dimension_may_bear_a_name_of_a_structure():
+    """Its group has another name, and only that one stands in the emitted structures."""
+    with collecting():
+        assert quantity("radius", unit="m").name == "radius"
+
+
+def test_a_law_may_bear_any_word():
+    """What is emitted of it always has its slot in front."""
+    for word in (word for word in WORDS if word.isalpha()):
+        with collecting() as declared:
+            law("bridge", word, force=sigma * x)
+        assert ("bridge", word) in declared.laws
+
+
+def test_parts_that_bear_reserved_words_are_the_same_law():
+    """Values of an emitted law whose every part has a word that means something, and with harmless names: equal."""
+    body = "".join(f'p{k} = let("{word}", {k + 2}*x/R + V)\n' for k, word in enumerate(FREE))
+    total = "+".join(f"p{k}*p{k - 1}" for k in range(1, len(FREE)))
+    plain = HEAD + "".join(f'p{k} = let("part_{k}", {k + 2}*x/R + V)\n' for k in range(len(FREE)))
+    end = f'law("bridge", "mine", force=pi*R*sigma*sqrt({total}))'
+    values = []
+    for text in (HEAD + body + end, plain + end):
+        space: dict = {}
+        exec(law_module(read(Path("mine.py"), text).laws[0]), space)  # what is emitted
+        values.append(float(casadi.DM(space["force"](0.3, 0.1, 0.2))))
+    assert values[0] == pytest.approx(values[1], rel=1e-13)  # the order of a sum's terms is that of their names
+    with collecting(), pytest.raises(ModelFileError, match="'viscosity' is taken already: it is a quantity of the lib"):
+        let("viscosity", x)

@@ -1,0 +1,77 @@
+"""Every question on every preset asks for a kernel that comes with the package."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from wetdoublet.solvers.scene.scenefile import PRESETS
+
+ASKED = """
+import pathlib, sys
+
+sys.modules["ziglang"] = None  # as if not installed
+import numpy as np
+import wetdoublet as wd
+from wetdoublet.solvers.engines import ship
+from wetdoublet.solvers.engines.taylor import build
+
+
+class Asked(Exception):
+    pass
+
+
+def asked(variant):
+    assert variant in there, variant
+    raise Asked
+
+
+there = set(ship.variants())
+build.is_shipped, build.shipped = there.__contains__, asked
+scene, folder = wd.Scene.load(sys.argv[1]), pathlib.Path(sys.argv[2])
+viscosity = dict(scene.si)["liquid.viscosity"]
+stokes = (scene.stokes or 1.0) * np.linspace(0.5, 2.0, 101)
+rows = ["speed [m/s],angle [deg],outcome,restitution,restitution_sd", "0.6,0,bounce,0.2,0.02", ""]
+(folder / "impacts.csv").write_text(chr(10).join(rows))
+
+
+def questions(angle):
+    yield lambda: wd.collide(scene, angle=angle)
+    yield lambda: wd.collide(scene, angle=angle, ledger=False)
+    yield lambda: wd.collide(scene, angle=angle, trajectory=True)
+    yield lambda: wd.collide_many(scene, stokes=stokes, angle=angle)
+    yield lambda: wd.collide_many(scene, stokes=stokes, angle=angle, of=("restitution", "rotation"))
+    yield lambda: wd.regime_map(scene, stokes=stokes, angle=[angle])
+    yield lambda: wd.boundary(scene, angle=[angle])
+    yield lambda: wd.sensitivities(scene, of="restitution", angle=angle)
+    yield lambda: wd.sensitivities(scene, of=("restitution", "contact_time"), angle=angle)
+    yield lambda: wd.gradients_many(scene, stokes=stokes, angle=angle)
+    yield lambda: wd.gradients_many(scene, stokes=stokes[:3], angle=angle, wrt=("liquid.viscosity",))
+    yield lambda: wd.band(scene, {"liquid.viscosity": "5 %"}, "impact.stokes", stokes[:3], samples=16)
+    yield lambda: wd.sobol_indices(scene, {"liquid.viscosity": (0.9 * viscosity, viscosity)}, samples=16)
+    yield lambda: wd.fit(scene, folder / "impacts.csv", free=["liquid.viscosity"])
+
+
+for angle in (0.0, 0.5):
+    for number, ask in enumerate(questions(angle)):
+        try:
+            engine = ask().engine  # "taylor" where a stick needs no kernel
+        except Asked:
+            continue
+        except AttributeError:
+            engine = "another engine"
+        if engine != "taylor":
+            print(f"question {number} at {angle} rad: {engine} answered")
+"""
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("preset", PRESETS)
+def test_without_a_compiler_no_question_goes_to_another_engine(preset: str, tmp_path: Path) -> None:
+    """With default tolerances; gradients taken back and fits among them."""
+    env = {name: value for name, value in os.environ.items() if name not in ("CC", "WETDOUBLET_CFLAGS")}
+    env |= {"PATH": str(tmp_path), "WETDOUBLET_CACHE": str(tmp_path / "cache")}
+    command = [sys.executable, "-W", "ignore", "-c", ASKED, preset, str(tmp_path)]
+    done = subprocess.run(command, env=env, capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stdout) == (0, ""), done.stdout + done.stderr

@@ -1,0 +1,123 @@
+"""Laws of one's own of any form: exponents, arms, power laws and kinks, by every engine, with their derivatives."""
+
+from pathlib import Path
+from random import Random
+
+import pytest
+from wetdoublet.solvers import Scene, collide, sensitivities
+from wetdoublet.solvers.scene.user_model_derived import derived_package
+
+from ...helpers.random_laws import random_law
+
+pytestmark = pytest.mark.slow
+ENGINES = ("taylor", "rosenbrock", "cvodes")
+HEAD = "from wetdoublet.derive.user import *\n"
+POWER = (
+    'index = quantity("flow_index", unit="1", default="0.7", bounds="> 0 and <= 1")\n'
+    'law("film", "mine", resistance=6*pi*mu*a**2*u/x*(1 - x/x0)**2*({}/v0)**(index - 1))'
+)
+SHARE = (
+    'share = quantity("arm_share", unit="1", default="0.5", bounds="0 to 1")\n'
+    'law("arm", "mine", lever=2*a + share*x/2, accept=("angular momentum",))'
+)
+
+
+def scene(folder: Path, body: str, preset: str = "granulation", **entries: str) -> Scene:
+    """A preset with a model of these lines."""
+    path = folder / "mine.py"
+    path.write_text(HEAD + body)
+    found = Scene.load(preset)
+    if 'law("attraction"' in body:
+        found = found.with_entries({"attraction.hamaker": "1e-11 J"})
+    return found.with_model(path).with_entries({name.replace("__", "."): value for name, value in entries.items()})
+
+
+def by_kernel(given: Scene, **impact: object) -> float:
+    """The restitution by the kernel."""
+    found = collide(given, rtol=1e-11, engine="taylor", ledger=False, **impact)
+    assert found.engine == "taylor"
+    return float(found.restitution)
+
+
+def test_a_fraction_as_exponent(tmp_path: Path):
+    """The bridge decays with the power 1.3 of the gap; the value is that of an independent integration."""
+    given = scene(tmp_path, 'law("bridge", "mine", force=2*pi*R*sigma*(1 + x/x0)**(-1.3))')
+    assert by_kernel(given) == pytest.approx(0.6396, abs=5e-5)
+
+
+def test_an_arm_with_a_quantity(tmp_path: Path):
+    """Half of the way from the surface to mid-gap, as a number in the file or as a quantity."""
+    number = scene(tmp_path, 'law("arm", "mine", lever=2*a + x/4, accept=("angular momentum",))')
+    found = collide(number, rtol=1e-11)
+    assert (found.restitution, found.engine) == (pytest.approx(0.4982, abs=5e-5), "taylor")
+    shared = scene(tmp_path, SHARE)
+    assert by_kernel(shared) == pytest.approx(found.restitution, rel=1e-9)
+    midgap = shared.with_entries({"custom.arm_share": 1.0})
+    assert by_kernel(midgap) == pytest.approx(by_kernel(Scene.load("granulation")), rel=1e-9)
+
+
+def test_a_power_law_turns(tmp_path: Path):
+    """With the index 1 it is the library's film; below, the limit of laws that are rounded at smaller and smaller speeds."""
+    newtonian = scene(tmp_path, POWER.format("Abs(u)"), "granulation-dry-bridge", custom__flow_index="1")
+    for stokes in (0.02, 0.1):
+        own, library = (
+            by_kernel(each, stokes=stokes, angle="60 deg") for each in (newtonian, "granulation-dry-bridge")
+        )
+        assert own == pytest.approx(library, rel=1e-9)
+    values = [collide(scene(tmp_path, POWER.format("Abs(u)")), rtol=1e-11, engine=by).restitution for by in ENGINES]
+    assert values == pytest.approx([values[0]] * 3, rel=1e-8)
+    rounded = [by_kernel(scene(tmp_path, POWER.format(f"sqrt(u**2 + ({each}*v0)**2)"))) for each in ("1e-4", "1e-5")]
+    wrong = [abs(each - values[0]) for each in rounded]
+    assert wrong[1] < 0.1 * wrong[0]  # the error falls with the speed to the power 1 + index
+
+
+def _agrees(given: Scene, number: int) -> None:
+    """The engines agree to 1e-8, and derivatives with differences to 1e-6."""
+    random = Random(number)
+    impact = {"stokes": random.uniform(0.02, 0.3), "angle": f"{random.uniform(20, 80)} deg"}
+    found = [collide(given, rtol=1e-11, engine=by, ledger=False, **impact) for by in ENGINES]
+    assert found[0].engine == "taylor"
+    assert len({each.outcome for each in found}) == 1
+    assert [each.restitution for each in found] == pytest.approx([found[0].restitution] * 3, abs=1e-8)
+    if found[0].restitution == 0:
+        return
+    wrt = ["liquid.viscosity", *(f"custom.{name}" for name in given.package.quantities)]
+    speed, angle = given.with_impact(impact["stokes"], None, impact["angle"], None).need_impact()
+    for engine in ("taylor", "rosenbrock"):
+        slopes = sensitivities(given, wrt=wrt, rtol=1e-11, engine=engine, hold="speed", **impact)
+        assert slopes.engine == engine
+        for name in wrt:
+            value = dict(given.si)[name]
+
+            def at(part: float, name: str = name, value: float = value) -> float:
+                return by_kernel(given.with_si({name: value * (1 + part)}, "speed"), speed=speed, angle=angle)
+
+            first, second = ((at(h) - at(-h)) / (2 * h) for h in (1e-4, 5e-5))
+            expected = (4 * second - first) / 3  # Richardson's extrapolation
+            assert slopes.gradient["restitution"][name] * value == pytest.approx(expected, rel=1e-6, abs=1e-8), name
+
+
+@pytest.mark.parametrize(
+    "factor",
+    [
+        "1 + Max(Abs(u/v0 + 0.4) - 0.2, 0)",  # met on approach and again on opening, at other gaps
+        "Piecewise((1, x < own*x0), (2 + u/v0, True))",  # a step of the force at a gap with a quantity
+    ],
+)
+def test_kinks_by_every_engine(factor: str, tmp_path: Path):
+    """Values and derivatives pass kinks of the velocity, and a step of the force."""
+    own = 'own = quantity("own", unit="1", default="0.7", bounds="> 0")\n' * ("own" in factor)
+    _agrees(scene(tmp_path, f'{own}law("film", "mine", resistance=6*pi*mu*a**2*u/x*(1 - x/x0)**2*({factor}))'), 3)
+
+
+@pytest.mark.parametrize("number", range(60))
+def test_random_laws(number: int, tmp_path: Path):
+    """A law drawn at random is refused with a sentence, or the three engines agree on it."""
+    _, text = random_law(number)
+    path = tmp_path / "mine.py"
+    path.write_text(text)
+    derived = derived_package(path, None)
+    if not derived.files:
+        assert "FAIL" in derived.report
+        return
+    _agrees(scene(tmp_path, text.partition(HEAD)[2]), number)
