@@ -11,7 +11,7 @@ from .helpers.data import BOUNDARIES, COLLISIONS
 
 # Some 250 kernels are compiled with little optimization: the same results but for rounding. What users get is compiled
 # by `test_kernel.py`, which integrates every reference collision.
-os.environ.setdefault("WETDOUBLET_CFLAGS", "-O1 -fno-unroll-loops -fno-expensive-optimizations -fno-tree-pre -fno-gcse")
+os.environ.setdefault("WETDOUBLET_CFLAGS", "-Og -fno-unroll-loops")
 
 # a shell starts what runs in the background with Ctrl-C ignored, and processes inherit that
 signal.signal(signal.SIGINT, signal.default_int_handler)

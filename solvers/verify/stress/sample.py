@@ -23,8 +23,33 @@ _BESIDE = 0.15  # part of a sample that lies beside boundaries
 _LINES = 0.05  # part of a sample whose boundaries are traced
 _PER_LINE_MODEL = 400  # sample size per combination of laws of traced scenes; each combination compiles its own kernels
 _PER_MODEL, _MODELS = 36, (8, 120)  # scenes per structure and laws; fewest and most such models
-_NUMBERS, _CHOICES = 26, 11  # dimensions of a point, and of a model
+NUMBERS = 26  # dimensions of a point
+_CHOICES = 11  # dimensions of a model
 _FASTEST = 5.0  # surface speed of a spin, over v0
+_WIDE = {  # lowest and highest value, SI
+    "reduced_radius": (1e-6, 1e-2),
+    "film/reduced_radius": (1e-5, 1.0),
+    "density": (300.0, 2e4),
+    "roughness/film": (1e-6, 0.9),
+    "viscosity": (1e-5, 1e4),
+    "glass_transition_pressure": (1e3, 1e12),
+    "youngs_modulus": (1e5, 1e12),
+    "surface_tension": (1e-4, 1.0),
+    "volume": (1e-5, 1.0),
+    "length": (1.01, 1e4),
+    "gravity": (0.1, 100.0),
+    "stokes": (1e-6, 1e4),
+    "degrees from grazing": (0.01, 90.0),
+}
+_MODERATE = _WIDE | {  # what an independent integrator follows in a second
+    "reduced_radius": (5e-6, 5e-3),
+    "film/reduced_radius": (1e-3, 0.2),
+    "density": (300.0, 8e3),
+    "roughness/film": (1e-4, 0.5),
+    "viscosity": (1e-3, 10.0),
+    "stokes": (1e-2, 30.0),
+    "degrees from grazing": (5.0, 90.0),
+}
 
 
 def sample(count: int, seed: int = SEED) -> list[Case]:
@@ -37,12 +62,12 @@ def sample(count: int, seed: int = SEED) -> list[Case]:
 
 def _drawn(count: int, seed: int) -> Iterator[Case]:
     """Valid scenes along a Halton sequence; invalid ones are skipped."""
-    models = list(_models(min(max(count // _PER_MODEL, _MODELS[0]), _MODELS[1]), seed))
-    points, taken = qmc.Halton(_NUMBERS, seed=seed), 0
+    drawn = list(models(min(max(count // _PER_MODEL, _MODELS[0]), _MODELS[1]), seed))
+    points, taken = qmc.Halton(NUMBERS, seed=seed), 0
     while taken < count:
         for point in points.random(64):
             try:
-                scene = _scene(f"stress-{seed}-{taken}", models[taken % len(models)], point)
+                scene = scene_of(f"stress-{seed}-{taken}", drawn[taken % len(drawn)], point)
             except InputError:
                 continue  # an impossible scene, such as a film thicker than its bridge
             yield Case(scene.name, scene)
@@ -51,7 +76,7 @@ def _drawn(count: int, seed: int) -> Iterator[Case]:
                 return
 
 
-def _models(count: int, seed: int) -> Iterator[lines.Model]:
+def models(count: int, seed: int) -> Iterator[lines.Model]:
     """Combinations of structure and laws, few enough that several scenes share what an engine builds."""
     for k, point in enumerate(qmc.Halton(_CHOICES, seed=seed + 1).random(count)):
         bridge = "" if point[0] < 0.25 else BRIDGE_LAWS[int((point[0] - 0.25) / 0.75 * len(BRIDGE_LAWS))]
@@ -74,9 +99,19 @@ def _models(count: int, seed: int) -> Iterator[lines.Model]:
         }
 
 
-def _scene(name: str, model: lines.Model, point: Sequence[float]) -> Scene:
-    """The scene of a point in the unit cube; InputError where its entries contradict each other."""
-    at = iter(point)
+def scene_of(name: str, model: lines.Model, point: Sequence[float], moderate: bool = False) -> Scene:
+    """The scene of a model and a point in the unit cube of NUMBERS dimensions.
+
+    Arguments:
+        moderate: groups that an independent integrator follows in a second, in place of all that a double holds.
+
+    Raises:
+        InputError: its entries contradict each other.
+    """
+    at, ranges = iter(point), _MODERATE if moderate else _WIDE
+
+    def within(name: str) -> float:
+        return log(*ranges[name])
 
     def log(low: float, high: float) -> float:
         return float(low * (high / low) ** next(at))
@@ -84,32 +119,32 @@ def _scene(name: str, model: lines.Model, point: Sequence[float]) -> Scene:
     def even(low: float, high: float) -> float:
         return float(low + (high - low) * next(at))
 
-    a = log(1e-6, 1e-2)
-    film = a * log(1e-5, 1.0)
+    a = within("reduced_radius")
+    film = a * within("film/reduced_radius")
     entries: dict[str, Any] = {
         "particles.reduced_radius": a,
-        "particles.density": log(300.0, 2e4),
-        "particles.roughness": film * log(1e-6, 0.9),
+        "particles.density": within("density"),
+        "particles.roughness": film * within("roughness/film"),
         "particles.dry_restitution": _ends(even(-0.05, 1.05)),
-        "liquid.viscosity": log(1e-5, 1e4),
+        "liquid.viscosity": within("viscosity"),
         "liquid.film_thickness": film,
-        "liquid.glass_transition_pressure": log(1e3, 1e12),
+        "liquid.glass_transition_pressure": within("glass_transition_pressure"),
     }
-    modulus, ratio = log(1e5, 1e12), even(-0.2, 0.5)
+    modulus, ratio = within("youngs_modulus"), even(-0.2, 0.5)
     if even(0, 1) < 0.7:
         entries |= {"particles.youngs_modulus": modulus, "particles.poisson_ratio": ratio}
-    tension, volume, wetting = log(1e-4, 1.0), log(1e-5, 1.0), math.pi / 2 * _ends(even(-0.2, 1.05))
+    tension, volume, wetting = within("surface_tension"), within("volume"), math.pi / 2 * _ends(even(-0.2, 1.05))
     if model["bridge"]:
         entries |= {"bridge.surface_tension": tension, "bridge.volume": volume, "bridge.contact_angle": wetting}
         entries |= {"bridge.law": model["bridge"], "bridge.rupture": model["rupture"]}
-    length, gravity = log(1.01, 1e4), log(0.1, 100.0)
+    length, gravity = within("length"), within("gravity")
     if model["strings"]:
         reach = 2 * a * volume ** (1 / 3) * (1 + wetting / 2) if model["bridge"] else film
         entries |= {"pendulum.length": (4 * a + reach / 2) * length, "pendulum.gravity": gravity}
         entries["pendulum.law"] = model["strings"]
     entries |= {f"model.{name}": model[name] for name in ("film", "tangential", "glass")}
-    entries["impact.stokes"] = log(1e-6, 1e4)
-    steep, angle, close = even(0, 1) < 0.75, even(0.0, 1.0), log(0.01, 90.0)
+    entries["impact.stokes"] = within("stokes")
+    steep, angle, close = even(0, 1) < 0.75, even(0.0, 1.0), within("degrees from grazing")
     degrees = 89.99 * angle if steep else 90.0 - close
     entries["impact.angle"] = 0.0 if model["head-on"] else math.radians(max(degrees, 0.0))
     radius, mass = log(0.1, 10.0), log(0.3, 3.0)

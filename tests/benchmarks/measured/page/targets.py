@@ -106,13 +106,10 @@ def target_table(record: Record) -> str:
 
 
 def headline(record: Record) -> str:
-    """The ratios in a few lines, for the front page."""
-    lines = []
-    for what, goal, said, _ in targets(record):
-        lines += [
-            f"* {what.replace('e_n', 'the restitution')}: {said.replace('faster', f'faster than {peer}')}"
-            for peer in (COLLISIONS, GRADIENTS)
-            if goal.endswith(peer)
-        ]
-    lines += [f"* {what}: {said}" for what, _, said, _ in _use(record) if what[0] == "1"]
-    return "\n".join(lines)
+    """The first ratio to heyoka, as one line of the front page."""
+    what, said, peer = next(
+        (what, said, goal[goal.index(COLLISIONS) :])
+        for what, goal, said, _ in targets(record)
+        if goal.endswith(COLLISIONS)
+    )
+    return f"{what.replace('e_n', 'the restitution')}: {said.replace('faster', f'faster than {peer}')}."

@@ -1,0 +1,22 @@
+"""Random scenes of the covering structures, as hypothesis draws and shrinks them."""
+
+from hypothesis import assume
+from hypothesis import strategies as st
+from wetdoublet.solvers import InputError, Scene
+from wetdoublet.solvers.verify.stress.sample import NUMBERS, scene_of
+
+from .structures import STRUCTURES, Structure, name
+
+PAIRS_IN_SPACE = [each for each in STRUCTURES if not each["strings"]]
+
+
+@st.composite
+def scenes(draw: st.DrawFn, structures: list[Structure] = STRUCTURES, moderate: bool = True) -> Scene:
+    """A valid scene of one of the structures, with its impact."""
+    structure = draw(st.sampled_from(structures))
+    point = draw(st.lists(st.floats(0.0, 1.0), min_size=NUMBERS, max_size=NUMBERS))
+    try:
+        return scene_of(name(structure), structure, point, moderate)
+    except InputError:  # an impossible scene, such as a film thicker than its bridge
+        assume(False)
+        raise

@@ -1,0 +1,21 @@
+"""How many examples a property is tried on: the same in every run; WETDOUBLET_EXAMPLES=50 tries 50 times as many."""
+
+import os
+
+from hypothesis import HealthCheck, Phase, settings
+
+_MORE = int(os.environ.get("WETDOUBLET_EXAMPLES", "1"))
+_INVALID = [HealthCheck.filter_too_much, HealthCheck.too_slow]
+_PHASES = [Phase.explicit, Phase.generate, Phase.shrink]
+
+
+def examples(count: int) -> settings:
+    """A property's settings for so many examples."""
+    return settings(
+        max_examples=count * _MORE,
+        derandomize=_MORE == 1,
+        deadline=None,
+        suppress_health_check=_INVALID,
+        phases=_PHASES,
+        database=None,
+    )

@@ -1,0 +1,64 @@
+"""Energy and angular momentum of any collision."""
+
+import math
+
+import pytest
+from hypothesis import assume, given
+from wetdoublet.solvers import Scene
+
+from .conditioning import decided
+from .scenes import scenes
+from .settings import examples
+from .structures import STRUCTURES
+
+LOSSES = ("normal_lubrication", "tangential_lubrication", "dry_contact", "friction")
+STORED = ("capillary", "attraction", "strings")
+
+pytestmark = pytest.mark.filterwarnings("ignore::wetdoublet.solvers.ModelWarning")
+
+
+@examples(90)
+@given(scenes())
+def test_the_ledger_closes(scene: Scene) -> None:
+    """Losses, work and the energy left add up to the energy before, to the steps' errors; no loss is negative."""
+    terms = decided(scene, rtol=1e-10).to_dict()["energy"]
+    size = max(abs(value) for value in terms.values())
+    spent = sum(value for name, value in terms.items() if name not in ("initial", "residual"))
+    assert abs(terms["initial"] - spent) <= 1e-8 * size
+    assert terms["residual"] == pytest.approx(terms["initial"] - spent, abs=1e-12 * size)
+    for name in LOSSES:
+        assert terms.get(name, 0.0) >= -1e-9 * size
+
+
+@examples(54)
+@given(scenes([each for each in STRUCTURES if not each["strings"] and each["partner"] != "wall"]))
+def test_angular_momentum_is_kept(scene: Scene) -> None:
+    """L after the collision is L before, to the rounding of its parts (mid-gap arm)."""
+    collision = decided(scene, rtol=1e-10)
+    speed, angle = scene.need_impact()
+    spins = [abs(scene.entries.get(f"impact.{name}", 0.0)) for name in ("spin", "partner_spin")]
+    parts = speed * math.tan(angle) + max(spins) * 2 * scene.particles.reduced_radius
+    assume(parts > 1e-3 * speed)  # nothing turns: no drift is defined
+    assert collision.angular_momentum_drift is not None
+    assert collision.angular_momentum_drift <= 1e-8
+
+
+@examples(72)
+@given(scenes([each for each in STRUCTURES if not (each["strings"] or each["partner"] or each["spins"])]))
+def test_restitution_stays_below_its_ceiling(scene: Scene) -> None:
+    """e_n^2 <= 1 + (r0 tan(theta0)/4a)^2 (1 - m r0^2/I(x_f)) - 2 W/(m v0^2), with I and W by their definitions."""
+    collision = decided(scene, rtol=1e-10)
+    assume(collision.outcome != "stick")
+    a, m, x0 = scene.particles.reduced_radius, scene.particles.reduced_mass, scene.liquid.film_thickness
+    speed, angle = scene.need_impact()
+    terms = collision.to_dict()["energy"]
+    work = sum(terms.get(name, 0.0) for name in STORED)
+    reach = x0
+    if scene.bridge is not None:
+        bridge = scene.bridge
+        reach = 2 * a * bridge.volume ** (1 / 3) * (1 + bridge.contact_angle / 2)
+        assume(bridge.rupture != "own")
+    r0, inertia = 4 * a + x0, m * ((4 * a + reach) ** 2 + 6.4 * a * a)
+    turning = (r0 * math.tan(angle) / (4 * a)) ** 2 * (1 - m * r0 * r0 / inertia)
+    ceiling = 1 + turning - 2 * work / (m * speed**2)
+    assert collision.restitution**2 <= ceiling + 1e-9 * (1 + turning + abs(work) / (m * speed**2))

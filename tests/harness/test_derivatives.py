@@ -1,0 +1,54 @@
+"""Derivatives of any collision beside extrapolated differences."""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import assume, given
+from hypothesis import strategies as st
+from wetdoublet.solvers import ComputationError, Scene, collide_many, sensitivities
+
+from .scenes import scenes
+from .settings import examples
+from .structures import STRUCTURES
+
+STEP = 2e-4  # relative, of an entry
+RESULTS = ("restitution", "contact_time")
+
+pytestmark = pytest.mark.filterwarnings("ignore::wetdoublet.solvers.ModelWarning")
+
+
+@examples(18)
+@given(scenes(STRUCTURES[::2]), st.integers(0, 2**32 - 1), st.sampled_from(["forward", "adjoint"]))
+def test_a_derivative_is_the_extrapolated_difference(scene: Scene, seed: int, method: str) -> None:
+    """Of restitution and contact time by three entries at random, the impact's among them."""
+    entries = [name for name, value in scene.si if isinstance(value, float) and value != 0.0 and "impact" not in name]
+    draw = np.random.default_rng(seed)
+    names = [str(name) for name in draw.choice(entries, 2, replace=False)] + ["impact.speed"]
+    speed, angle = scene.need_impact()
+    steps = np.array([-2, -1, 1, 2, 0.0]) * STEP
+    try:
+        found = sensitivities(scene, of=list(RESULTS), wrt=names, method=method, rtol=1e-11)
+    except ComputationError as error:
+        assert "derivative" in str(error) or "decided" in str(error)
+        assume(False)
+    assume(found.value["restitution"] != 0.0)
+    for name in names:
+        own = speed if name == "impact.speed" else float(scene.entries[name])
+        moved = own * (1 + steps)
+        many = collide_many(
+            scene,
+            speed=moved if name == "impact.speed" else np.full(5, speed),
+            angle=np.full(5, angle),
+            vary={} if name == "impact.speed" else {name: moved},
+            rtol=1e-13,
+            of=("outcome", *RESULTS),
+        )
+        if len(set(many["outcome"].values.tolist())) > 1:
+            continue  # a change of outcome is nearer than the steps
+        for result in RESULTS:
+            value = many[result].values
+            wide, near = (value[3] - value[0]) / 4, (value[2] - value[1]) / 2
+            slope, error = (4 * near - wide) / (3 * STEP), abs(near - wide) / STEP
+            allowed = 0.1 * error + 1e-6 * (abs(value[4]) + abs(slope))
+            assert math.isclose(found.gradient[result][name] * own, slope, rel_tol=0, abs_tol=allowed), (result, name)

@@ -1,0 +1,54 @@
+"""What is inferred from collisions: that a stick never separates, and that nothing changes between boundaries."""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import assume, given
+from hypothesis import strategies as st
+from wetdoublet.solvers import ComputationError, Scene, boundary, collide, collide_many
+from wetdoublet.solvers.host.remarks import say_once  # noqa: F401
+
+from .conditioning import decided
+from .scenes import scenes
+from .settings import examples
+from .structures import STRUCTURES
+
+OUTCOMES = ("stick", "stick-rotate-separate", "bounce")
+
+pytestmark = pytest.mark.filterwarnings("ignore::wetdoublet.solvers.ModelWarning")
+
+
+@examples(24)
+@given(scenes())
+def test_a_certified_stick_followed_on_never_separates(scene: Scene) -> None:
+    """For a hundred times the time in which its film is closed: no rupture, and no more energy than at the proof."""
+    collision = decided(scene)
+    assume(collision.outcome == "stick" and collision.certified)
+    later = 100 * scene.liquid.film_thickness / collision.speed + (collision.until or 0.0)
+    try:
+        followed = collide(scene, until=later)
+    except ComputationError:
+        assume(False)
+    assert followed.outcome == "stick"
+    assert "rupture" not in [event.kind for event in followed.events]
+
+
+@examples(6)
+@given(scenes([each for each in STRUCTURES if not each["friction"]][::2]), st.integers(0, 2**32 - 1))
+def test_nothing_changes_between_boundaries(scene: Scene, seed: int) -> None:
+    """Along a line of Stokes numbers each of forty collisions has the outcome that the changes on its sides say."""
+    _, angle = scene.need_impact()
+    found = boundary(scene, angle=np.array([angle]), stokes=(1e-3, 30.0))
+    assume(not found.failures[0])
+    changes = found.changes[0]
+    stokes = 10 ** np.random.default_rng(seed).uniform(-3, math.log10(30.0), 40)
+    outcomes = collide_many(scene, stokes=stokes, angle=np.full(40, angle), rtol=1e-10)["outcome"].values
+    for one, outcome in zip(stokes, outcomes, strict=True):
+        if outcome < 0 or any(abs(one / change.stokes - 1) < 1e-6 for change in changes):
+            continue
+        below = [change.after for change in changes if change.stokes < one]
+        above = [change.before for change in changes if change.stokes > one]
+        expected = {*below[-1:], *above[:1]}
+        assert len(expected) <= 1
+        assert not expected or OUTCOMES[outcome] in expected
