@@ -24,7 +24,10 @@ def _arm(model: UserModel) -> Law:
 def torque(model: UserModel, law: Law | None = None) -> sp.Expr:
     """dL/dt without strings, scaled, with the model's own laws; other laws except the arm stay open."""
     extended = replace(model, events=()).extended(derive(BRIDGED))
-    return sp.simplify(filled(momentum_rate(extended, {"arm": law or _arm(model)}), {}))
+    arm = law or _arm(model)
+    rate = filled(momentum_rate(extended, {}), {"arm": arm})  # filled last: sympy factors no fractional powers in time
+    lever = arm["lever"](*arm["lever"].arguments)
+    return sp.simplify(rate) if lever.is_rational_function() else rate
 
 
 def _of_event(event: OwnEvent) -> str:

@@ -9,7 +9,9 @@
 #include "model.h"
 
 #if KINKS
-static const double ON_KINK = 4e-10; /* of a guard: nearer, the rounded side is in sight of the series */
+/* Of a guard: from NEAR_KINK on, a step goes half of the way, so that derivatives by a step of the force are those of the
+ * whole rounded side; below ON_KINK the series see it. */
+static const double NEAR_KINK = 1e-6, ON_KINK = 4e-10;
 
 /* The part of a step before the first kink. */
 OUTLINE vec before_kinks(const series *s, vec h, mask creeps)
@@ -20,9 +22,11 @@ OUTLINE vec before_kinks(const series *s, vec h, mask creeps)
         vec guard[TERMS];
         for (int k = 0; k <= ORDER; k++)
             guard[k] = k > EXACT ? choose(creeps, damping(k)*guards[which][k], guards[which][k]) : guards[which][k];
-        mask close = (vec_abs(guard[0]) > ON_KINK) & NOT(least_of(guard, h) > 0.0);
+        vec size = vec_abs(guard[0]), sign = choose(guard[0] > 0.0, splat(1.0), splat(-1.0));
+        vec target = sign*choose(size > 2.0*NEAR_KINK, splat(NEAR_KINK), 0.5*size);
+        mask close = (size > ON_KINK) & NOT(least_of(guard, h) > NEAR_KINK);
         if (bits(close))
-            look(&first, close, guard, splat(0.0), choose(guard[0] > 0.0, splat(1.0), splat(-1.0)), h, splat_mask(0));
+            look(&first, close, guard, target, sign, h, splat_mask(0));
     }
     return choose(first.time <= 1.0, h*first.time, h);
 }
