@@ -46,7 +46,7 @@ LEAST_ANGLE = 1e-200  # rad; an impact at a smaller one is head-on: its rotation
 WETTING_ANGLE = Range("from 0 deg to 90 deg", 0.0, math.pi / 2, low_open=False, high_open=False)
 
 
-_IN_MODEL_FILES = {"model.arm surface": "is a law of a model file (--model FILE.py), see docs/reference/models.md"}
+_IN_MODEL_FILES = {("model.arm", "surface"): "is a law of a model file (--model FILE.py), see docs/reference/models.md"}
 
 
 @dataclass(frozen=True)
@@ -119,8 +119,10 @@ class Field:
             return "true"
         if self.choices:
             if not isinstance(raw, str) or raw not in self.choices:
-                known = "is not known" + did_you_mean(raw, self.choices)
-                raise InputError(label, raw, self.accepts, _IN_MODEL_FILES.get(f"{self.name} {raw}", known))
+                problem = "is not known" + did_you_mean(raw, self.choices)
+                if isinstance(raw, str):
+                    problem = _IN_MODEL_FILES.get((self.name, raw), problem)
+                raise InputError(label, raw, self.accepts, problem)
             return raw
         if isinstance(raw, str) and raw.strip() in self.words:
             return raw.strip()
