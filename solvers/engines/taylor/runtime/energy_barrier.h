@@ -32,6 +32,38 @@ static const double WEIGHTS[6] = {
     0.249147045813402785, 0.233492536538354809, 0.203167426723065922,
     0.160078328543346226, 0.106939325995318431, 0.047175336386511827};
 
+#if KINKS
+static const double OF_FEW[3] = {0.6661203060001907, 0.2116820833164864, 0.12219761068332285}; /* weights of every second node: their own rule */
+
+/* Integral over ln(gap); a panel in which two rules differ is halved, so that a kink or a jump ends one. */
+static vec integral(
+    const constants *c, const vec *y, vec low, vec high, vec (*integrand)(const constants *, const vec *, vec))
+{
+    vec whole = high - low, sum = splat(0.0), size = splat(0.0), place = splat(0.0), width = splat(0.125);
+    mask on = place < 1.0;
+    for (int count = 0; count < 4000 && bits(on); count++) { /* each lane has its own panels */
+        vec half = 0.5*width, twelve = splat(0.0), six = splat(0.0), most = splat(0.0);
+        for (int node = 0; node < 12; node++) {
+            int which = node % 6;
+            double at = node < 6 ? NODES[which] : -NODES[which];
+            vec value = integrand(c, y, vec_exp(low + whole*(place + half*(1.0 + at))));
+            most = vec_max(most, vec_abs(value));
+            twelve += WEIGHTS[which]*value;
+            if (which % 2)
+                six += OF_FEW[which/2]*value;
+        }
+        vec apart = vec_abs(twelve - six)*half;
+        mask done = on & ((apart <= 1e-6*most*width) | (apart <= 1e-13*(size + most*width)) | (width < 1e-10));
+        sum += only(done, twelve*half);
+        size += only(done, most*width);
+        place += only(done, width);
+        width = vec_min(choose(done, 2.0*width, 0.5*width), vec_min(splat(0.125), 1.0 - place));
+        on = place < 1.0;
+    }
+    return sum*whole;
+}
+#endif /* KINKS */
+#if !KINKS
 /* Integral over ln(gap) by Gauss-Legendre panels; the integrand takes the gap. */
 static vec integral(
     const constants *c, const vec *y, vec low, vec high, vec (*integrand)(const constants *, const vec *, vec))
@@ -52,6 +84,7 @@ static vec integral(
         }
     return sum*half;
 }
+#endif
 
 enum { AHEAD = 48 }; /* gaps ahead at which a margin is evaluated, denser at small distances */
 
