@@ -33,7 +33,9 @@ static const double WEIGHTS[6] = {
     0.160078328543346226, 0.106939325995318431, 0.047175336386511827};
 
 #if KINKS
-static const double OF_FEW[3] = {0.6661203060001907, 0.2116820833164864, 0.12219761068332285}; /* weights of every second node: their own rule */
+static const double OF_FEW[6] = {
+    0.5116108699897961, 0.45525978380314713, 0.3912332407867609,
+    0.3311779941539137, 0.22992967190160998, 0.08078843936477209}; /* of every second node, on one side of the middle */
 
 /* Integral over ln(gap); a panel in which two rules differ is halved, so that a kink or a jump ends one. */
 static vec integral(
@@ -49,8 +51,8 @@ static vec integral(
             vec value = integrand(c, y, vec_exp(low + whole*(place + half*(1.0 + at))));
             most = vec_max(most, vec_abs(value));
             twelve += WEIGHTS[which]*value;
-            if (which % 2)
-                six += OF_FEW[which/2]*value;
+            if ((node < 6) == (which % 2 == 0))
+                six += OF_FEW[which]*value;
         }
         vec apart = vec_abs(twelve - six)*half;
         mask done = on & ((apart <= 1e-6*most*width) | (apart <= 1e-13*(size + most*width)) | (width < 1e-10));
