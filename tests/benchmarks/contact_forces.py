@@ -1,6 +1,6 @@
 """Forces for time steps beside the law's collisions: 2,000 random impacts at several steps, and the cost of a step.
 
-    python -m tests.benchmarks.contact_forces     measures and prints (the table is in docs/how-to/c-law.md)
+    python -m tests.benchmarks.contact_forces     measures and prints (the table is in docs/how-to/forces.md)
 
 The impacts are those of the tests: speeds over three decades, any direction, spins in any direction. A step is a part
 of the contact time of each impact, and begins at a random phase. CPU time, in a loop in C.

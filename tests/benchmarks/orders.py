@@ -1,6 +1,6 @@
-"""CPU time of the kernel by order of its series, for each decade of tolerance; rewrites a table of kernel-figures.md.
+"""CPU time of the kernel by order of its series, for each decade of tolerance; writes orders.json.
 
-    python -m tests.benchmarks.orders            measures, prints, writes the record and the page
+    python -m tests.benchmarks.orders            measures, prints and writes the record
     python -m tests.benchmarks.orders --print    only prints
 
 Every order that the runtime has, from 8 to 16, at each tolerance from 1e-4 to 1e-13; the impacts of a scene in one
@@ -37,10 +37,8 @@ from .measured.digits import of_rows
 from .measured.tasks import TASKS, Task
 
 ROOT = Path(__file__).resolve().parents[2]
-PAGE = ROOT / "docs" / "engineering" / "kernel-figures.md"
-RECORD = PAGE.parent / "performance" / "orders.json"
+RECORD = ROOT / "docs" / "engineering" / "performance" / "orders.json"
 
-BEGIN, END = "<!-- orders -->", "<!-- end of orders -->"
 ALL = range(8, 17)
 RTOLS = tuple(10.0**-digits for digits in range(4, 14))
 RUNS = 12
@@ -131,7 +129,7 @@ def fewest(rows: list[dict[str, Any]]) -> tuple[float, tuple[int, ...]]:
     return 0.0, tuple(ALL)
 
 
-def page(rows: list[dict[str, Any]]) -> str:
+def costs(rows: list[dict[str, Any]]) -> str:
     """The table: of each tolerance the compiled order, its loss, and the relative cost of each order."""
     lines = []
     for rtol in RTOLS:
@@ -141,23 +139,20 @@ def page(rows: list[dict[str, Any]]) -> str:
             {"rtol": f"{rtol:.0e}", "compiled": order, "loss": f"{cost[order] - 1:.1%}", "error/rtol": max(errors)}
             | {str(each): f"{value:.2f}" for each, value in cost.items()}
         )
-    return f"{BEGIN}\n{of_rows(lines)}\n{END}"
+    return of_rows(lines)
 
 
 def main() -> None:
-    """Measure, say which orders are the fewest, and write the page."""
+    """Measure, say which orders are the fewest, and write the record."""
     found = cases()
     compile_all([each for case in found for each in case.variants.values()])
     rows = [row for case in found for row in measured(case)]
     wrong = sum(sum(row["wrong"].values()) for row in rows)
     loss, chosen = fewest(rows)
-    text = page(rows)
-    print(text)  # a script
+    print(costs(rows))  # a script
     print(f"fewest orders: {chosen}, at most {loss:.1%} lost; wrong outcomes: {wrong}")
     if "--print" not in sys.argv:
         RECORD.write_text(json.dumps({"environment": environment(), "rows": rows}, indent=1) + "\n")
-        whole = PAGE.read_text()
-        PAGE.write_text(whole[: whole.index(BEGIN)] + text + whole[whole.index(END) + len(END) :])
 
 
 if __name__ == "__main__":

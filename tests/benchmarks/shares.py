@@ -1,4 +1,4 @@
-"""Where the time of a collision goes in the kernel, from counters in its driver; rewrites a table of kernel-figures.md.
+"""Where the time of a collision goes in the kernel, from counters in its driver; rewrites a table of kernel.md.
 
     python -m tests.benchmarks.shares            measures, prints and writes the page
     python -m tests.benchmarks.shares --print    only prints
@@ -14,6 +14,7 @@ from __future__ import annotations
 import ctypes
 import sys
 from itertools import islice
+from pathlib import Path
 
 import numpy as np
 from wetdoublet.solvers import Scene
@@ -28,8 +29,8 @@ from wetdoublet.solvers.host.user_cache import loaded
 
 from .measured.digits import of_rows
 from .measured.tasks import TASKS, Task
-from .orders import PAGE
 
+PAGE = Path(__file__).resolve().parents[2] / "docs" / "engineering" / "kernel.md"
 BEGIN, END = "<!-- shares -->", "<!-- end of shares -->"
 RUNS, SETS = 60, {"granulation": 40, "pendulum": 100}
 # Parts of `run`: the statement that ends each.

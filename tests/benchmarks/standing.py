@@ -1,6 +1,8 @@
 """One problem differentiated through its events by several libraries, far from a graze and near it.
 
-python -m tests.benchmarks.standing [FILE]    (pip install -e '.[bench]'; default docs/engineering/standing-figures.md)
+python -m tests.benchmarks.standing [FILE]    (pip install -e '.[bench]')
+
+writes its tables between the marks of FILE, by default docs/engineering/standing.md.
 
 Granulation at 0.8 rad. Above a Stokes number the film's pressure reaches the glass transition and the pair rebounds;
 just above, the criterion is met for a short time only (a graze). All get the emitted equations of this scene, and give
@@ -32,6 +34,8 @@ from .measured.gradient_task import Gradients
 from .measured.peers.translated import translated
 
 ROOT = Path(__file__).resolve().parents[2]
+BEGIN = "<!-- standing: written by `python -m tests.benchmarks.standing` -->"
+END = "<!-- end of standing -->"
 PRESET, ANGLE, NAMES = "granulation", 0.8, ("impact.speed", "liquid.viscosity")
 DISTANCES = (1.0, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6)
 """Relative distances above the Stokes number of the graze."""
@@ -233,11 +237,9 @@ def text() -> str:
     machine = environment()
     return "\n\n".join(
         [
-            "<!-- written by `python -m tests.benchmarks.standing` -->",
-            "# Standing: the figures",
             (
                 f"Tolerance {RTOL:g}; differences with a relative step of {STEP:g}. Reference: `sensitivities` by "
-                "rosenbrock at 1e-12. What it means is told [there](standing.md)."
+                "rosenbrock at 1e-12."
             ),
             table(["above the graze", "e_n", "d e_n/d ln v", "d e_n/d ln mu"], values),
             "Errors: of e_n, and of the gradient over its largest part.",
@@ -247,6 +249,18 @@ def text() -> str:
                 "and CasADi's events are built, anew in each):"
             ),
             table(["", *(f"{each:.0e}" for each in DISTANCES)], spent),
+            (f"Not installed: {', '.join(absent)}. " if absent else "All are installed. ")
+            + "; ".join(
+                f"{name} {machine[name]}" for name in ("date", "cpu", "casadi", "jax", "diffrax", "scikit-sundae")
+            ),
+        ]
+    )
+
+
+def smallest() -> str:
+    """What CasADi's events do on the smallest problem there is, as tables."""
+    return "\n\n".join(
+        [
             "A ball that falls from 1 m and rebounds with 0.8, by CasADi's events, default tolerances: height, m.",
             table(["", *(f"at {each:g} s" for each in TIMES)], ball()),
             "How often two events of CasADi occur at y = 0, as y falls from 1 to -1.",
@@ -257,21 +271,19 @@ def text() -> str:
                     for plugin in ("rosenbrock", "rk", "collocation")
                 ],
             ),
-            f"Not installed: {', '.join(absent)}." if absent else "All are installed.",
-            "; ".join(
-                f"{name} {machine[name]}" for name in ("date", "cpu", "casadi", "jax", "diffrax", "scikit-sundae")
-            ),
         ]
     )
 
 
 def main(arguments: list[str]) -> None:
     """Write the tables, and print them."""
-    file = Path(arguments[0]) if arguments else ROOT / "docs/engineering/standing-figures.md"
+    file = Path(arguments[0]) if arguments else ROOT / "docs/engineering/standing.md"
     with one_core():
-        written = text()
-    file.write_text(written + "\n", encoding="utf-8")
-    sys.stdout.write(written + "\n")
+        written, more = text(), smallest()
+    sys.stdout.write(f"{written}\n\n{more}\n")
+    before, begin, rest = file.read_text(encoding="utf-8").partition(BEGIN)
+    after = rest.partition(END)[2]
+    file.write_text(f"{before}{begin}\n{written}\n{END}{after}", encoding="utf-8")
 
 
 if __name__ == "__main__":

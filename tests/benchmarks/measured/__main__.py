@@ -3,7 +3,7 @@
     python -m tests.benchmarks.measured [FOLDER] [SCENES]
 
 FOLDER is docs/engineering/performance; SCENES (500) is what the stress test takes. Some ten minutes on two cores. With
-the usual folder the figures of README.md and docs/engineering/kernel-figures.md are written as well. What fails is
+the usual folder the figures of README.md and docs/engineering/kernel.md are written as well. What fails is
 named at the end, and the rest is measured all the same; the page is then made from the older record of that part.
 """
 

@@ -24,10 +24,10 @@ def _error(value: float | None) -> str:
 def surroundings(record: Record) -> str:
     """Where and how it was run, and which engines were missing."""
     where = record["environment"]
-    lines = [f"* {name}: {_shown(value)}" for name, value in where.items() if value is not None]
-    lines.append(f"* {record['settings']['repeats']} runs of each, the best counts; {record['wall']:.0f} s in all")
-    lines += [f"* {each['name']}: {each['missing']}" for each in record["engines"] if each["missing"]]
-    return "\n".join(lines)
+    said = [f"{name} {_shown(value)}" for name, value in where.items() if value is not None]
+    said += [f"{each['name']}: {each['missing']}" for each in record["engines"] if each["missing"]]
+    runs = f"{record['settings']['repeats']} runs of each, the best counts; {record['wall']:.0f} s in all."
+    return f"{'; '.join(said)}. {runs}"
 
 
 def _shown(value: Any) -> str:
@@ -70,13 +70,13 @@ def equal_error(task: Record) -> str:
 
 
 def failures(task: Record) -> str:
-    """Every collision that failed or came out wrong, with what the engine said."""
+    """Every collision that failed or came out wrong, with what the engine said; empty if none did."""
     lines = [
         f"* {point['engine']}, rtol {point['rtol']:.1e}, {_some(places)}: {what}"
         for point in task["points"]
         for what, places in point["said"].items()
     ]
-    return "\n".join(["Failures and wrong outcomes:", "", *lines]) if lines else "No failures, no wrong outcomes."
+    return "\n".join(["Failures and wrong outcomes:", "", *lines]) if lines else ""
 
 
 def _some(places: list[str]) -> str:
@@ -113,12 +113,11 @@ def others(record: Record) -> list[str]:
 
 
 def structure_table(found: Sequence[Record]) -> str:
-    """CPU time by what the scene has."""
-    rows = [
-        [each["scene"], each["engine"], us(each["cpu"]), f"{each['ratio']:.2f}", str(each["separated"])]
-        for each in found
-    ]
-    return table(["scene", "engine", "CPU us a collision", "times film alone", "separated"], rows)
+    """CPU time by what the scene has, and over that of the film alone."""
+    scenes, engines = (list(dict.fromkeys(each[key] for each in found)) for key in ("scene", "engine"))
+    cells = {(each["scene"], each["engine"]): f"{us(each['cpu'])} ({each['ratio']:.2f})" for each in found}
+    rows = [[scene, *(cells.get((scene, engine), "-") for engine in engines)] for scene in scenes]
+    return table(["CPU us a collision (times film alone)", *engines], rows)
 
 
 def gradient_table(found: Sequence[Record]) -> str:
