@@ -177,7 +177,7 @@ def tracks(
     radii = 2 * loaded.particles.reduced_radius * (1 + loaded.radius_ratio)
     reaches = radii, radii + loaded.liquid.film_thickness, radii + loaded.rupture_gap
     rows, sigmas, remarks, labels, left_out = [], [], [], list[str](), list[InputError]()
-    for label in dict.fromkeys(films):
+    for label in dict.fromkeys(films or ["1"]):
         frames = np.flatnonzero([each == label for each in films])
         which = frames[np.isfinite(positions[frames]).all(axis=1)]
         if lost := frames.size - which.size:
@@ -239,6 +239,8 @@ def _impact(
     if repeated and per_frame is None:
         several = f"{', '.join(repeated[:_NAMED])}{' ...' * (len(repeated) > _NAMED)}"
         raise InputError(where, several, "rising times, or a column frame and its rate", "is shared by several rows")
+    if time.size < LEAST:
+        raise InputError(where, None, f"at least {LEAST} frames before the impact", f"has {time.size} in all")
     distance = np.linalg.norm(relative, axis=1)
     jitter = np.abs(np.diff(relative, 2, axis=0))  # of a uniform motion noise alone
     sigma = noise or (float(np.median(jitter)) / (0.6745 * math.sqrt(6)) if jitter.size else 0.0)
