@@ -37,9 +37,8 @@ from ..host.outputs import check_file
 from ..host.progress import Progress
 from ..host.remarks import say, silence_workers
 from ..host.workers import undisturbed
-from .columns import validity
 from .compute import Slow, complete
-from .results import VALIDITY, Block, empty, fill
+from .results import Block, empty, fill
 from .scan import Place, Scan
 
 if TYPE_CHECKING:
@@ -150,8 +149,6 @@ def into_memory(
             with _computing(scan, client, cut) as (_, computed):
                 for k, block in computed([k for k in range(len(cut)) if not done[flat[cut[k]]].all()]):
                     finished(flat[cut[k]].ravel(), block)
-            if VALIDITY in scan.of:
-                results[VALIDITY] = validity(request, results)
     return scan.dataset(results, request)
 
 
