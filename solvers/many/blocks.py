@@ -180,6 +180,7 @@ def into_store(scan: Scan, path: Path, client: Any = None, progress: Progress | 
             done.add(k)
             report()
     former = place.with_suffix(".former")
+    shutil.rmtree(former, ignore_errors=True)  # of a run that ended between the renames below
     if target.exists():
         target.rename(former)
     place.rename(target)
@@ -215,7 +216,7 @@ def _written(place: Path, cut: Sequence[Place]) -> set[int] | None:
     _codecs()
     try:
         outcome = _opened(place)["outcome"]
-    except (OSError, ValueError, KeyError):  # consolidated metadata are written last
+    except (FileNotFoundError, ValueError, KeyError):  # consolidated metadata are written last
         shutil.rmtree(place, ignore_errors=True)
         return None
     done = set()
