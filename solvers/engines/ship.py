@@ -20,7 +20,7 @@ from .taylor.source import Variant
 LIST = Path(__file__).with_name("shipped.json")
 
 
-def asked() -> tuple[Variant, ...]:
+def needed_by_questions() -> tuple[Variant, ...]:
     """The variants that questions on the presets ask for, for the lanes of this machine."""
     from ..scene.scene import Scene
     from ..scene.scenefile import PRESETS
@@ -40,7 +40,7 @@ def variants() -> tuple[Variant, ...]:
 def write_list() -> None:
     """Write `shipped.json` from the questions."""
     rows = []
-    for variant in asked():
+    for variant in needed_by_questions():
         options = asdict(variant)
         del options["choice"], options["lanes"]
         options = {name: value for name, value in options.items() if value}

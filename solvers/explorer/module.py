@@ -8,7 +8,7 @@ from pathlib import Path
 
 from casadi import SX, CodeGenerator, Function, vertcat
 
-from ..engines.taylor.shipped import whole
+from ..engines.taylor.shipped import content_of
 from ..errors import InputError
 from ..export.law.texts import LawSource
 from ..host.compiler import CannotCompile, webassembly
@@ -83,7 +83,7 @@ def module(law: LawSource, behind: str = "") -> bytes:
 
 def shipped(digest: str) -> bytes | None:
     """The module that came with the package for the digest of a text; None if there is none that is whole."""
-    packed = whole(BUILT, digest, SUFFIX)
+    packed = content_of(BUILT, digest, SUFFIX)
     return packed and gzip.decompress(packed)
 
 

@@ -22,12 +22,12 @@ def shipped(variant: Variant) -> bytes | None:
     if more_flags() or not any(name.startswith(f"{stem(variant)}-") for name in _names()):
         return None
     for each in here():
-        if (content := whole(FOLDER, name_of(variant, each), SUFFIX)) is not None:
+        if (content := content_of(FOLDER, name_of(variant, each), SUFFIX)) is not None:
             return content
     return None
 
 
-def whole(folder: Path, name: str, suffix: str) -> bytes | None:
+def content_of(folder: Path, name: str, suffix: str) -> bytes | None:
     """The content of the file NAME.DIGEST and suffix; None if there is none, or none that has this digest."""
     for path in folder.glob(f"{name}.*{suffix}"):
         content = path.read_bytes()

@@ -67,7 +67,7 @@ for angle in (0.0, 0.5):
 
 def test_the_list_is_what_the_questions_ask_for() -> None:
     """The committed list of kernels, from which the package is built without CasADi, is that of today's questions."""
-    assert ship.variants() == ship.asked()
+    assert ship.variants() == ship.needed_by_questions()
 
 
 @pytest.mark.slow
