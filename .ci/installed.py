@@ -23,7 +23,6 @@ RUNS = {
     "sensitivity.json": ("sensitivity", "granulation", "--of", "restitution,rotation", "--json"),
     "boundary.json": ("boundary", "pendulum", "--angle", "0:60:3", "--json"),
     "fit.json": ("fit", "pendulum", "impacts.csv", "--free", "liquid.film_thickness", "--json"),
-    "table.h": ("table", "granulation", "--over", "stokes=0.1:0.2,angle=0:20", "--error", "1e-2", "-o", "table.h"),
 }
 for preset in ("glass-beads-water", "lactose-pvp", "pellet-coating", "granulation-dry-bridge", "pendulum"):
     RUNS[f"map-{preset}.csv"] = (

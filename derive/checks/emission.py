@@ -27,6 +27,7 @@ PASSED: Mapping[str, tuple[float, ...]] = {
 }  # fmt: skip
 _EQUAL = 1e-7  # between forms, of the larger of a value and the largest of its kind
 _FAINT = 1e-30  # a normal velocity beside zero
+_Values = Callable[[Mapping[sp.Symbol, float]], list[float]]
 Samples = Callable[[LawFunction, Mapping[str, tuple[float, ...]]], Iterator[dict[sp.Symbol, float]]]
 
 
@@ -92,9 +93,7 @@ def _different(casadi: list[float], kernel: list[float], function: LawFunction) 
     return ""
 
 
-def _by_casadi(
-    function: LawFunction, emitted: Callable[..., Any]
-) -> Callable[[Mapping[sp.Symbol, float]], list[float]]:
+def _by_casadi(function: LawFunction, emitted: Callable[..., Any]) -> _Values:
     """Value and slopes of the emitted Python, by the values of the arguments."""
     column = SX.sym("arguments", len(function.arguments))
     value = SX(emitted(*vertsplit(column)))
@@ -106,9 +105,7 @@ def _by_casadi(
     return values
 
 
-def _by_kernel(
-    function: LawFunction, moving: tuple[sp.Symbol, ...]
-) -> Callable[[Mapping[sp.Symbol, float]], list[float]]:
+def _by_kernel(function: LawFunction, moving: tuple[sp.Symbol, ...]) -> _Values:
     """The same by the operations of the kernel's programs, at order zero."""
     value, result, program, slopes = slope_program(function, moving)
     lines = [*_lines(value), *_lines(program)]

@@ -36,7 +36,7 @@ def _kinetic(model: Model) -> sp.Expr:
     return model.expanded(model["energies"]["kinetic"])
 
 
-@check("friction: effective mass", "2 m/7 for spheres: equal, unequal, beside a wall (surface arm)")
+@check("friction: effective mass", "2 m/7 for spheres: equal, unequal, beside a wall (arm 2a)")
 def effective_mass() -> Evidence:
     """With the lever arm on the surface, spheres answer a tangential impulse with 2/7 of their reduced mass."""
     answers = (equal_spheres(), unequal_spheres(), beside_wall())

@@ -5,6 +5,7 @@ As a program this module compiles those that `shipped.json` lists; the package's
 """
 
 import json
+from collections.abc import Callable, Collection
 from dataclasses import asdict
 from pathlib import Path
 
@@ -13,13 +14,13 @@ from ..host.cores import usable_cores
 from ..host.user_cache import digest_of
 from ..model.key import ModelKey
 from .machine import SETS, InstructionSet, here
-from .taylor.shipped import compilation, name_of
+from .taylor.shipped import SUFFIX, compilation, name_of
 from .taylor.source import Variant
 
 LIST = Path(__file__).with_name("shipped.json")
 
 
-def asked() -> tuple[Variant, ...]:
+def needed_by_questions() -> tuple[Variant, ...]:
     """The variants that questions on the presets ask for, for the lanes of this machine."""
     from ..scene.scene import Scene
     from ..scene.scenefile import PRESETS
@@ -39,7 +40,7 @@ def variants() -> tuple[Variant, ...]:
 def write_list() -> None:
     """Write `shipped.json` from the questions."""
     rows = []
-    for variant in asked():
+    for variant in needed_by_questions():
         options = asdict(variant)
         del options["choice"], options["lanes"]
         options = {name: value for name, value in options.items() if value}
@@ -48,24 +49,29 @@ def write_list() -> None:
     LIST.write_text(f"[\n{text}\n]\n", encoding="utf-8")
 
 
-def _compile(folder: Path, sets: list[InstructionSet], structure: str | None, only_values: bool) -> None:
-    """Compile the shipped kernels, all or some of them, into a folder, and remove others from it."""
+def pack(folder: Path, suffix: str, wanted: Collection[str], content: Callable[[str], bytes]) -> None:
+    """Write the files NAME.DIGEST and suffix of a folder that are missing, and remove those that are not wanted."""
     from concurrent.futures import ThreadPoolExecutor  # slow import
 
     folder.mkdir(parents=True, exist_ok=True)
+    there = {path.name.partition(".")[0]: path for path in folder.glob(f"*{suffix}")}
+    for name in there.keys() - wanted:
+        there[name].unlink()
+
+    def write(name: str) -> None:
+        written = content(name)
+        (folder / f"{name}.{digest_of(written)}{suffix}").write_bytes(written)
+
+    with ThreadPoolExecutor(usable_cores()) as pool:
+        list(pool.map(write, (name for name in wanted if name not in there)))
+
+
+def _compile(folder: Path, sets: list[InstructionSet], structure: str | None, only_values: bool) -> None:
+    """Compile the shipped kernels, all or some of them, into a folder, and remove others from it."""
     chosen = [each for each in variants() if structure in (None, each.choice.structure)]
     chosen = [each for each in chosen if not (only_values and each.gradients)]
     wanted = {name_of(each, instructions): (each, instructions) for each in chosen for instructions in sets}
-    for path in folder.iterdir():
-        if wanted.pop(path.name.split(".")[0], None) is None:
-            path.unlink()
-
-    def write(name: str) -> None:
-        content = library(*compilation(*wanted[name]))
-        (folder / f"{name}.{digest_of(content)}.so").write_bytes(content)
-
-    with ThreadPoolExecutor(usable_cores()) as pool:
-        list(pool.map(write, wanted))
+    pack(folder, SUFFIX, wanted, lambda name: library(*compilation(*wanted[name])))
 
 
 if __name__ == "__main__":

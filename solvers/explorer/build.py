@@ -8,8 +8,8 @@ To be run with ziglang whenever the text of a law changes; a test names the modu
 import gzip
 from collections.abc import Iterator
 
+from ..engines.ship import pack
 from ..host.compiler import webassembly
-from ..host.user_cache import digest_of
 from ..scene.scene import Scene
 from ..scene.scenefile import PRESETS, template
 from .module import BUILT, FLAGS, SUFFIX, compilation
@@ -38,10 +38,5 @@ def texts() -> dict[str, str]:
 
 
 if __name__ == "__main__":
-    missing = texts()
-    for path in BUILT.glob(f"*{SUFFIX}"):
-        if missing.pop(path.name.partition(".")[0], None) is None:
-            path.unlink()
-    for digest, text in missing.items():
-        packed = gzip.compress(webassembly(text, FLAGS), 9, mtime=0)
-        (BUILT / f"{digest}.{digest_of(packed)}{SUFFIX}").write_bytes(packed)
+    wanted = texts()
+    pack(BUILT, SUFFIX, wanted, lambda digest: gzip.compress(webassembly(wanted[digest], FLAGS), 9, mtime=0))

@@ -8,10 +8,10 @@ from pathlib import Path
 
 from casadi import SX, CodeGenerator, Function, vertcat
 
+from ..engines.taylor.shipped import content_of
 from ..errors import InputError
 from ..export.law.texts import LawSource
 from ..host.compiler import CannotCompile, webassembly
-from ..host.remarks import say_once
 from ..host.user_cache import digest_of, kept
 from ..model.validity import LIMITS, NEEDS, WORDS, law_limits
 from ..scene.groups import si_values
@@ -83,12 +83,8 @@ def module(law: LawSource, behind: str = "") -> bytes:
 
 def shipped(digest: str) -> bytes | None:
     """The module that came with the package for the digest of a text; None if there is none that is whole."""
-    for path in BUILT.glob(f"{digest}.*{SUFFIX}"):
-        packed = path.read_bytes()
-        if path.name == f"{digest}.{digest_of(packed)}{SUFFIX}":
-            return gzip.decompress(packed)
-        say_once(f"{path} is damaged: it is not used; install wetdoublet anew")
-    return None
+    packed = content_of(BUILT, digest, SUFFIX)
+    return packed and gzip.decompress(packed)
 
 
 def limits(scene: Scene, material: Sequence[str], entries: Sequence[str]) -> tuple[str, list[str]]:

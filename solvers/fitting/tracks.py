@@ -33,6 +33,7 @@ _ACCEPTED = {
 }
 _SIGNED = ("tangential_restitution", "rotation")
 _NAMES = ("speed", "angle", *OBSERVED)
+_WITH_SD = ("", "_sd")
 _UNITS = {"speed": "m/s", "angle": "deg", "contact_time": "s", "rotation": "deg"}
 _CLEAR = 4.0  # standard deviations of the noise by which a pair is apart
 _STRAY = 10.0  # times the usual distance from a line, which a frame of a film that is tracked well does not reach
@@ -44,6 +45,10 @@ _SPELT = {  # as trackers name columns, in small letters; of several the first
     "time": "time t",
     "impact": "impact film video",
 } | {name: f"{name} {name[0]}_{name[1]}" for name in ("x1", "y1", "x2", "y2")}
+_BY_DIRECTION = (
+    "count by the direction of their line of centres only: they lie off the straight path of the others, as of a "
+    "tracker that displaces near discs"
+)
 _ROUNDING = 1e-9  # of positions, over the distance of the centres
 _SIDEWAYS = 3.0  # standard deviations from which an impact is oblique
 _NAMED = 6  # frames in a sentence
@@ -152,12 +157,8 @@ def tracks(
     columns, lines = columns_of(film, "tracks")
     known = _named(columns)
     for name in [each for each in ("x1", "y1", "x2", "y2") if each not in known]:
-        raise InputError(
-            "tracks",
-            ", ".join(each.name for each in columns),
-            "columns x1, y1, x2, y2, and frame or time",
-            f"has no {name}",
-        )
+        header = ", ".join(column.name for column in columns)
+        raise InputError("tracks", header, "columns x1, y1, x2, y2, and frame or time", f"has no {name}")
     pixel = None if scale is None else _size(scale, "m", "scale", plain=None)
     per_frame = None if rate is None or "time" in known else 1 / _size(rate, "1/s", "rate")
     coordinates = [_numbers(known[name], lines, "m", pixel, "scale", gaps=True) for name in ("x1", "y1", "x2", "y2")]
@@ -171,38 +172,36 @@ def tracks(
     if clock is None:
         raise InputError("tracks", ", ".join(known), "a column frame, or time [s]", "has no time")
     time = _numbers(clock, lines, "s", per_frame, "rate" * (clock.name == "frame"))
+    unit_of_clock = f" {clock.unit}" if clock.unit and clock.name == "time" else ""
     films = [str(each) for each in known["impact"].cells] if "impact" in known else ["1"] * time.size
     radii = 2 * loaded.particles.reduced_radius * (1 + loaded.radius_ratio)
     reaches = radii, radii + loaded.liquid.film_thickness, radii + loaded.rupture_gap
     rows, sigmas, remarks, labels, left_out = [], [], [], list[str](), list[InputError]()
-    for label in dict.fromkeys(films):
+    for label in dict.fromkeys(films or ["1"]):
         frames = np.flatnonzero([each == label for each in films])
         which = frames[np.isfinite(positions[frames]).all(axis=1)]
-        which = which[np.argsort(time[which], kind="stable")]
         if lost := frames.size - which.size:
             remarks.append(f"impact {label}: {lost} of {frames.size} frames lack a position and are not used")
-        single = which[np.diff(time[which], prepend=-math.inf) > 0]
-        unit_of_clock = f" {clock.unit}" if clock.unit and clock.name == "time" else ""
-        names = [f"{clock.name} {str(clock.cells[k]).strip()}{unit_of_clock}" for k in single]
-        again = np.diff(np.searchsorted(time[single], time[which], side="right"), prepend=0) == 0
-        repeated = [names[k - 1] for k in np.unique(np.searchsorted(time[single], time[which[again]], side="right"))]
-        path = Flight(time[single], positions[single, 2:] - positions[single, :2], names)
+        times, first, count = np.unique(time[which], return_index=True, return_counts=True)
+        names = [f"{clock.name} {str(clock.cells[k]).strip()}{unit_of_clock}" for k in which[first]]
+        repeated = [names[k] for k in np.flatnonzero(count > 1).tolist()]
+        path = Flight(times, (positions[:, 2:] - positions[:, :2])[which[first]], names)
         try:
             with np.errstate(divide="raise", over="raise", invalid="raise"):
                 values, sigma, said = _impact(
                     f"impact {label}", path, repeated, reaches, given, scale_sd, gap, per_frame, rounding
                 )
-        except (FloatingPointError, ZeroDivisionError) as reason:
-            left_out.append(InputError(f"tracks, impact {label}", None, "centres that move and meet", f"has {reason}"))
-        except InputError as error:
-            left_out.append(error)
-        else:
-            labels.append(label)
-            rows.append(values)
-            sigmas.append(sigma / math.sqrt(2))
-            remarks += [f"impact {label}: {each}" for each in said]
+        except (InputError, FloatingPointError, ZeroDivisionError) as reason:
+            if not isinstance(reason, InputError):
+                where = f"tracks, impact {label}"
+                reason = InputError(where, None, "centres that move and meet", f"has {reason}")
+            left_out.append(reason)
+            remarks.append(f"left out: {reason}")
             continue
-        remarks.append(f"left out: {left_out[-1]}")
+        labels.append(label)
+        rows.append(values)
+        sigmas.append(sigma / math.sqrt(2))
+        remarks += [f"impact {label}: {each}" for each in said]
     if not rows:
         raise left_out[0]
     gaps = f"x0 = {1e6 * loaded.liquid.film_thickness:.4g} um and x_f = {1e6 * loaded.rupture_gap:.4g} um"
@@ -240,6 +239,8 @@ def _impact(
     if repeated and per_frame is None:
         several = f"{', '.join(repeated[:_NAMED])}{' ...' * (len(repeated) > _NAMED)}"
         raise InputError(where, several, "rising times, or a column frame and its rate", "is shared by several rows")
+    if time.size < LEAST:
+        raise InputError(where, None, f"at least {LEAST} frames before the impact", f"has {time.size} in all")
     distance = np.linalg.norm(relative, axis=1)
     jitter = np.abs(np.diff(relative, 2, axis=0))  # of a uniform motion noise alone
     sigma = noise or (float(np.median(jitter)) / (0.6745 * math.sqrt(6)) if jitter.size else 0.0)
@@ -293,10 +294,7 @@ def _impact(
     near_frames = distance < solids + gap
     turned_only = [each & near_frames & (near is None) for each in (before, after)]  # if free: contact is hidden there
     if blank := int(((before | after) & near_frames).sum()):
-        use = (
-            "count by the direction of their line of centres only: they lie off the straight path of the others, as of"
-        )
-        use = "are left out" if near is not None else f"{use} a tracker that displaces near discs"
+        use = "are left out" if near is not None else _BY_DIRECTION
         remarks.append(f"{blank} frames in which the gap is below {gap:.3g} m {use}")
     before, after = before & ~near_frames, after & ~near_frames
     check_count()
@@ -357,20 +355,21 @@ def _impact(
     steps = block_diag(*blocks, [[scale_sd]]).T  # independent deviations of the parameters
     moved = [(results(centre + _STEP * step) - results(centre - _STEP * step)) / (2 * _STEP) for step in steps]
     sd = np.sqrt((np.array(moved) ** 2).sum(axis=0))
-    values = dict.fromkeys((*_NAMES, *(f"{name}_sd" for name in _NAMES)), math.nan)
+    values = dict.fromkeys((name + suffix for name in _NAMES for suffix in _WITH_SD), math.nan)
+    unknown: tuple[str, ...] = ()
     for name, value, error in zip(_NAMES, results(centre), sd):
         values |= {name: float(value), f"{name}_sd": float(error)}
     if not sticks and not values["contact_time"] > 0:
         problem = f"last {values['contact_time']:.3g} s: is the scale or the rate off?"
         raise InputError(f"tracks, {label}", None, "contacts that take time", problem)
     if values["angle"] <= _SIDEWAYS * values["angle_sd"] and not sticks:
-        values |= dict.fromkeys((*_SIGNED, *(f"{name}_sd" for name in _SIGNED)), math.nan)
+        unknown = _SIGNED
         remarks.append("head-on within its uncertainty, so that e_t and the sense of the rotation are not known")
     elif not sticks and np.abs(np.diff(turned[first - 1 : last + 2])).max() > _FASTEST:
-        values |= dict.fromkeys(("rotation", "rotation_sd"), math.nan)
+        unknown = ("rotation",)
         remarks.append("it turns by more than 90 deg between two frames, so that its turns cannot be counted")
-    ordered = {name: values[name] for each in _NAMES for name in (each, f"{each}_sd")}
-    return ordered | {"outcome": STICK if sticks else ""}, sigma, remarks
+    values |= {name + suffix: math.nan for name in unknown for suffix in _WITH_SD}
+    return values | {"outcome": STICK if sticks else ""}, sigma, remarks
 
 
 def _rests_from(time: np.ndarray, distance: np.ndarray, tolerance: float) -> int:

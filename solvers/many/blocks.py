@@ -37,9 +37,8 @@ from ..host.outputs import check_file
 from ..host.progress import Progress
 from ..host.remarks import say, silence_workers
 from ..host.workers import undisturbed
-from .columns import validity
 from .compute import Slow, complete
-from .results import VALIDITY, Block, empty, fill
+from .results import Block, empty, fill
 from .scan import Place, Scan
 
 if TYPE_CHECKING:
@@ -150,8 +149,6 @@ def into_memory(
             with _computing(scan, client, cut) as (_, computed):
                 for k, block in computed([k for k in range(len(cut)) if not done[flat[cut[k]]].all()]):
                     finished(flat[cut[k]].ravel(), block)
-            if VALIDITY in scan.of:
-                results[VALIDITY] = validity(request, results)
     return scan.dataset(results, request)
 
 
@@ -183,6 +180,7 @@ def into_store(scan: Scan, path: Path, client: Any = None, progress: Progress | 
             done.add(k)
             report()
     former = place.with_suffix(".former")
+    shutil.rmtree(former, ignore_errors=True)  # of a run that ended between the renames below
     if target.exists():
         target.rename(former)
     place.rename(target)
@@ -218,7 +216,7 @@ def _written(place: Path, cut: Sequence[Place]) -> set[int] | None:
     _codecs()
     try:
         outcome = _opened(place)["outcome"]
-    except (OSError, ValueError, KeyError):  # consolidated metadata are written last
+    except (FileNotFoundError, ValueError, KeyError):  # consolidated metadata are written last
         shutil.rmtree(place, ignore_errors=True)
         return None
     done = set()

@@ -1,8 +1,9 @@
 """The model of a scene: its structure module with the chosen laws in their slots, as CasADi expressions."""
 
 import math
-from collections.abc import Mapping, Sequence
-from functools import cached_property, lru_cache, reduce
+from collections.abc import Mapping
+from functools import cached_property, lru_cache, partial, reduce
+from itertools import islice
 from types import ModuleType
 from typing import Any
 
@@ -22,6 +23,9 @@ from .key import ModelKey
 # Fraction of the contact gap. Solutions stay above the contact gap; the floor keeps trial stages out of x <= 0.
 _FLOOR = 0.5
 _SMALLEST_GAP = 1e-12
+
+_Function = tuple[str, str]  # of a law: slot and name
+_Guards = dict[_Function, tuple[SX, ...]]
 
 
 @lru_cache(maxsize=256)
@@ -99,19 +103,21 @@ class _Narrow:
 
 
 class _Sided:
-    """A user's law on given sides of its kinks, by function; `guards` receives those that it is called with."""
+    """A user's law on given sides of its kinks; `guards` receives those of its functions that are called without."""
 
-    def __init__(self, law: Any, sides: Mapping[str, tuple[int, ...]], guards: dict[str, tuple[SX, ...]]) -> None:
-        self._law, self._sides, self._guards = law, sides, guards
+    def __init__(self, slot: str, law: Any, sides: Mapping[_Function, tuple[int, ...]], guards: _Guards) -> None:
+        self._slot, self._law, self._sides, self._guards = slot, law, sides, guards
 
     def __getattr__(self, function: str) -> Any:
-        law_function = getattr(self._law, function)
-        if function not in self._sides:
+        law_function, key = getattr(self._law, function), (self._slot, function)
+        if key in self._sides:
+            return partial(law_function, sides=self._sides[key])
+        if function not in getattr(self._law, "KINKS", {}):
             return law_function
 
         def called(*arguments: SX) -> Any:
-            self._guards[function] = getattr(self._law, f"{function}_kinks")(*arguments)
-            return law_function(*arguments, sides=self._sides[function])
+            self._guards[key] = getattr(self._law, f"{function}_kinks")(*arguments)
+            return law_function(*arguments)
 
         return called
 
@@ -173,30 +179,25 @@ class Model:
         return (*EVENTS, *(each.row for each in self.own_events))
 
     @cached_property
-    def kinks(self) -> dict[str, SX]:
-        """Guards of the kinks of a user's laws by name, each zero at one, in the order of a region's sides."""
-        guards: dict[str, dict[str, tuple[SX, ...]]] = {slot: {} for slot, _ in self.choice.laws}
-        laws = self._sided((1,) * len(self._kinky), guards)
-        self.structure.right_hand_side(self.guarded, self.groups, laws)
-        met = {key: guards[slot].get(function, ()) for slot, function, k in self._kinky for key in [(slot, function)]}
-        return {f"kink_{slot}_{function}_{k}": met[slot, function][k] for slot, function, k in self._kinky}
+    def _guards(self) -> _Guards:
+        """The guards of the kinks that the forces of a user's laws have."""
+        guards: _Guards = {}
+        if self.choice.package is None:
+            return guards
+        self.structure.right_hand_side(self.guarded, self.groups, self._sided({}, guards))
+        return guards
 
     @cached_property
-    def _kinky(self) -> tuple[tuple[str, str, int], ...]:
-        """Slot, function and number of every kink of the forces' laws."""
-        slots = (slot for slot, _ in self.choice.laws if slot != "glass")
-        counts = {slot: getattr(getattr(self.laws, slot), "KINKS", {}) for slot in slots}
-        return tuple(
-            (slot, name, k) for slot, each in counts.items() for name, count in each.items() for k in range(count)
-        )
+    def kinks(self) -> dict[str, SX]:
+        """These guards by name, each zero at a kink, in the order of a region's sides."""
+        rows = ((*key, k, guard) for key, guards in self._guards.items() for k, guard in enumerate(guards))
+        return {f"kink_{slot}_{function}_{k}": guard for slot, function, k, guard in rows}
 
-    def _sided(self, sides: Sequence[int], guards: Mapping[str, dict[str, tuple[SX, ...]]] | None = None) -> Laws:
-        """The laws on given sides of their kinks."""
-        given: dict[str, dict[str, tuple[int, ...]]] = {slot: {} for slot, _ in self.choice.laws}
-        for (slot, function, _), side in zip(self._kinky, sides, strict=True):
-            given[slot][function] = (*given[slot].get(function, ()), side)
-        laws = ((slot, getattr(self.laws, slot)) for slot, _ in self.choice.laws)
-        return Laws(**{slot: _Sided(law, given[slot], guards[slot] if guards else {}) for slot, law in laws})
+    def _sided(self, sides: Mapping[_Function, tuple[int, ...]], guards: _Guards) -> Laws:
+        laws: dict[str, Any] = {
+            slot: _Sided(slot, getattr(self.laws, slot), sides, guards) for slot, _ in self.choice.laws
+        }
+        return Laws(**laws)
 
     @cached_property
     def marks(self) -> tuple[int, ...]:
@@ -249,7 +250,9 @@ class Model:
         sides: tuple[int, ...] = (),
     ) -> dict[str, SX]:
         """A function of the structure module as named expressions; `sides` are those of the laws' kinks, if fixed."""
-        laws = self._sided(sides) if sides else self.laws
+        laws, more = self.laws, iter(sides)
+        if sides:
+            laws = self._sided({key: tuple(islice(more, len(guards))) for key, guards in self._guards.items()}, {})
         outputs: dict[str, SX] = getattr(self.structure, name)(
             self.state if state is None else state, self.groups, laws, **(region or {})
         )

@@ -42,18 +42,12 @@ def first_derivatives(expression: TrajectoryExpression, count: int, adjoint: boo
     Forward, seeds are directions (groups x count), and derivatives are along these (quantities x count). Adjoint, they
     are weights (quantities x count), and derivatives are gradients of the weighted sums (groups x count).
     """
-    p, durations, z, shifts = _symbols(expression)
+    p, durations = (MX.sym(name, expression.function.size1_in(k)) for k, name in enumerate(("groups", "durations")))
+    z, shifts = expression.function(p, durations)
     seeds = MX.sym("seeds", (z if adjoint else p).numel(), count)
     with quiet():
         slopes = densify(jtimes(z, p, seeds, adjoint))
         return Function("adjoint" if adjoint else "forward", [p, durations, seeds], [z, shifts, slopes])
-
-
-def _symbols(expression: TrajectoryExpression) -> tuple[MX, MX, MX, MX]:
-    p = MX.sym("groups", expression.function.size1_in(0))
-    durations = MX.sym("durations", expression.function.size1_in(1))
-    z, shifts = expression.function(p, durations)
-    return p, durations, z, shifts
 
 
 def lands(shifts: np.ndarray, durations: np.ndarray, within: float) -> bool:

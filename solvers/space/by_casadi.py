@@ -23,7 +23,7 @@ from ..model.phases import Flow, Region
 from ..scene.groups import si_values
 from .books import OPEN, extras_of, is_open, of_casadi
 from .ends import FAILED, Ends
-from .pairs import Bodies, Pairs, length, spinning, still
+from .pairs import Bodies, Pairs, length, spin_energy, without_spins
 
 AXES = "xyz"
 EXTRAS = ("rotation",)
@@ -94,8 +94,8 @@ def groups_of(pair: Pairs, axes: np.ndarray) -> DimensionlessGroups:
 
 
 def _one(pair: Pairs, plugin: str, rtol: float, ledger: bool, budget: Budget) -> Ends:
-    turns, axes = not pair.straight[0], own_axes(pair)
-    n = groups_of(pair, axes) if turns else nondimensionalise(still(pair.scene), -float(pair.opening[0]), 0.0)
+    turns, axes = not pair.head_on[0], own_axes(pair)
+    n = groups_of(pair, axes) if turns else nondimensionalise(without_spins(pair.scene), -float(pair.opening[0]), 0.0)
     small, whole = (select_model(pair.scene, turns, full=full, space=turns) for full in (False, ledger))
     model, turned = load(whole), EXTRAS if turns else ()
     extras = turned + (extras_of(model) if ledger else ())
@@ -122,7 +122,7 @@ def _one(pair: Pairs, plugin: str, rtol: float, ledger: bool, budget: Budget) ->
         ends.energy[0] = n.energy * of_casadi(
             model, p, y, {name: replayed.extra(name) for name in extras}, replayed.dry_loss, replayed.friction_loss
         )
-        ends.energy[:, :2] += 0.0 if turns else spinning(pair, pair.spins)[0]
+        ends.energy[:, :2] += 0.0 if turns else spin_energy(pair, pair.spins)[0]
         if is_open(ends.energy, ends.outcome > 0, rtol)[0]:
             raise ComputationError(OPEN)
     return ends

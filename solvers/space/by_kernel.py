@@ -14,7 +14,7 @@ from ..model.model import load, select_model
 from ..scene.groups import rate_scales, si_values
 from .books import is_open, of_kernel
 from .ends import FAILED, Ends
-from .pairs import Bodies, Pairs, dot, length, spinning, still
+from .pairs import Bodies, Pairs, dot, length, spin_energy, without_spins
 
 _SPINS = ("impact_spin", "impact_partner_spin")
 
@@ -41,13 +41,13 @@ def planes(pairs: Pairs) -> Planes:
     axis = turned[rows, chosen]
     axis = axis - dot(axis, pairs.normal) * pairs.normal
     with np.errstate(all="ignore"):
-        axis = np.where(pairs.straight[:, None], 0.0, axis / length(axis)[:, None])
+        axis = np.where(pairs.head_on[:, None], 0.0, axis / length(axis)[:, None])
     along = np.einsum("ikj,ij->ik", turned, axis)
     rest = turned - along[:, :, None] * axis[:, None]
     rest[:, 1:] *= radii[:, None]
     rest[:, 0] *= pairs.distance
     size = np.maximum(largest, np.max(np.abs(pairs.velocities), axis=(1, 2)))
-    planar = pairs.straight | np.all(length(rest) <= TURNLESS * size[:, None], axis=1)
+    planar = pairs.head_on | np.all(length(rest) <= TURNLESS * size[:, None], axis=1)
     return Planes(planar, axis, along[:, 0], along[:, 1:])
 
 
@@ -120,7 +120,7 @@ def scales(pairs: Pairs) -> np.ndarray:
 def _in_planes(pairs: Pairs, motion: Planes, rtol: float, threads: int, ledger: bool) -> tuple[Ends, np.ndarray] | None:
     """By the planar kernel; what rounding leaves of the spins out of the plane stays as it is."""
     same = pairs.scene.partner is None and bool(np.all(motion.spins[:, 0] == motion.spins[:, 1]))
-    scene = still(pairs.scene, own_spins=not same)
+    scene = without_spins(pairs.scene, own_spins=not same)
     contact = pairs.distance - float(scene.material["film_thickness"])
     angle = np.arctan2(contact * np.abs(motion.turning), -pairs.opening)
     sense = np.where(motion.turning < 0, -1.0, 1.0)  # the angle is not negative
@@ -149,7 +149,7 @@ def _in_planes(pairs: Pairs, motion: Planes, rtol: float, threads: int, ledger: 
     ends.opening[known] = (-pairs.opening * answers["shown"][:, 0])[known]
     ends.turning = moved["final_rotation_rate"][:, None] * axis
     rest = pairs.spins - motion.spins[:, :, None] * motion.axis[:, None]
-    ends.energy[:, :2] += spinning(pairs, rest)[:, None]
+    ends.energy[:, :2] += spin_energy(pairs, rest)[:, None]
     for k, name in enumerate(("final_spin", "final_spin_partner")):
         ends.spins[:, k] = moved[name][:, None] * axis + rest[:, k]
     return ends, left

@@ -110,7 +110,7 @@ class Pairs:
         return velocity
 
     @cached_property
-    def straight(self) -> np.ndarray:
+    def head_on(self) -> np.ndarray:
         """Mask of pairs of spheres in which nothing moves across the line of centres: head-on, with or without twist.
 
         No torque acts on twist, so that the line never turns. What rounding alone may have made is nothing.
@@ -127,13 +127,13 @@ class Pairs:
         return Pairs(self.scene, rows[0].shape[:1], *rows)
 
 
-def still(scene: Scene, own_spins: bool = False) -> Scene:
+def without_spins(scene: Scene, own_spins: bool = False) -> Scene:
     """The scene without spins of its own; equal spheres keep one state for both unless each has its own."""
     changes = dict.fromkeys((["impact.spin"] if scene.impact.spin else []) + ["impact.partner_spin"] * own_spins, 0.0)
     return scene.with_entries(changes) if changes else scene
 
 
-def spinning(pairs: Pairs, spins: np.ndarray) -> np.ndarray:
+def spin_energy(pairs: Pairs, spins: np.ndarray) -> np.ndarray:
     """Kinetic energies of spins (pairs, 2, 3), J."""
     energies: np.ndarray = np.sum(np.array(Bodies.of(pairs.scene).inertia) * length(spins) ** 2, axis=1) / 2
     return energies

@@ -35,7 +35,7 @@ def friction() -> tuple[tuple[sp.Expr, sp.Expr], sp.Expr]:
     """Torques on the two spheres and the tangential force, in SI.
 
     The torques are the leading logarithms, multiplied by a factor from the law for the lever arm. For `midgap` the
-    factor is r/(R_1 + R_2), so that they add up to r F_t and dL/dt = 0 exactly; for `surface` it is 1.
+    factor is r/(R_1 + R_2), so that they add up to r F_t and dL/dt = 0 exactly.
     """
     log = SHEAR * slot_call("shear", "log_factor", q.x / q.x0, q.x0 / q.a)
     slips = sp.Matrix([q.omega - q.xi, q.omega - q.partner_spin_rate])

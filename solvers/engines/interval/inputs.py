@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Container, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from ...errors import InputError
@@ -65,8 +65,7 @@ class Inputs:
             raise InputError("within", len(box), f"at most {MOST} entries")
         corners = [dict(zip(box, corner, strict=True)) for corner in itertools.product(*box.values())]
         values = [_quantities(scene, entries, corner) for corner in corners]
-        exact = {end * scene.fields[name].factor for name, pair in box.items() for end in pair}
-        ranges = {name: _hull([corner[name] for corner in values], exact) for name in values[0]}
+        ranges = {name: _hull([corner[name] for corner in values]) for name in values[0]}
         moving = tuple(name for name, (low, high) in ranges.items() if low < high)
         if scene.ways.volume == "coating" and {"volume", "radius_ratio"} <= {*moving}:
             accepted = "entries but the radii, whose volume from coatings need not be monotone"
@@ -135,16 +134,15 @@ def _ends(scene: Scene, name: str, width: object) -> Range:
 
 
 def _outward(low: float, high: float, part: float) -> Range:
-    return math.nextafter(low - abs(low) * part, -math.inf), math.nextafter(high + abs(high) * part, math.inf)
+    """The ends moved outward by a part of them; zero, which nothing rounds, stays."""
+    below, above = low - abs(low) * part, high + abs(high) * part
+    return low and math.nextafter(below, -math.inf), high and math.nextafter(above, math.inf)
 
 
-def _hull(values: Sequence[float], exact: Container[float]) -> Range:
-    """The range of a quantity with these values at the corners, of which those in `exact` are an entry's own."""
+def _hull(values: Sequence[float]) -> Range:
+    """The range of a quantity with these values at the corners."""
     low, high = min(values), max(values)
-    if low == high:
-        return low, high
-    outer = _outward(low, high, _COMPUTED)
-    return low if low in exact else outer[0], high if high in exact else outer[1]
+    return (low, high) if low == high else _outward(low, high, _COMPUTED)
 
 
 def _relative(width: object, label: str) -> float:

@@ -14,7 +14,7 @@ from ...host.user_cache import digest_of
 from ..machine import InstructionSet, here, lanes
 from .source import Variant, emitted_headers, flags, source, stem
 
-FOLDER = Path(__file__).resolve().with_name("kernels")
+FOLDER, SUFFIX = Path(__file__).resolve().with_name("kernels"), ".so"
 
 
 def shipped(variant: Variant) -> bytes | None:
@@ -22,13 +22,18 @@ def shipped(variant: Variant) -> bytes | None:
     if more_flags() or not any(name.startswith(f"{stem(variant)}-") for name in _names()):
         return None
     for each in here():
-        name = name_of(variant, each)
-        path = next((FOLDER / file for file in _names() if file.startswith(f"{name}.")), None)
-        if path is not None:
-            content = path.read_bytes()
-            if path.name == f"{name}.{digest_of(content)}.so":
-                return content
-            say_once(f"{path} is damaged: it is not used; install wetdoublet anew")
+        if (content := content_of(FOLDER, name_of(variant, each), SUFFIX)) is not None:
+            return content
+    return None
+
+
+def content_of(folder: Path, name: str, suffix: str) -> bytes | None:
+    """The content of the file NAME.DIGEST and suffix; None if there is none, or none that has this digest."""
+    for path in folder.glob(f"{name}.*{suffix}"):
+        content = path.read_bytes()
+        if path.name == f"{name}.{digest_of(content)}{suffix}":
+            return content
+        say_once(f"{path} is damaged: it is not used; install wetdoublet anew")
     return None
 
 
@@ -49,7 +54,7 @@ def shipped_digest() -> str:
 
 @cache
 def _names() -> tuple[str, ...]:
-    return tuple(sorted(path.name for path in FOLDER.glob("*.so")))
+    return tuple(sorted(path.name for path in FOLDER.glob(f"*{SUFFIX}")))
 
 
 @cache

@@ -27,29 +27,16 @@ NUMBERS = 26  # dimensions of a point
 _CHOICES = 11  # dimensions of a model
 _FASTEST = 5.0  # surface speed of a spin, over v0
 _WIDE = {  # lowest and highest value, SI
-    "reduced_radius": (1e-6, 1e-2),
-    "film/reduced_radius": (1e-5, 1.0),
-    "density": (300.0, 2e4),
-    "roughness/film": (1e-6, 0.9),
-    "viscosity": (1e-5, 1e4),
-    "glass_transition_pressure": (1e3, 1e12),
-    "youngs_modulus": (1e5, 1e12),
-    "surface_tension": (1e-4, 1.0),
-    "volume": (1e-5, 1.0),
-    "length": (1.01, 1e4),
-    "gravity": (0.1, 100.0),
-    "stokes": (1e-6, 1e4),
-    "degrees from grazing": (0.01, 90.0),
-}
+    "reduced_radius": (1e-6, 1e-2), "film/reduced_radius": (1e-5, 1.0), "density": (300.0, 2e4),
+    "roughness/film": (1e-6, 0.9), "viscosity": (1e-5, 1e4), "glass_transition_pressure": (1e3, 1e12),
+    "youngs_modulus": (1e5, 1e12), "surface_tension": (1e-4, 1.0), "volume": (1e-5, 1.0), "length": (1.01, 1e4),
+    "gravity": (0.1, 100.0), "stokes": (1e-6, 1e4), "degrees from grazing": (0.01, 90.0),
+}  # fmt: skip
 _MODERATE = _WIDE | {  # what an independent integrator follows in a second
-    "reduced_radius": (5e-6, 5e-3),
-    "film/reduced_radius": (1e-3, 0.2),
-    "density": (300.0, 8e3),
-    "roughness/film": (1e-4, 0.5),
-    "viscosity": (1e-3, 10.0),
-    "stokes": (1e-2, 30.0),
+    "reduced_radius": (5e-6, 5e-3), "film/reduced_radius": (1e-3, 0.2), "density": (300.0, 8e3),
+    "roughness/film": (1e-4, 0.5), "viscosity": (1e-3, 10.0), "stokes": (1e-2, 30.0),
     "degrees from grazing": (5.0, 90.0),
-}
+}  # fmt: skip
 
 
 def sample(count: int, seed: int = SEED) -> list[Case]:

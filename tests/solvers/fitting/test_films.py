@@ -166,6 +166,13 @@ def test_what_does_not_move_is_refused_without_a_warning(film: dict[str, np.ndar
             read(wrong | {"frame": film["frame"]})
 
 
+def test_a_film_without_positions_is_refused(film: dict[str, np.ndarray]) -> None:
+    """A table without rows, and one in which the tracker lost a sphere throughout."""
+    for wrong in ({name: values[:0] for name, values in film.items()}, film | {"x1": film["x1"] * np.nan}):
+        with pytest.raises(InputError, match="at least 4 frames"):
+            read(wrong)
+
+
 @pytest.mark.parametrize("rate", ["150 kHz", "150 kfps", "150000 frames/s", pint.Quantity(150, "kHz")])
 @pytest.mark.parametrize("scale", ["2 um/px", "500 px/mm", "12700 dpi", pint.Quantity(500, "px/mm")])
 def test_rate_and_scale_carry_their_units(film: dict[str, np.ndarray], rate: object, scale: object) -> None:

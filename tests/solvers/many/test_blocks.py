@@ -121,6 +121,17 @@ def test_a_damaged_unfinished_store(tmp_path, serial):
     assert [each[0] for each in counts] == [sum(sizes[1:4]), 0]
 
 
+def test_a_store_that_was_being_replaced(tmp_path, serial):
+    """What a run leaves that ended while it replaced a store does not stop the next one."""
+    store = tmp_path / "map.zarr"
+    regime_map("granulation", stokes=[0.1], angle=[1.0], store=store)
+    with pytest.raises(KeyboardInterrupt):
+        regime_map("granulation", **GRID, store=store, progress=interrupted_after(4))
+    next(tmp_path.glob("*.unfinished")).with_suffix(".former").joinpath("outcome").mkdir(parents=True)
+    same(regime_map("granulation", **GRID, store=store), serial)
+    assert [path.name for path in tmp_path.iterdir()] == ["map.zarr"]
+
+
 KILLED = """
 import os, signal, sys
 import numpy as np

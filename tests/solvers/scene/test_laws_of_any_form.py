@@ -110,6 +110,14 @@ def test_kinks_by_every_engine(factor: str, tmp_path: Path):
     _agrees(scene(tmp_path, f'{own}law("film", "mine", resistance=6*pi*mu*a**2*u/x*(1 - x/x0)**2*({factor}))'), 3)
 
 
+def test_kinks_of_a_potential(tmp_path: Path):
+    """A function with kinks that no force calls: every engine answers, and with the same value."""
+    body = "force=Min(1/gap**2, 100), potential=-Piecewise((20 - 100*gap, gap < Rational(1, 10)), (1/gap, True))"
+    given = scene(tmp_path, f'law("attraction", "capped", {body})', "granulation-dry-bridge")
+    values = [collide(given, rtol=1e-11, engine=by).restitution for by in ENGINES]
+    assert values == pytest.approx([values[0]] * 3, rel=1e-8)
+
+
 @pytest.mark.parametrize("number", range(60))
 def test_random_laws(number: int, tmp_path: Path):
     """A law drawn at random is refused with a sentence, or the three engines agree on it."""
