@@ -6,8 +6,6 @@ from typing import Any
 import numpy as np
 import pytest
 from wetdoublet.solvers import Scene, collide
-from wetdoublet.solvers.engines.taylor.call import variant_for_many
-from wetdoublet.solvers.engines.taylor.source import source
 from wetdoublet.solvers.formatting.markdown import table
 
 from ..helpers.own_arm import described
@@ -20,7 +18,6 @@ from .measured.page import document
 from .measured.peers.engines import Engine, engines
 from .measured.run import MORE, bench
 from .measured.tasks import TASKS, Task
-from .shares import PARTS, instrumented
 
 OURS = ("cvodes", "rosenbrock", "rosenbrock, compiled", "taylor", "taylor, kernel alone")
 TINY = Task("granulation", 3, (0.02, 0.5), 85.0)
@@ -191,9 +188,3 @@ def test_the_separatrix_is_the_traced_one() -> None:
     sides = near.beside(1e-3)
     assert len(sides) == 2 * len(near.SEPARATRIX)
     assert sum(each.sticks for each in sides) == len(near.SEPARATRIX)
-
-
-def test_every_part_of_the_driver_is_timed() -> None:
-    """The clock is read behind each part of the kernel's loop, and twice in a row at its start."""
-    text = instrumented(source(variant_for_many(TINY.scene, True, 1e-9, False), ()))
-    assert text.count("clock_at(") == 1 + len(PARTS) + 2

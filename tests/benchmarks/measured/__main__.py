@@ -3,8 +3,8 @@
     python -m tests.benchmarks.measured [FOLDER] [SCENES]
 
 FOLDER is docs/engineering/performance; SCENES (500) is what the stress test takes. Some ten minutes on two cores. With
-the usual folder the figures of README.md and docs/engineering/kernel-figures.md are written as well. What fails is
-named at the end, and the rest is measured all the same; the page is then made from the older record of that part.
+the usual folder the figures of README.md are written as well. What fails is named at the end, and the rest is measured
+all the same; the page is then made from the older record of that part.
 """
 
 import argparse
@@ -58,8 +58,6 @@ def main() -> None:
         "stress": lambda: stress(folder, scenes),
         "law_in_c": lambda: script("law_in_c", str(folder)),
     }
-    if folder == USUAL:
-        parts["orders"] = lambda: script("orders")
     parts["page"] = lambda: script("measured.page.document", str(folder))
     failed = []
     for name, measure in parts.items():
