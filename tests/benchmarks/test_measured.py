@@ -34,6 +34,7 @@ def record() -> dict[str, Any]:
     return bench([TINY], (1e-5, 1e-7), cold=lambda: cold, which=which, more=(), fine=(1e-7, 1e-9), **few)
 
 
+@pytest.mark.slow
 def test_reference_values_equal_the_independent_ones(reference: dict[str, Any]) -> None:
     """What errors are measured against agrees with the 80-bit Taylor series to 1e-11, and knows its own error."""
     pytest.importorskip("scipy")

@@ -130,6 +130,7 @@ def test_barrier_height(law: str, stokes: float, angle: float) -> None:
     assert barrier.gap * x0 == pytest.approx(gap, rel=1e-5)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("engine", ["taylor", "rosenbrock"])
 def test_a_stick_of_an_arm_with_which_l_drifts_is_no_theorem(engine: str) -> None:
     """With the surface arm of a model file sticks are decided, up to beside the boundary, and certified is false."""

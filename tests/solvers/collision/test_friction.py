@@ -165,6 +165,7 @@ def test_a_doublet_that_rolls_at_rest_while_its_spins_equalise_sticks() -> None:
     assert found.energy is not None and abs(found.energy.residual) < 1e-8 * found.energy.initial
 
 
+@pytest.mark.slow
 def test_chatter_with_friction_on_strings_is_a_stick_as_without() -> None:
     """Rebounds without end on glassy liquid, each lower than the last: friction of solids has no part in them."""
     entries = {
@@ -183,6 +184,7 @@ def test_chatter_with_friction_on_strings_is_a_stick_as_without() -> None:
     assert found.energy is not None and found.energy.dry_friction == 0.0
 
 
+@pytest.mark.slow
 def test_slip_that_friction_reverses_wholly_may_be_zero() -> None:
     """With opposite spins of equal spheres nothing turns, and the engines agree."""
     entries = {"impact.spin": 1e3, "impact.partner_spin": -1e3}
@@ -225,6 +227,7 @@ def test_entries_that_make_no_sense_are_refused(entries: dict[str, object], said
         Scene.load("granulation").with_entries(entries)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("engine", ["rosenbrock", "taylor"])
 def test_a_doublet_at_rest_that_only_friction_turns_sticks_at_once(engine: str) -> None:
     """Glass at the edge of the film, where tangential lubrication is zero: friction falls with the normal force."""

@@ -192,6 +192,7 @@ def test_mutants_are_caught(runtime: str, name: str) -> None:
     assert sum(violations(mutant, which, 3000) for which in (ADD, SUB, MUL, DIV, SQUARE)) > 0
 
 
+@pytest.mark.slow
 def test_mutants_of_the_exponential_are_caught(runtime: str) -> None:
     """A series without its last terms, or ln 2 without its lower part, does not hold the exponential."""
     for old, new in (("int k = 15;", "int k = 9;"), ("iv_mul(iv_point(n), LN2_LOW)));", "iv_point(0.0)));")):
@@ -225,6 +226,7 @@ __attribute__((visibility("default"))) unsigned flush(unsigned bits)
 """
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(platform.machine() not in ("x86_64", "AMD64"), reason="bits of another processor")
 def test_another_library_may_flush_small_numbers_to_zero() -> None:
     """Results, operands or both: the engine keeps small numbers all the same, and leaves that setting as it was; one
@@ -244,6 +246,7 @@ def test_another_library_may_flush_small_numbers_to_zero() -> None:
     assert mutant.interval_start() == 1
 
 
+@pytest.mark.slow
 def test_a_compiler_that_ignores_rounding_is_refused() -> None:
     """Code that rounds to nearest all the same fails the test at load."""
     key = select_model(Scene.load("granulation"), True, fold=True)

@@ -102,6 +102,7 @@ def interrupted_after(blocks):
     return progress
 
 
+@pytest.mark.slow
 def test_a_damaged_unfinished_store(tmp_path, serial):
     """A block whose outcomes are damaged is computed again; without its description all is; no bit gets through."""
     draw, counts = np.random.default_rng(1), []
@@ -140,6 +141,7 @@ regime_map("granulation", **axes, store="map.zarr")
 """
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(os.name != "posix", reason="signals are sent as on POSIX")
 def test_a_killed_client_loses_nothing_that_was_written(tmp_path, serial):
     """Killed outright behind its fourth block: the second call computes the others and no more, to the same bits."""
@@ -200,6 +202,7 @@ def test_an_interrupted_map_in_memory_is_continued(tmp_path):
     assert not file.exists()
 
 
+@pytest.mark.slow
 def test_another_request_never_uses_what_is_kept(tmp_path):
     """Scene, axes, tolerance, engine and quantities are part of what it is kept under; a damaged file is nothing."""
     grid = {"stokes": np.geomspace(0.02, 0.1, 60), "angle": 1.0}

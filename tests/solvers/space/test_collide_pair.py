@@ -187,6 +187,7 @@ def test_a_stick_turns_as_one_body(equal):
     assert np.isnan(found["angular_velocity"][~stuck]).all()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("scene", [GRANULATION, WALL], ids=["spheres", "wall"])
 def test_a_stick_depends_on_its_arrival_alone(scene):
     """No tolerance and no engine changes its motion, which is at contact; `until` says where they stopped."""
