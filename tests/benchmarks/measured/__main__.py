@@ -53,8 +53,6 @@ def main() -> None:
     folder.mkdir(parents=True, exist_ok=True)
     parts = {
         "bench": lambda: script("measured.page.record", str(folder)),
-        "compile_flags": lambda: script("compile_flags", str(folder)),
-        "cvodes_share": lambda: script("cvodes_share", str(folder)),
         "stress": lambda: stress(folder, scenes),
         "law_in_c": lambda: script("law_in_c", str(folder)),
     }
