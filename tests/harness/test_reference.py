@@ -19,12 +19,13 @@ from .conditioning import Conditioned
 from .scenes import PAIRS_IN_SPACE, scenes
 from .settings import examples
 
+TURNED = [each for each in PAIRS_IN_SPACE if not (each["head-on"] or (each["partner"] == "wall" and each["friction"]))]
 OUTCOMES = ("stick", "stick-rotate-separate", "bounce")
 
 pytestmark = pytest.mark.filterwarnings("ignore::wetdoublet.solvers.ModelWarning")
 
 
-@examples(24)
+@examples(14)
 @given(scenes(PAIRS_IN_SPACE))
 def test_equals_the_reference(scene: Scene) -> None:
     """Outcome, events, restitution, rates and spins of a collision in the plane."""
@@ -50,7 +51,7 @@ def test_equals_the_reference(scene: Scene) -> None:
 
 
 @examples(10)
-@given(scenes([each for each in PAIRS_IN_SPACE if not each["head-on"]]), st.integers(0, 2**32 - 1))
+@given(scenes(TURNED), st.integers(0, 2**32 - 1))
 def test_a_plane_turned_in_space_is_the_plane(scene: Scene, seed: int) -> None:
     """Any plane, and any velocity of the centre of mass: outcome, restitution and time are those in the plane."""
     computed = Conditioned(scene)
@@ -89,10 +90,9 @@ def test_equals_the_reference_in_space(scene: Scene, seed: int) -> None:
     if outcome:
         e_n = found["restitution"].values
         scale = abs(e_n[1] - e_n[2]) / (2e-7 * max(1e-3, abs(e_n[0]))) + 1.0
-        row = {name: found[name].values[0] for name in ("restitution", "velocities", "spins")}
-        expected = {name: value for name, value in quantities(bodies, arrival, end).items() if name in row}
-        apart = differences(bodies, arrival, row, expected)
-        assert max(apart.values()) <= 1e-7 * scale, apart
+        expected = quantities(bodies, arrival, end)
+        apart = differences(bodies, arrival, {name: found[name].values[0] for name in expected}, expected)
+        assert max(apart[name] for name in ("restitution", "velocities", "spins")) <= 1e-7 * scale, apart
 
 
 def _faster(arrival: Arrival, factor: float) -> Arrival:
