@@ -12,8 +12,7 @@ from ..helpers.flow import Unfinished
 from ..helpers.in_space import ZERO, Arrival, Spatial, Vector, planar_arrival, plus
 from ..helpers.phases import Chatter
 from ..helpers.random_in_space import arrivals, differences, direction, quantities, request
-from ..helpers.random_spinning import impact_of
-from ..helpers.spinning import PARTNER, SPIN, TURNING, Planar, U
+from ..helpers.spinning import PARTNER, SPIN, TURNING, Planar, U, impact_of
 from ..helpers.two_bodies import bodies_of
 from .conditioning import Conditioned
 from .scenes import PAIRS_IN_SPACE, scenes

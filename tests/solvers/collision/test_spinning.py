@@ -3,8 +3,7 @@
 import pytest
 from wetdoublet.solvers import Scene, collide
 
-from ...helpers.random_spinning import impact_of
-from ...helpers.spinning import Planar, U
+from ...helpers.spinning import Planar, U, impact_of
 from ...helpers.two_bodies import bodies_of
 
 SAME = 1e-8
