@@ -52,6 +52,7 @@ def test_the_law_of_lubrication_in_yade_is_ours_of_an_infinite_film():
     assert w / tangential == pytest.approx(float(ours.tangential_restitution.squeeze()), rel=1e-2)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("host", "law"), [("yade", "lubrication"), ("lammps", "lubricate")])
 def test_a_host_tends_to_its_law_and_the_parts_make_the_difference(host, law):
     """The host's own e_n comes to that of its differential equations as the time step falls; nothing is left over."""

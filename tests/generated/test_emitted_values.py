@@ -229,8 +229,18 @@ def _marked(those: Iterable[Structure]) -> list[Any]:
     return [pytest.param(each, marks=() if each.name in QUICK else pytest.mark.slow) for each in those]
 
 
-@pytest.mark.parametrize("choice", range(len(CHOICES)))
-@pytest.mark.parametrize("structure", _marked(STRUCTURES), ids=lambda structure: structure.name)
+def _in_turn() -> list[Any]:
+    """Each structure with a choice of laws, which take turns; the quick ones with every choice."""
+    turns = [
+        (each, choice)
+        for k, each in enumerate(STRUCTURES)
+        for choice in range(len(CHOICES))
+        if each.name in QUICK or choice == k % len(CHOICES)
+    ]
+    return [pytest.param(each, n, marks=() if each.name in QUICK else pytest.mark.slow) for each, n in turns]
+
+
+@pytest.mark.parametrize(("structure", "choice"), _in_turn())
 def test_structure(structure: Structure, choice: int):
     """Every function of a structure, its Jacobian and event rates too, is its expression; in all regions."""
     model, columns = _filled(structure, choice)

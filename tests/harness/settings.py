@@ -6,7 +6,9 @@ from hypothesis import HealthCheck, Phase, settings
 
 _MORE = int(os.environ.get("WETDOUBLET_EXAMPLES", "1"))
 _INVALID = [HealthCheck.filter_too_much, HealthCheck.too_slow]
-_PHASES = [Phase.explicit, Phase.generate, Phase.shrink]
+_PHASES = [Phase.explicit, Phase.generate]
+if "WETDOUBLET_MUTANT" not in os.environ:  # of a mutant the first example that fails is enough
+    _PHASES.append(Phase.shrink)
 
 
 def examples(count: int) -> settings:

@@ -11,10 +11,10 @@ Structure = dict[str, str]
 CHOICES: dict[str, tuple[str, ...]] = {
     "partner": ("", "sphere", "wall"),
     "spins": ("", "one", "both"),
-    "friction": ("", "solid", "all"),
+    "friction": ("", "yes"),
     "attraction": ("", "yes"),
     "bridge": ("", "law"),
-    "strings": ("", "exact", "small-angle"),
+    "strings": ("", "yes"),
     "head-on": ("", "yes"),
 }
 _LAWS: dict[str, tuple[str, ...]] = {
@@ -23,6 +23,8 @@ _LAWS: dict[str, tuple[str, ...]] = {
     "tangential": ("immersed", "film"),
     "glass": ("literal", "film-corrected"),
     "rupture": ("common", "own"),
+    "friction": ("solid", "all"),
+    "strings": ("exact", "small-angle"),
 }
 
 
@@ -72,6 +74,8 @@ def with_laws(structures: Sequence[Structure]) -> list[Structure]:
                 "tangential": next(turns["tangential"]) if rim else "immersed",
                 "glass": next(turns["glass"]) if rim else "literal",
                 "rupture": next(turns["rupture"]) if bridge in OWN_RUPTURE else "common",
+                "friction": next(turns["friction"]) if structure["friction"] else "",
+                "strings": next(turns["strings"]) if structure["strings"] else "",
             }
         )
     return found

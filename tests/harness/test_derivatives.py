@@ -18,7 +18,7 @@ RESULTS = ("restitution", "contact_time")
 pytestmark = pytest.mark.filterwarnings("ignore::wetdoublet.solvers.ModelWarning")
 
 
-@examples(18)
+@examples(12)
 @given(scenes(STRUCTURES[::2]), st.integers(0, 2**32 - 1), st.sampled_from(["forward", "adjoint"]))
 def test_a_derivative_is_the_extrapolated_difference(scene: Scene, seed: int, method: str) -> None:
     """Of restitution and contact time by three entries at random, the impact's among them."""
@@ -30,7 +30,7 @@ def test_a_derivative_is_the_extrapolated_difference(scene: Scene, seed: int, me
     try:
         found = sensitivities(scene, of=list(RESULTS), wrt=names, method=method, rtol=1e-11)
     except ComputationError as error:
-        assert "derivative" in str(error) or "decided" in str(error)
+        assert any(word in str(error) for word in ("derivative", "differentiate", "decided")), error
         assume(False)
     assume(found.value["restitution"] != 0.0)
     for name in names:

@@ -25,7 +25,7 @@ def around(scene: Scene, count: int, seed: int) -> tuple[np.ndarray, np.ndarray]
     return stokes, np.radians(draw.uniform(0, 85, count)) * (angle > 0)
 
 
-@examples(12)
+@examples(6)
 @given(scenes(FEW), st.integers(0, 2**32 - 1))
 def test_neighbours_and_order_change_no_bit(scene: Scene, seed: int) -> None:
     """A collision alone, in a lane among others, and in any order has the same bits."""
@@ -39,7 +39,7 @@ def test_neighbours_and_order_change_no_bit(scene: Scene, seed: int) -> None:
         assert np.array_equal(mixed[name].values[:1], alone[name].values, equal_nan=whole[name].dtype.kind == "f")
 
 
-@examples(12)
+@examples(6)
 @given(scenes(FEW), st.integers(0, 2**32 - 1))
 def test_rtol_is_the_error(scene: Scene, seed: int) -> None:
     """The error in e_n is of the order of the tolerance times the conditioning; no outcome depends on it."""
@@ -59,7 +59,7 @@ def test_rtol_is_the_error(scene: Scene, seed: int) -> None:
             assert np.array_equal(loose["outcome"].values[sound], exact["outcome"].values[sound])
 
 
-@examples(9)
+@examples(6)
 @given(scenes(FEW), st.sampled_from(["cvodes", "rosenbrock"]))
 def test_a_replay_is_the_kernel(scene: Scene, engine: str) -> None:
     """CasADi's integrators go through the same events to the same results and the same ledger."""
@@ -76,7 +76,7 @@ def test_a_replay_is_the_kernel(scene: Scene, engine: str) -> None:
     assert all(abs(first[name] - second[name]) <= 1e-6 * scale * size for name in first)
 
 
-@examples(18)
+@examples(8)
 @given(scenes(FEW))
 def test_a_batch_is_its_collisions(scene: Scene) -> None:
     """`collide_many` of one impact has the outcome and the restitution of `collide`."""

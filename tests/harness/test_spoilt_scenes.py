@@ -32,7 +32,7 @@ def spoil(name: str, kind: str) -> object:
     return SPOILT[kind]
 
 
-@examples(150)
+@examples(100)
 @given(scenes(moderate=False), st.sampled_from(sorted(SPOILT)), st.integers(0, 2**32 - 1))
 def test_a_spoilt_entry_is_named(scene: Scene, kind: str, number: int) -> None:
     """By its dotted name, in one line that says what is accepted."""

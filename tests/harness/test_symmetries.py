@@ -27,7 +27,7 @@ def powers(entry: str) -> dict[str, float]:
     return {name: float(found.get(f"[{name}]", 0)) for name in ("length", "mass", "time")}
 
 
-@examples(36)
+@examples(20)
 @given(scenes(), factors, factors, factors)
 def test_similarity(scene: Scene, length: float, mass: float, time: float) -> None:
     """A scene measured in other units of length, mass and time collides alike."""
@@ -45,7 +45,7 @@ def test_similarity(scene: Scene, length: float, mass: float, time: float) -> No
         assert other.contact_time == pytest.approx(computed.collision.contact_time * time, rel=1e-6)
 
 
-@examples(24)
+@examples(12)
 @given(scenes([each for each in STRUCTURES if not (each["partner"] or each["strings"])]))
 def test_a_partner_equal_to_the_sphere_is_the_sphere(scene: Scene) -> None:
     """The equations of unequal spheres give at ratio 1 what those of equal ones give."""
@@ -56,7 +56,7 @@ def test_a_partner_equal_to_the_sphere_is_the_sphere(scene: Scene) -> None:
     computed.agree(other, 1e-8)
 
 
-@examples(18)
+@examples(12)
 @given(scenes([each for each in STRUCTURES if each["partner"] == "sphere" and not each["friction"]]))
 def test_which_sphere_is_named_first_does_not_matter(scene: Scene) -> None:
     """Outcome and restitution are those of the exchanged pair."""
@@ -79,7 +79,7 @@ def test_which_sphere_is_named_first_does_not_matter(scene: Scene) -> None:
     computed.agree(other, 1e-8, ("restitution", "tangential_restitution", "rotation", "contact_time"))
 
 
-@examples(18)
+@examples(12)
 @given(scenes([each for each in STRUCTURES if each["partner"] == "wall" and not each["friction"]]))
 def test_a_wall_is_a_huge_partner(scene: Scene) -> None:
     """Restitution tends to that beside a wall as 1/ratio: ratios of 4,000 and 8,000, extrapolated, give it."""
@@ -101,7 +101,7 @@ def test_a_wall_is_a_huge_partner(scene: Scene) -> None:
     assert limit == pytest.approx(computed.collision.restitution, abs=1e-5 * scale)
 
 
-@examples(18)
+@examples(12)
 @given(scenes([each for each in STRUCTURES if each["head-on"]]))
 def test_a_reflection_changes_nothing(scene: Scene) -> None:
     """Along the line of centres the sense of the spins is arbitrary."""

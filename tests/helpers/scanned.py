@@ -15,7 +15,7 @@ from scipy.integrate import LSODA
 from scipy.optimize import brentq, minimize_scalar
 from wetdoublet.solvers import Scene
 
-from .random_spinning import impact_of
+from .spinning import impact_of
 from .two_bodies import bodies_of
 
 X, NX, NY, WX, WY, SPIN, PARTNER = range(7)

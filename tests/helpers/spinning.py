@@ -8,6 +8,8 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from wetdoublet.solvers import Scene
+
 from .flow import Rates, State
 from .phases import Course, End
 from .two_bodies import Bodies
@@ -23,6 +25,13 @@ class Impact:
     angle: float
     spin: float = 0.0
     partner_spin: float = 0.0
+
+
+def impact_of(scene: Scene) -> Impact:
+    """Speed, angle and spins of a scene; a partner's spin that is left out equals the first's."""
+    speed, angle = scene.need_impact()
+    spin = float(scene.entries.get("impact.spin", 0.0))
+    return Impact(speed, angle, spin, float(scene.entries.get("impact.partner_spin", spin)))
 
 
 class Planar(Course):

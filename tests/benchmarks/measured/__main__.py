@@ -3,8 +3,8 @@
     python -m tests.benchmarks.measured [FOLDER] [SCENES]
 
 FOLDER is docs/engineering/performance; SCENES (500) is what the stress test takes. Some ten minutes on two cores. With
-the usual folder the figures of README.md and docs/engineering/kernel.md are written as well. What fails is
-named at the end, and the rest is measured all the same; the page is then made from the older record of that part.
+the usual folder the figures of README.md are written as well. What fails is named at the end, and the rest is measured
+all the same; the page is then made from the older record of that part.
 """
 
 import argparse
@@ -53,13 +53,9 @@ def main() -> None:
     folder.mkdir(parents=True, exist_ok=True)
     parts = {
         "bench": lambda: script("measured.page.record", str(folder)),
-        "compile_flags": lambda: script("compile_flags", str(folder)),
-        "cvodes_share": lambda: script("cvodes_share", str(folder)),
         "stress": lambda: stress(folder, scenes),
         "law_in_c": lambda: script("law_in_c", str(folder)),
     }
-    if folder == USUAL:
-        parts["orders"] = lambda: script("orders")
     parts["page"] = lambda: script("measured.page.document", str(folder))
     failed = []
     for name, measure in parts.items():

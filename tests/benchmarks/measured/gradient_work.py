@@ -19,9 +19,6 @@ from wetdoublet.solvers.sensitivity.gradients_many import gradients_many
 from .digits import us
 from .gradient_task import COUNT, Gradients
 from .peers.bulk import Partly, left_out
-from .peers.diffrax_gradient import MISSING as NO_DIFFRAX
-from .peers.diffrax_gradient import TOLERANCES as DIFFRAX
-from .peers.diffrax_gradient import of_task as diffrax_forward
 from .tasks import TASKS, Task
 from .work import OFTEN, REPEATS, Tell
 
@@ -67,7 +64,6 @@ def methods() -> tuple[Method, ...]:
         Method("rosenbrock, adjoint", partial(_casadi, "adjoint")),
         Method(HEYOKA, partial(variational_heyoka, alone=False), COPIES, FINE, heyoka),
         Method(HEYOKA_ALONE, partial(variational_heyoka, alone=True), COPIES, FINE, heyoka),
-        Method("diffrax, forward derivatives", diffrax_forward, 1, DIFFRAX, NO_DIFFRAX),
         Method("central differences of taylor", _differences, COPIES, STEPS, no_compiler),
     )
 
@@ -215,8 +211,7 @@ sequence until there are so many; the set is repeated 40 times in one call. `gra
 beside the kernel (checks, boundaries too near, the labelled Dataset), so smaller calls cost more. The error of a
 collision is its largest, over its largest derivative, against forward derivatives of Rosenbrock at 1e-12. heyoka's
 are its variational equations in batches of 8 with a queue; the saltation at each event is a compiled function of our
-own; it need prove no stick, and is given the derivatives of the groups in the parameters. So is diffrax, whose
-derivatives are forward mode through its own events, the set once in a call (twenty times in one: half the price).
+own; it need prove no stick, and is given the derivatives of the groups in the parameters.
 Differences are of collisions at rtol 1e-13; what is listed as their tolerance is the relative step."""
 
 

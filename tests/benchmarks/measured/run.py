@@ -2,19 +2,15 @@
 
 import time
 from collections.abc import Callable, Sequence
-from dataclasses import asdict
 from importlib.util import find_spec
 from typing import Any
 
 from wetdoublet.solvers.host.environment import environment, one_core
 
 from .cold import cold_start, first_use
-from .features import ENGINES, Cost, costs
 from .gradient_work import gradient_work
 from .growth import growth
-from .lines import lines
 from .near import near
-from .needs import gradients, structures
 from .peers.engines import Engine, engines
 from .peers.heyoka_callbacks import around
 from .reference import Reference, references
@@ -23,7 +19,7 @@ from .tasks import SEED, TASKS, Task, place
 from .work import CALL, FINE, OFTEN, REPEATS, SETS, TOLERANCES, Point, Tell, work
 
 Record = dict[str, Any]
-MORE = ("structures", "gradients", "gradient_work", "sharp", "near", "lines", "growth", "first_use")
+MORE = ("gradient_work", "sharp", "near", "growth", "first_use")
 
 
 def bench(
@@ -36,7 +32,6 @@ def bench(
     tell: Tell = lambda _: None,
     fine: Sequence[float] = FINE,
     sets: int = SETS,
-    featured: Sequence[str] = ENGINES,
 ) -> Record:
     """Run the benchmark.
 
@@ -47,10 +42,9 @@ def bench(
         tell: is told what goes on.
         fine: tolerances of engines that are fast.
         sets: times the collisions are repeated within one call of an engine that takes many.
-        featured: engines of which ledger, trajectory and rotation are measured.
 
     Returns:
-        A record that JSON can hold: environment, settings, engines, tasks (references, points, costs), cold start.
+        A record that JSON can hold: environment, settings, engines, tasks (references, points), cold start.
     """
     start = time.perf_counter()
     where = environment()  # the load before we add to it
@@ -59,12 +53,9 @@ def bench(
     started = cold()
     others: dict[str, Any] = {name: [] for name in MORE}
     alone: dict[str, Callable[[], Any]] = {
-        "structures": structures,
-        "gradients": gradients,
         "gradient_work": lambda: gradient_work(tasks, repeats, tell),
         "sharp": lambda: sharp(tell),
         "near": lambda: near(tell),
-        "lines": lines,
     }
     with one_core():
         found = []
@@ -72,9 +63,7 @@ def bench(
             tell(f"{task.preset}: reference values")
             truths = references(task.scene, task.impacts())
             points = work(task, truths, all_engines, tolerances, repeats, tell, fine, sets)
-            tell(f"{task.preset}: ledger, trajectory, rotation")
-            spent = [_cost(each) for each in costs(task, truths, repeats, featured)]
-            found.append(task_record(task, truths, points) | {"costs": spent})
+            found.append(task_record(task, truths, points))
         for name, measure in alone.items():
             if name in more:
                 tell(name)
@@ -141,7 +130,3 @@ def _collisions(truths: Sequence[Reference]) -> Record:
         "own_error": max(closest, default=0.0),
         "left_out": [f"{place(each.impact)} is left out: {each.problem}." for each in truths if each.problem],
     }
-
-
-def _cost(cost: Cost) -> Record:
-    return {name: value for name, value in asdict(cost).items() if name != "task"} | {"on": list(cost.on)}

@@ -59,6 +59,7 @@ def test_one_speed_is_the_mean_over_a_fine_grid_of_angles() -> None:
     assert errors(found)[:5].max() < 1e-6
 
 
+@pytest.mark.slow
 def test_a_gas_of_unequal_spheres_is_what_random_collisions_show() -> None:
     """Speeds drawn from the Maxwellian of collisions, directions isotropic: within four standard errors."""
     count, rng = 40_000, np.random.default_rng(5)
@@ -72,6 +73,7 @@ def test_a_gas_of_unequal_spheres_is_what_random_collisions_show() -> None:
     assert averages(found)[:3].sum() == pytest.approx(1, abs=1e-8)
 
 
+@pytest.mark.slow
 def test_errors_are_not_larger_than_estimated() -> None:
     """A coarse quadrature differs from a finer one by less than it says, and by less than its tolerance."""
     table = ([1.0, 2.0], [1.0, 3.0])
@@ -81,6 +83,7 @@ def test_errors_are_not_larger_than_estimated() -> None:
     assert errors(fine)[:5].max() <= 1.5e-6
 
 
+@pytest.mark.slow
 def test_a_table_is_a_density_that_is_linear_between_its_speeds(tmp_path: Path) -> None:
     """A file, the same arrays, and random speeds of that density agree."""
     speed, density = [0.5, 1.5, 3.0], [0.0, 2.0, 1.0]
@@ -220,6 +223,7 @@ def test_pairs_between_others_have_the_averages_of_their_own_collisions(toleranc
     assert some.collision_rate.values == pytest.approx(one_by_one.collision_rate.values, rel=1e-14)
 
 
+@pytest.mark.slow
 def test_an_interrupted_matrix_goes_on(tmp_path: Path) -> None:
     """Finished pairs are kept and not computed again; the result is that of workers on all cores."""
     radii = np.geomspace(60e-6, 120e-6, 11)
@@ -262,6 +266,7 @@ def test_the_command_writes_both_formats(tmp_path: Path) -> None:
     assert "--speeds" in done.output
 
 
+@pytest.mark.slow
 def test_a_table_for_a_person_has_units_and_the_numbers() -> None:
     """Each column has a name and a unit; what is not defined is a dash; a line for each pair."""
     radii = ["50 um", "200 um"]
@@ -299,6 +304,7 @@ def test_speeds_have_densities_of_integral_one() -> None:
         assert np.trapezoid(speeds.density(at), at) == pytest.approx(1, abs=1e-9)
 
 
+@pytest.mark.slow
 def test_energies_and_rates_are_those_of_random_pairs_of_a_gas() -> None:
     """Spheres with Maxwellian velocities and spins, met by flux, by `collide_pair`: within four standard errors.
 

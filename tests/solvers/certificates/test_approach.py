@@ -5,18 +5,12 @@ import math
 import numpy as np
 import pytest
 from wetdoublet.solvers import Scene, collide_many
-from wetdoublet.solvers.certificates import NoCertificate, proof_for
 from wetdoublet.solvers.certificates.approach import Approach
-from wetdoublet.solvers.engines.settings import Budget
-from wetdoublet.solvers.errors import ComputationError
 from wetdoublet.solvers.model.dimensionless import nondimensionalise
 from wetdoublet.solvers.model.model import Model, load, select_model
-from wetdoublet.solvers.model.phases import Phase
-from wetdoublet.solvers.verify.audit import WithoutCertificate
 
 pytestmark = pytest.mark.slow
 
-_START = Phase(film=1, shear=1, motion=-1)
 _LAWS = {
     "bridge": ("mikami", "willett-simple", "lambert", "soulie", "constant"),
     "film": ("finite", "infinite", "cavitating"),
@@ -63,36 +57,6 @@ def _drawn(rng: np.random.Generator, strings: bool) -> tuple[Scene, float, float
     if not strings and rng.integers(2):
         tables["partner"] = {"radius": between(0.3, 3) * 2 * a, "mass": between(0.3, 3) * 2 * mass}
     return Scene.from_dict(tables), stokes, math.radians(rng.uniform(0.5, 88))
-
-
-@pytest.mark.parametrize("strings", [False, True], ids=["attractions", "strings"])
-def test_nothing_decided_at_initial_contact_escapes(strings: bool) -> None:
-    """Doublets proved to stick at initial contact, followed without a proof: none separates.
-
-    Those that the energy alone proves there are left out: with attractions, theirs is below the barrier from the start.
-    """
-    rng = np.random.default_rng(5)
-    decided = escaped = 0
-    while decided < 12:
-        scene, stokes, angle = _drawn(rng, strings)
-        n = nondimensionalise(scene, scene.speed_of(stokes), angle)
-        model = load(select_model(scene, oblique=True))
-        p = model.group_values(n.groups)
-        start = np.append(model.start(p), [0.0] * len(model.works))
-        proof = proof_for(model, p, 1e-9)
-        level = None if strings else proof.level(start, _START)
-        below = level is not None and sum(model.values(model.escape, model.start(p), p).values()) < level
-        if below or not proof.decided(start, _START):
-            continue
-        decided += 1
-        free = WithoutCertificate(model, n.groups, 1e-8, budget=Budget(3_000))
-        free.proof = NoCertificate()
-        try:
-            free.on(1e4)
-        except ComputationError:
-            continue  # it creeps on, unseparated
-        escaped += free.path.separated
-    assert escaped == 0
 
 
 @pytest.mark.parametrize("scene", ["granulation", "pendulum"])

@@ -1,77 +1,15 @@
 """The proof that attraction alone holds a doublet: what it proves never separates, and what it must not prove."""
 
-import contextlib
 import math
 
-import numpy as np
 import pytest
-from wetdoublet.solvers import ComputationError, Scene
-from wetdoublet.solvers.certificates import NoCertificate
-from wetdoublet.solvers.certificates.attraction import AttractionCertificate
-from wetdoublet.solvers.engines.settings import Budget
+from wetdoublet.solvers import Scene
 from wetdoublet.solvers.model.dimensionless import nondimensionalise
 from wetdoublet.solvers.model.model import load, select_model
-from wetdoublet.solvers.verify.audit import WithoutCertificate
 
 from ...helpers.reference import collide
 
 pytestmark = pytest.mark.slow
-
-_FALLING_BRIDGES = ("mikami", "willett-simple", "lambert", "soulie", "constant")
-
-
-def _random_held(rng: np.random.Generator) -> tuple[Scene, float, float]:
-    """A scene with a bridge, half of them on strings, its Stokes number and angle."""
-
-    def log_uniform(low: float, high: float) -> float:
-        return float(np.exp(rng.uniform(math.log(low), math.log(high))))
-
-    a = log_uniform(1e-5, 3e-3)
-    film = log_uniform(1e-3, 0.3) * a
-    entries = {
-        "particles.reduced_radius": a,
-        "particles.reduced_mass": log_uniform(0.3, 3) * 2500 * 4 * math.pi / 3 * (2 * a) ** 3 / 2,
-        "particles.roughness": log_uniform(1e-3, 0.9) * film,
-        "particles.dry_restitution": (1.0, rng.uniform(0, 1))[rng.integers(2)],
-        "liquid.viscosity": log_uniform(1e-3, 10),
-        "liquid.film_thickness": film,
-        "liquid.glass_transition_pressure": log_uniform(1e3, 1e8),
-        "bridge.surface_tension": log_uniform(1e-3, 1),
-        "bridge.volume": max(log_uniform(1e-2, 1), (0.6 * film / a) ** 3),
-        "bridge.law": _FALLING_BRIDGES[rng.integers(len(_FALLING_BRIDGES))],
-    }
-    scene = Scene.load("granulation").with_entries(entries)
-    if rng.integers(2):
-        tables = scene.to_dict() | {"pendulum": {"length": log_uniform(20, 1e4) * a}}
-        scene = Scene.from_dict(tables)
-    return scene, log_uniform(1e-3, 10), math.radians(rng.uniform(0.1, 85))
-
-
-def _held_sticks(count: int, seed: int) -> tuple[int, int]:
-    """How many of the sticks that attraction alone proves there are in a sample, and how many of them escape."""
-    rng = np.random.default_rng(seed)
-    held = escaped = 0
-    for _ in range(count):
-        scene, stokes, angle = _random_held(rng)
-        n = nondimensionalise(scene, scene.speed_of(stokes), angle)
-        model = load(select_model(scene, oblique=True))
-        start = model.start(model.group_values(n.groups))
-        if not AttractionCertificate(model, model.group_values(n.groups), 1e-9).decided(start, None):  # type: ignore[arg-type]  # no phase
-            continue
-        held += 1
-        trajectory = WithoutCertificate(model, n.groups, 1e-9, budget=Budget(5_000))
-        trajectory.proof = NoCertificate()
-        with contextlib.suppress(ComputationError):  # it creeps without end
-            trajectory.on(6e5)
-        escaped += trajectory.path.separated
-    return held, escaped
-
-
-def test_nothing_that_is_held_escapes() -> None:
-    """Doublets that attraction alone is proved to hold at initial contact, followed without a proof: none separates."""
-    held, escaped = _held_sticks(60, 3)
-    assert held > 10
-    assert escaped == 0
 
 
 @pytest.mark.parametrize(

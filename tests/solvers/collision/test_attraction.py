@@ -4,12 +4,10 @@ import json
 import math
 
 import pytest
-from wetdoublet.solvers import Scene, boundary
+from wetdoublet.solvers import Scene
 from wetdoublet.solvers.commands.cli import main
 
 from ...helpers.reference import collide
-from ...helpers.spinning import Impact, U, collided
-from ...helpers.two_bodies import bodies_of
 
 A_H = 2e-12  # J, far above any real one, so that it shows in granulation
 X0 = 8e-6
@@ -44,18 +42,6 @@ def test_the_work_is_the_potentials(bridge, stokes, angle):
     assert abs(one.energy.residual) < 1e-8 * one.energy.initial
 
 
-@pytest.mark.parametrize("bridge", [True, False])
-def test_oblique_is_newtons(bridge):
-    """The doublet moves as two bodies do by Newton's law that attract each other with A a/(6 x^2)."""
-    scene = scene_of(bridge)
-    one = collide(scene, stokes=0.12, angle="75 deg", rtol=1e-11)
-    end = collided(bodies_of(scene), Impact(one.speed, one.angle))
-    assert end.outcome == one.outcome == "stick-rotate-separate"
-    assert one.restitution == pytest.approx(end.state[U] / one.speed, rel=1e-6)
-    without = collide(scene.with_entries({"attraction.hamaker": 0.0}), stokes=0.12, angle="75 deg", rtol=1e-11)
-    assert abs(without.restitution / one.restitution - 1) > 1e-5  # it does act
-
-
 def test_nothing_changes_without_it():
     """A Hamaker constant of zero is no attraction; and without the table no key of a result speaks of it."""
     scene = Scene.load("granulation")
@@ -77,21 +63,6 @@ def test_the_generalised_number():
     assert one.generalised_centrifugal == pytest.approx(expected, rel=1e-12)
     assert collide("pendulum", ledger=False).generalised_centrifugal is None
     assert collide("granulation", angle=0.0, ledger=False).generalised_centrifugal == 0.0
-
-
-@pytest.mark.slow
-def test_van_der_waals_alone_can_hold():
-    """With a film and van der Waals only, an oblique doublet sticks or escapes, on either side of a traced boundary."""
-    scene = scene_of(False, **{"attraction.hamaker": 2e-10, "particles.roughness": "0.5 um"})
-    angle = math.radians(60)
-    first = boundary(scene, angle=angle, stokes=(0.01, 1.0), rtol=1e-9).changes[0][0]
-    assert first.before == "stick"
-    below, above = (collide(scene, stokes=first.stokes * f, angle=angle) for f in (1 - 1e-5, 1 + 1e-5))
-    assert (below.outcome, above.outcome) == (first.before, first.after)
-    assert below.certified
-    end = collided(bodies_of(scene), Impact(above.speed, angle))
-    assert first.after == end.outcome == "stick-rotate-separate"
-    assert end.time == pytest.approx(above.contact_time, rel=1e-2)  # so near the boundary
 
 
 def test_json_has_its_keys(capsys):

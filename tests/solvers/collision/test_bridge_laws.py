@@ -6,7 +6,7 @@ import subprocess
 import sys
 
 import pytest
-from wetdoublet.solvers import InputError, ModelWarning, Scene, boundary, collide_many
+from wetdoublet.solvers import InputError, ModelWarning, Scene, collide_many
 from wetdoublet.solvers.scene.schema import BRIDGE_LAWS
 
 from ...helpers.own_arm import surface
@@ -35,13 +35,6 @@ def test_critical_centrifugal_number(law, critical):
         assert one.centrifugal == pytest.approx(part * critical, rel=1e-9)
         outcomes.append(one.outcome)
     assert outcomes == ["stick", "stick-rotate-separate"]
-
-
-@pytest.mark.slow
-def test_traced_critical_number():
-    """The traced boundary of the paper's law is there as well, to the digits that are listed."""
-    first = boundary(surface("granulation"), angle=math.radians(45), stokes=(0.03, 0.08)).changes[0][0]
-    assert first.centrifugal == pytest.approx(4.205, abs=5e-4)
 
 
 OWN = {

@@ -27,6 +27,8 @@ from wetdoublet.solvers.model.dimensionless import nondimensionalise
 from wetdoublet.solvers.space.beside_wall import beside_wall, planar_by_casadi
 from wetdoublet.solvers.space.pairs import checked
 
+pytestmark = pytest.mark.slow
+
 # strings pull it back again and again; sliding friction takes its spin
 CHATTERS = {
     "particles": {

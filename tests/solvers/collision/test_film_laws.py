@@ -10,8 +10,6 @@ from wetdoublet.solvers.model.model import load, select_model
 from wetdoublet.solvers.model.phases import Region
 
 from ...helpers.reference import collide
-from ...helpers.spinning import SPIN, Impact, U, collided
-from ...helpers.two_bodies import bodies_of
 
 X0, X_B, E_DRY = 8e-6, 2e-7, 0.9
 
@@ -73,18 +71,6 @@ def bridged(film, **changes):
     return alone(film, **{**bridge, "particles.roughness": 0.0, **changes})
 
 
-@pytest.mark.parametrize("film", ["finite", "infinite", "cavitating", "constant-volume"])
-def test_oblique_is_newtons(film):
-    """With each film an oblique doublet moves as its two bodies do by Newton's law (1e-6: see test_partners)."""
-    scene = bridged(film)
-    one = collide(scene, stokes=0.12, angle="75 deg", rtol=1e-11)
-    end = collided(bodies_of(scene), Impact(one.speed, one.angle))
-    assert one.outcome == end.outcome == "stick-rotate-separate"
-    assert one.restitution == pytest.approx(end.state[U] / one.speed, rel=1e-6)
-    assert one.final_spin == pytest.approx(end.state[SPIN], rel=1e-6)
-    assert abs(one.energy.residual) < 1e-8 * one.energy.initial
-
-
 def test_no_film_edge_where_the_film_has_none():
     """A film of constant volume reaches up to rupture: x = x0 is no event; with the others it is."""
     for film in ("infinite", "constant-volume"):
@@ -116,15 +102,6 @@ def test_a_cavitated_film_does_not_act():
     assert Region(1, 1, False, True).flags == {"film": 0, "shear": 1}
     assert Region(1, 1, False).flags == {"film": 1, "shear": 1}
     assert [load(select_model(alone(film), False)).cavitates for film in ("finite", "cavitating")] == [False, True]
-
-
-@pytest.mark.parametrize("film", ["infinite", "cavitating", "constant-volume"])
-def test_sticks_are_sticks(film):
-    """A stick proved with another film never comes apart when it is continued without its proof."""
-    scene = bridged(film)
-    one = collide(scene, stokes=0.02, angle="60 deg")
-    assert one.outcome == "stick" and one.certified
-    assert collided(bodies_of(scene), Impact(one.speed, one.angle)).outcome == "stick"
 
 
 def test_a_pendulum_whose_film_cavitates_has_a_kernel():

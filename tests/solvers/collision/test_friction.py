@@ -3,18 +3,8 @@
 import math
 from typing import Any
 
-import numpy as np
 import pytest
-from wetdoublet.solvers import (
-    Collision,
-    ComputationError,
-    InputError,
-    Scene,
-    collide_many,
-    gradients_many,
-    sensitivities,
-)
-from wetdoublet.solvers.engines.taylor.build import kernel_supports
+from wetdoublet.solvers import Collision, ComputationError, InputError, Scene, sensitivities
 from wetdoublet.solvers.model.model import select_model
 
 from ...helpers.reference import collide
@@ -22,7 +12,6 @@ from ...helpers.reference import collide
 # Hardly any film, and no bridge: what is left is the impact of dry spheres.
 DRY = {"liquid.viscosity": "1e-9 Pa s", "particles.roughness": "0.5 um", "particles.dry_restitution": 0.8}
 WET = {"liquid.glass_transition_pressure": "1e12 Pa", "liquid.viscosity": "0.01 Pa s", "particles.roughness": "1 um"}
-KINDS = {"equal": {}, "pair": {"partner.radius": "200 um", "partner.mass": "8e-5 g"}, "wall": {"partner.wall": "true"}}
 ANGLE = math.radians(30)
 
 
@@ -59,20 +48,6 @@ def test_a_sphere_that_slides_takes_coulombs_impulse() -> None:
     lost = 0.05 * 1.8 / math.tan(ANGLE)
     assert sliding == pytest.approx(1 - lost, rel=1e-6)
     assert rolling == pytest.approx(2.5 * lost, rel=1e-6)
-
-
-@pytest.mark.parametrize("kind", KINDS)
-@pytest.mark.parametrize("friction", [0.01, 0.3])
-def test_the_ledger_closes_with_a_loss_by_friction(kind: str, friction: float) -> None:
-    """Its own term, positive; angular momentum is kept."""
-    found = collide(rough(KINDS[kind], friction, 0.5), stokes=8.0, angle=ANGLE, engine="rosenbrock")
-    energy = found.energy
-    assert energy is not None and energy.dry_friction is not None
-    assert 0 < energy.dry_friction < energy.initial
-    assert abs(energy.residual) < 1e-10 * energy.initial
-    if kind != "wall":
-        assert found.angular_momentum_drift is not None
-        assert found.angular_momentum_drift < 1e-5
 
 
 def test_without_friction_there_is_no_such_term() -> None:
@@ -190,6 +165,7 @@ def test_a_doublet_that_rolls_at_rest_while_its_spins_equalise_sticks() -> None:
     assert found.energy is not None and abs(found.energy.residual) < 1e-8 * found.energy.initial
 
 
+@pytest.mark.slow
 def test_chatter_with_friction_on_strings_is_a_stick_as_without() -> None:
     """Rebounds without end on glassy liquid, each lower than the last: friction of solids has no part in them."""
     entries = {
@@ -208,6 +184,7 @@ def test_chatter_with_friction_on_strings_is_a_stick_as_without() -> None:
     assert found.energy is not None and found.energy.dry_friction == 0.0
 
 
+@pytest.mark.slow
 def test_slip_that_friction_reverses_wholly_may_be_zero() -> None:
     """With opposite spins of equal spheres nothing turns, and the engines agree."""
     entries = {"impact.spin": 1e3, "impact.partner_spin": -1e3}
@@ -217,29 +194,6 @@ def test_slip_that_friction_reverses_wholly_may_be_zero() -> None:
 
 
 WRT = ("particles.friction", "particles.contact_tangential_restitution", "liquid.viscosity")
-OF = ("restitution", "tangential_restitution", "final_spin", "energy.dry_friction")
-
-
-@pytest.mark.parametrize("friction", [0.01, 0.3])
-def test_derivatives_are_those_of_differences(friction: float) -> None:
-    """By the coefficient and the tangential restitution too, for a contact that slides and one that sticks."""
-    scene, step = rough({}, friction, 0.4), 1e-5
-    speed = scene.speed_of(8.0)
-    exact = sensitivities(scene, OF, WRT, speed=speed, angle=ANGLE, engine="rosenbrock").gradient
-    for name in WRT:
-        value = float(scene.entries[name])
-        ends = [
-            collide(scene.with_si({name: value * (1 + sign * step)}), speed=speed, angle=ANGLE, rtol=1e-12,
-                    engine="rosenbrock")
-            for sign in (1, -1)
-        ]  # fmt: skip
-        for result in OF:
-            high, low = (
-                getattr(end.energy if result.startswith("energy.") else end, result.removeprefix("energy."))
-                for end in ends
-            )
-            slope = (high - low) / (2 * step * value)
-            assert exact[result][name] == pytest.approx(slope, rel=2e-5, abs=1e-6 * abs(high / value))
 
 
 def test_no_derivative_at_the_switch_between_sliding_and_sticking() -> None:
@@ -258,41 +212,6 @@ def test_no_derivative_at_the_switch_between_sliding_and_sticking() -> None:
     assert refused == 1
 
 
-@pytest.mark.skipif(not kernel_supports(Scene.load("granulation")), reason="no C compiler")
-@pytest.mark.parametrize("kind", ["wall", pytest.param("pair", marks=pytest.mark.slow)])
-def test_the_kernel_has_the_same_friction(kind: str) -> None:
-    """Outcomes, restitution and spins of random collisions, sliding and sticking, chattering and resting among them."""
-    chance = np.random.default_rng(16)
-    stokes, angle = 10 ** chance.uniform(0, 1.5, 24), chance.uniform(0.05, 1.4, 24)
-    scene = rough({**KINDS[kind], "particles.dry_restitution": 0.4, "impact.spin": -2000.0}, 0.1, 0.7)
-    of = ("restitution", "tangential_restitution", "final_spin")
-    ours, other = (
-        collide_many(scene, stokes=stokes, angle=angle, engine=engine, rtol=1e-10, of=of)
-        for engine in ("taylor", "rosenbrock")
-    )
-    assert ours.outcome.values.tolist() == other.outcome.values.tolist()
-    for name in of:
-        scale = np.nanmax(np.abs(other[name].values))
-        np.testing.assert_allclose(ours[name].values, other[name].values, rtol=0, atol=1e-8 * scale)
-
-
-@pytest.mark.slow
-@pytest.mark.skipif(not kernel_supports(Scene.load("granulation")), reason="no C compiler")
-@pytest.mark.parametrize("kind", ["equal", "wall"])
-def test_the_kernel_differentiates_through_friction(kind: str) -> None:
-    """Forward for few parameters, backward for all of them, as CasADi does for the first few collisions."""
-    chance = np.random.default_rng(17)
-    stokes, angle = chance.uniform(4, 20, 150), chance.uniform(0.05, 1.4, 150)
-    scene = rough(KINDS[kind], 0.05, 0.4)
-    back = gradients_many(scene, stokes=stokes, angle=angle)
-    forward = gradients_many(scene, stokes=stokes, angle=angle, of=("restitution", "final_spin"))
-    scale = np.nanmax(np.abs(back.gradient.values[0]), axis=0) + 1e-300
-    np.testing.assert_allclose(back.gradient.values[0] / scale, forward.gradient.values[0] / scale, atol=1e-5)
-    alone = gradients_many(scene, stokes=stokes[:4], angle=angle[:4], engine="rosenbrock", wrt=WRT, of=("final_spin",))
-    own = forward.gradient.sel(quantity="final_spin", parameter=list(WRT)).values[:4]
-    np.testing.assert_allclose(own, alone.gradient.values[0], rtol=1e-5, atol=1e-6 * np.nanmax(np.abs(own)))
-
-
 @pytest.mark.parametrize(
     ("entries", "said"),
     [
@@ -308,6 +227,7 @@ def test_entries_that_make_no_sense_are_refused(entries: dict[str, object], said
         Scene.load("granulation").with_entries(entries)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("engine", ["rosenbrock", "taylor"])
 def test_a_doublet_at_rest_that_only_friction_turns_sticks_at_once(engine: str) -> None:
     """Glass at the edge of the film, where tangential lubrication is zero: friction falls with the normal force."""

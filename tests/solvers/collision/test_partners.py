@@ -8,13 +8,8 @@ import pytest
 from scipy.integrate import trapezoid
 from wetdoublet.solvers import InputError, Scene, boundary, collide_many
 from wetdoublet.solvers.commands.cli import main
-from wetdoublet.solvers.engines.casadi.locate import locate
-from wetdoublet.solvers.model.dimensionless import nondimensionalise
-from wetdoublet.solvers.model.model import load, select_model
 
 from ...helpers.reference import collide
-from ...helpers.spinning import PARTNER, SPIN, TURNING, WORK, Impact, U, collided
-from ...helpers.two_bodies import bodies_of
 
 pytestmark = pytest.mark.slow
 
@@ -28,99 +23,6 @@ def scene_of(changes):
         name: value for name, value in Scene.load("granulation").given if "young" not in name and "poiss" not in name
     }
     return Scene("", tuple({**given, **BRIDGE, **NO_CRITERIA, **changes}.items()))
-
-
-@pytest.mark.parametrize(
-    ("radius", "mass", "angle", "stokes", "more"),
-    [
-        ("300 um", "2e-4 g", 75, 0.08, {}),
-        ("40 um", "1e-6 g", 70, 0.3, {}),
-        ("150 um", "1e-5 g", 65, 0.1, {"model.film": "constant-volume"}),
-        (
-            "150 um",
-            "3e-5 g",
-            75,
-            0.06,
-            {"model.film": "cavitating", "attraction.hamaker": "1e-12 J", "particles.roughness": "1 nm"},
-        ),
-    ],
-)
-def test_a_pair_is_newtons(radius, mass, angle, stokes, more):
-    """Unequal spheres move by Newton's law under Jeffrey & Onishi's friction: e_n, omega, both spins.
-
-    1e-6: near the barrier errors grow by exp(lambda t).
-    """
-    scene = scene_of({"partner.radius": radius, "partner.mass": mass, **more})
-    one = collide(scene, stokes=stokes, angle=math.radians(angle), rtol=1e-11, engine="cvodes")
-    end = collided(bodies_of(scene), Impact(one.speed, one.angle))
-    assert one.outcome == end.outcome == "stick-rotate-separate"
-    assert one.restitution == pytest.approx(end.state[U] / one.speed, rel=1e-6)
-    assert one.contact_time == pytest.approx(end.time, rel=1e-6)
-    rates = one.final_rotation_rate, one.final_spin, one.final_spin_partner
-    assert rates == pytest.approx([end.state[k] for k in (TURNING, SPIN, PARTNER)], rel=1e-6)
-    works = one.energy.capillary + (one.energy.attraction or 0.0)
-    assert works == pytest.approx(end.state[WORK], rel=1e-6)
-    assert one.angular_momentum_drift < 1e-10
-    assert abs(one.energy.residual) < 1e-8 * one.energy.initial
-
-
-def test_ratio_one_is_the_equal_doublet():
-    """The general equations at ratio 1 give e_n of the equal ones to 1e-12, and equal spins.
-
-    At the tightest tolerance; both are located by the same rules, so what differs is the integration of other states.
-    """
-    equal = Scene.load("granulation")
-    pair = equal.with_entries({"partner.radius": "100 um", "partner.mass": "1.04e-5 g"})
-    for stokes, angle in ((0.03, 60), (0.02, 75), (0.3, 30)):
-        found = []
-        for scene in (equal, pair):
-            n = nondimensionalise(scene, scene.speed_of(stokes), math.radians(angle))
-            path = locate(load(select_model(scene, True, full=True)), n.groups, 1e-13)
-            found.append(path.model.values("outputs", path.y, path.p))
-        assert "pair" in select_model(pair, True).structure
-        assert found[1]["restitution"] == pytest.approx(found[0]["restitution"], rel=1e-12)
-        assert found[1]["final_spin_partner"] == pytest.approx(found[1]["final_spin"], rel=1e-13)
-        # and a partner that is the same is computed as the same
-        one, other = (collide(scene, stokes=stokes, angle=math.radians(angle)) for scene in (equal, pair))
-        assert other.restitution == one.restitution
-        assert other.final_spin_partner == one.final_spin
-
-
-def test_which_sphere_comes_first_does_not_matter():
-    """The spheres swapped give the same restitution and the spins swapped."""
-    first = scene_of({"partner.radius": "200 um", "partner.mass": "5e-5 g"})
-    second = scene_of(
-        {
-            "particles.reduced_radius": "100 um",
-            "particles.reduced_mass": "2.5e-5 g",
-            "partner.radius": "100 um",
-            "partner.mass": "1.04e-5 g",
-        }
-    )
-    one, other = (collide(scene, stokes=0.08, angle="75 deg", rtol=1e-11) for scene in (first, second))
-    assert one.outcome == "stick-rotate-separate"
-    assert other.restitution == pytest.approx(one.restitution, rel=1e-9)
-    assert (other.final_spin_partner, other.final_spin) == pytest.approx((one.final_spin, one.final_spin_partner))
-
-
-def test_a_wall_is_a_large_and_heavy_partner():
-    """Restitution, sliding and spin tend to the wall's as 1/ratio: ten times the ratio, a tenth of the difference."""
-    base = {"liquid.glass_transition_pressure": "20 MPa", "particles.roughness": "0.2 um"}
-    wall = collide(scene_of({**base, "partner.wall": True}), stokes=0.5, angle="40 deg", rtol=1e-11)
-    assert wall.outcome == "bounce" and wall.final_spin > 0
-    apart = []
-    for ratio in (100, 1000):
-        pair = scene_of({**base, "partner.radius": ratio * 1e-4, "partner.mass": ratio * 1.04e-8})
-        one = collide(pair, speed=wall.speed, angle="40 deg", rtol=1e-11)
-        apart.append(
-            [
-                one.restitution / wall.restitution - 1,
-                one.tangential_restitution / wall.tangential_restitution - 1,
-                one.final_spin / wall.final_spin - 1,
-            ]
-        )
-    assert np.abs(apart[1]).max() < 0.02
-    assert np.array(apart[0]) / np.array(apart[1]) == pytest.approx([10, 10, 10], rel=0.15)
 
 
 def test_beside_a_wall():

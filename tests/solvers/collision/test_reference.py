@@ -29,7 +29,7 @@ def _same(found: float | None, expected: float | None, tolerance: float, name: s
         assert found == pytest.approx(expected, rel=tolerance, abs=0.0 if expected else tolerance), name
 
 
-@pytest.mark.parametrize("engine", ["cvodes", "rosenbrock"])
+@pytest.mark.parametrize("engine", [pytest.param("cvodes", marks=pytest.mark.slow), "rosenbrock"])
 def test_reference_collisions(reference: dict[str, Any], engine: str) -> None:
     """Outcome, separation quantities, events, energies and conservation laws equal the reference's."""
     expected = reference["results"]
@@ -53,6 +53,7 @@ def test_reference_collisions(reference: dict[str, Any], engine: str) -> None:
         assert found["energy"][term] == pytest.approx(value, abs=TOLERANCE * initial), term
 
 
+@pytest.mark.slow
 def test_rtol_is_honoured(separated_reference: dict[str, Any]) -> None:
     """CVODES' error in e_n falls with the tolerance, and at 1e-12 is below 1e-9 times the conditioning."""
     expected, impact = separated_reference["results"], separated_reference["impact"]

@@ -26,15 +26,6 @@ def without_bridge(**tables: dict[str, str]) -> Scene:
     return Scene.from_dict({name: table for name, table in GRANULATION.to_dict().items() if name != "bridge"} | tables)
 
 
-SCENES = {  # scene, range of Stokes numbers
-    "granulation": (GRANULATION, 0.005, 2.0),
-    "film alone": (without_bridge(), 0.05, 3.0),
-    "solids": (GRANULATION.with_entries(SOLID), 0.05, 50.0),
-    "pendulum": (PENDULUM, 0.2, 5.0),
-    "infinite film": (GRANULATION.with_entries({"model.film": "infinite", "model.tangential": "film"}), 0.005, 2.0),
-}
-
-
 def by_kernel(scene: Scene, stokes: np.ndarray, angle: np.ndarray) -> Recorded:
     """Collisions with their events."""
     impacts = Impacts(scene, stokes / scene.stokes_per_speed, angle, {})
@@ -62,20 +53,6 @@ def test_the_reference_knows_every_action() -> None:
     assert all(isinstance(phase, Phase) for phase in known)
     with pytest.raises(CheckFailed, match="unknown action"):
         finder._done("explode", finder.phase, "")
-
-
-@pytest.mark.parametrize("name", SCENES)
-def test_both_engines_meet_the_same_events(name):
-    """Outcome and list of events of random impacts are equal, by the kernel and by Rosenbrock."""
-    scene, low, high = SCENES[name]
-    rng = np.random.default_rng(13)
-    stokes = np.exp(rng.uniform(np.log(low), np.log(high), 40))
-    angle = np.radians(rng.uniform(5, 85, stokes.size))
-    told, model = by_kernel(scene, stokes, angle), load(select_model(scene, True, fold=False))
-    for k in range(stokes.size):
-        n = nondimensionalise(scene, float(stokes[k] / scene.stokes_per_speed), float(angle[k]))
-        path = locate(model, n.groups, 1e-9)
-        assert (OUTCOMES[told.answers["outcome"][k]], events(told, k)) == (path.outcome, path.kinds), (k, stokes[k])
 
 
 @pytest.mark.parametrize("scene", [GRANULATION, PENDULUM], ids=["granulation", "pendulum"])

@@ -306,11 +306,3 @@ def _is_lost(scene: Scene, change: tuple[str, str]) -> bool:
     except Outside:
         return True
     return False
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize(("partner", "count"), [("", 200), ("pair", 60), ("wall", 200)])
-def test_two_hundred_flights(partner: str, count: int) -> None:
-    """The same of 200; of pairs fewer, against equations in which the partner's spin is a state."""
-    drawn = scenes(2, partner)
-    assert sum(followed(next(drawn))[0] for _ in range(count)) > 10 * count

@@ -44,6 +44,7 @@ def impacts(count: int, seed: int) -> list[tuple[float, float]]:
     return [(float(np.exp(random.uniform(-4, 1))), float(random.uniform(0.05, 1.4))) for _ in range(count)]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("ratio", [0.4, 2.5, None], ids=["smaller", "larger", "wall"])
 def test_a_partner_is_proved_as_computed(ratio: float | None) -> None:
     """Twelve random collisions with a smaller and a larger sphere, and with a wall; boxes of them, too."""
@@ -199,6 +200,7 @@ def test_the_volume_of_coatings_on_unequal_radii_is_no_box() -> None:
         prove(Scene.load("glass-beads-water").with_entries(partner), within={"particles.diameter": 1e-4})
 
 
+@pytest.mark.slow
 def test_the_radius_beside_a_wall_counts_twice() -> None:
     """The pair's reduced radius there is twice that of the entry."""
     wall = Scene.load("granulation").with_entries({"partner.wall": True}).with_impact(stokes=0.1, angle=0.3)

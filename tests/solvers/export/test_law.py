@@ -111,6 +111,7 @@ def test_spheres_that_spin_are_cpp_in_lanes(compiler: str, standard: str, granul
     subprocess.run([compiler, *flags.split()], cwd=granulation, check=True)
 
 
+@pytest.mark.slow
 def test_needs_no_x86_and_names_its_own_macro(granulation: Path):
     """No header of x86 is included, its instructions are asked for, and texts name the macro that the file reads."""
     code = (granulation / "granulation.c").read_text()
@@ -224,6 +225,7 @@ def test_a_contact_is_where_the_trajectory_is(law: Law, stokes: float):
     assert law.advance(contact, float(path.time[1])) == law.number("BAD_TIME")
 
 
+@pytest.mark.slow
 @NEED
 def test_shares_no_data(pendulum: Path, tmp_path: Path):
     """The compiled law has no variable outside its functions: any number of threads may call it."""
@@ -270,6 +272,7 @@ int main(void)
 """
 
 
+@pytest.mark.slow
 @NEED
 @pytest.mark.parametrize(
     ("language", "other"), [("-std=c99", "-march=native"), ("-xc++ -std=c++20", "-DPENDULUM_LANES=1")]

@@ -90,11 +90,13 @@ def agree(law: Law, scene: Scene, count: int) -> None:
             close(found[name][rows], given[rows], scale.get(name, given)[rows], rtol)
 
 
+@pytest.mark.slow
 def test_two_spheres_are_those_of_collide_pair(law: Law):
     """In planes, out of them and along the line of centres, of a material far from the presets."""
     agree(law, OWN, 120)
 
 
+@pytest.mark.slow
 def test_a_sphere_and_a_wall_are_those_of_collide_pair(walled: Law):
     """A wall that moves, with sliding, rolling and twist in different directions."""
     agree(walled, WALL, 60)

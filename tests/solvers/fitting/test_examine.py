@@ -82,6 +82,7 @@ def table_of(data: Measurements, name: str) -> dict[str, list]:
     return {name: list(speed), "angle": list(data.angle), "restitution": list(restitution), "outcome": outcome}
 
 
+@pytest.mark.slow
 def test_the_kind_of_speed_is_asked_about_where_its_name_does_not_say() -> None:
     """Magnitudes in a column `v` are read as normal speeds: `check` and `fit` say that the other kind agrees better."""
     data = impacts(60)
@@ -149,6 +150,7 @@ def test_entries_that_the_data_cannot_tell() -> None:
     assert telling["particles.roughness"] == 0  # glass is met first
 
 
+@pytest.mark.slow
 def test_contradicting_data_end_a_fit_soon() -> None:
     """Slow bounces and fast sticks contradict all values: few evaluations, no intervals, and that is said first."""
     random, done = np.random.default_rng(3), []

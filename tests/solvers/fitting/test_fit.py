@@ -36,6 +36,7 @@ def pendulum():
     return found, data, steps
 
 
+@pytest.mark.slow
 def test_evaluations_are_counted_to_the_last(pendulum):
     """The count begins with none, never falls, and ends at the total."""
     done = [each for each, _ in pendulum[2]]
@@ -94,6 +95,7 @@ def test_drawn_profiles_cross_the_ends_of_the_intervals(pendulum):
     assert np.interp([estimate.low, estimate.high], x, y) == pytest.approx(-1.92, abs=0.3)
 
 
+@pytest.mark.slow
 def test_the_drawn_band_reaches_to_the_ends_of_the_interval():
     """Where the likelihood falls faster to one side than its curvature says, the band has both ends of the interval."""
     scene = Scene.from_toml("""

@@ -36,6 +36,7 @@ def test_without_noise_it_is_the_collision(name: str, stokes: float, angle: floa
     assert found["outcome"] == [""]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("name", "stokes", "angle"), [("granulation", 0.03, 60), ("lactose-pvp", 12, 40)])
 def test_uncertainties_are_those_of_many_films(name: str, stokes: float, angle: float) -> None:
     """Over 200 films of one collision the error in standard deviations has mean 0 and variance 1.

@@ -163,6 +163,7 @@ class TestEstimated:
         assert calls[-1] == (max(expected, 10),) * 2
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "compute",
     [
@@ -183,11 +184,13 @@ def test_progress_never_falls_and_ends_at_the_total(compute):
     assert calls[-1][0] == calls[-1][1] > 0
 
 
+@pytest.mark.slow
 def test_the_result_does_not_depend_on_progress():
     plain, told = (design("granulation", "liquid.viscosity", WINDOW, 2, progress=p) for p in (None, lambda *_: None))
     assert plain.to_dict() == told.to_dict()
 
 
+@pytest.mark.slow
 def test_json_of_a_fit_is_alone_on_standard_output(tmp_path, capsys):
     rows = [f"{v},0,{o}" for v, o in zip(SPEEDS, DATA["outcome"], strict=True)]
     data = tmp_path / "impacts.csv"

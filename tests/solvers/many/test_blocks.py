@@ -71,6 +71,7 @@ def test_a_stored_map_is_the_map(tmp_path, serial):
     assert [path.name for path in tmp_path.iterdir()] == ["map.zarr"]
 
 
+@pytest.mark.slow
 def test_an_interrupted_store_is_continued(tmp_path, serial):
     """Finished blocks are kept, the store has no name before it is complete, and the next run computes the rest."""
     path, seen = tmp_path / "map.zarr", []
@@ -102,6 +103,7 @@ def interrupted_after(blocks):
     return progress
 
 
+@pytest.mark.slow
 def test_a_damaged_unfinished_store(tmp_path, serial):
     """A block whose outcomes are damaged is computed again; without its description all is; no bit gets through."""
     draw, counts = np.random.default_rng(1), []
@@ -151,6 +153,7 @@ regime_map("granulation", **axes, store="map.zarr")
 """
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(os.name != "posix", reason="signals are sent as on POSIX")
 def test_a_killed_client_loses_nothing_that_was_written(tmp_path, serial):
     """Killed outright behind its fourth block: the second call computes the others and no more, to the same bits."""
@@ -189,6 +192,7 @@ def test_a_killed_command_goes_on(tmp_path):
 # ---- in memory
 
 
+@pytest.mark.slow
 def test_an_interrupted_map_in_memory_is_continued(tmp_path):
     """What an interrupt finds finished is read by the same call, which computes the rest and removes it."""
     grid = {"stokes": np.geomspace(0.005, 0.5, 8), "angle": np.linspace(0, 1.5, 8), "engine": "rosenbrock"}
@@ -211,6 +215,7 @@ def test_an_interrupted_map_in_memory_is_continued(tmp_path):
     assert not file.exists()
 
 
+@pytest.mark.slow
 def test_another_request_never_uses_what_is_kept(tmp_path):
     """Scene, axes, tolerance, engine and quantities are part of what it is kept under; a damaged file is nothing."""
     grid = {"stokes": np.geomspace(0.02, 0.1, 60), "angle": 1.0}
@@ -260,6 +265,7 @@ main(["map", "granulation", "--stokes", "0.01:0.3:3", "--angle", "0:80:2", "-o",
 """
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(os.name != "posix", reason="signals are sent as on POSIX")
 def test_an_interrupt_while_zarr_writes(tmp_path):
     """One line and status 130; Zarr's tasks write no traceback."""
@@ -284,12 +290,14 @@ print(signal.SIGINT in blocked)
 """
 
 
+@pytest.mark.slow
 def test_local_workers_are_undisturbed():
     """As many as asked for; interrupts are blocked while they start; whoever has Dask's usual port is no matter."""
     done = subprocess.run([sys.executable, "-W", "error::UserWarning", "-c", LOCAL], capture_output=True, text=True)
     assert (done.stdout, done.stderr) == ("True\n", "")
 
 
+@pytest.mark.slow
 def test_a_lost_worker_is_survived(tmp_path, serial, cluster):
     """One of two workers is killed in mid-run: the same bits, in a store and in memory."""
     victims = list(cluster.run(os.getpid).values())
@@ -304,6 +312,7 @@ def test_a_lost_worker_is_survived(tmp_path, serial, cluster):
     same(regime_map("granulation", **GRID, client=cluster), serial)
 
 
+@pytest.mark.slow
 def test_workers_of_two_arithmetics_are_refused(serial, cluster):
     """Other compiler flags on one worker would be other last digits: an error names both. All alike compute."""
 
@@ -325,6 +334,7 @@ def test_workers_of_two_arithmetics_are_refused(serial, cluster):
         cluster.run(flags, usual)
 
 
+@pytest.mark.slow
 def test_an_unreachable_scheduler_is_bad_input(tmp_path):
     """One line names the option and what is accepted; nothing is left behind."""
     (tmp_path / "else.zarr").mkdir()
@@ -360,6 +370,7 @@ regime_map("granulation", angle=[1.0], engine="rosenbrock", client="local:1")
 """
 
 
+@pytest.mark.slow
 def test_local_workers_of_an_unguarded_script(tmp_path):
     """The error says what the script needs; Dask's processes would run the script again."""
     (tmp_path / "script.py").write_text(SCRIPT)
@@ -368,6 +379,7 @@ def test_local_workers_of_an_unguarded_script(tmp_path):
     assert 'start them below `if __name__ == "__main__":`' in done.stderr.splitlines()[-1]
 
 
+@pytest.mark.slow
 def test_a_closed_client_is_bad_input(cluster):
     """A client that was closed is named."""
     with distributed.Client(cluster.scheduler.address) as closed:

@@ -38,6 +38,7 @@ def found() -> Design:
     return design("granulation", FREE, OVER, 6, progress=lambda *step: reported.append(step))
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("found")
 def test_impacts_are_counted_to_the_last() -> None:
     """The count begins with none, never falls, and ends at the total."""
@@ -115,6 +116,7 @@ def test_a_design_beats_random_ones(found: Design) -> None:
     assert found.size == 6
 
 
+@pytest.mark.slow
 def test_a_prior_is_known_before() -> None:
     """Without impacts an entry is known as its prior says; draws come from it; the named entry is told best."""
     made = design("granulation", FREE[:1], {"stokes": (0.06, 0.3), "angle": 0.0}, 2,
@@ -124,6 +126,7 @@ def test_a_prior_is_known_before() -> None:
     assert made.draws == 2
 
 
+@pytest.mark.slow
 def test_a_picture_for_one_entry_shows_all_its_words() -> None:
     """No text of the narrowest picture reaches beyond its edges."""
     figure = design("granulation", FREE[:1], {"stokes": (0.06, 0.3), "angle": 0.0}, 2).plot()

@@ -233,6 +233,7 @@ def test_restitutions_of_a_range_of_rupture_gaps_are_enclosed(entry: str) -> Non
     assert left_out(entry) == 0
 
 
+@pytest.mark.slow
 def test_a_funnel_that_forgets_early_ruptures_is_noticed() -> None:
     """Bounds of the last panel alone leave restitutions out."""
     early = "if (to >= first)"

@@ -58,6 +58,7 @@ def test_a_change_lies_between_proved_outcomes(
     assert (below.outcome, above.outcome) == outcomes
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "angle", "stokes", "changes"),
     [
@@ -132,6 +133,7 @@ def test_cells_from_head_on_impacts_on_hold_both() -> None:
     assert box.restitution[0] <= min(ends) < max(ends) <= box.restitution[1]
 
 
+@pytest.mark.slow
 def test_without_a_bridge_no_cell_from_head_on_on_is_a_stick() -> None:
     """Head-on the film alone decides, and at any angle the pair separates: such a cell is undecided."""
     found = prove_map("granulation-dry-bridge", stokes=[0.05, 0.051], angle=np.radians([0, 2]), depth=2)
@@ -158,6 +160,7 @@ def test_bad_maps_name_what_is_wrong(edges: dict[str, object]) -> None:
         prove_map("granulation", **given)  # type: ignore[arg-type]
 
 
+@pytest.mark.slow
 def test_reference_collisions_lie_in_their_enclosures() -> None:
     """Outcome and restitution of an independent implementation of high precision, wherever there is a proof."""
     proved = 0

@@ -169,17 +169,13 @@ def test_relative_speed_is_kept_and_replaced():
         ({"partner.wall": True}, "partner.coating_thickness", "0 um for a dry wall"),
         ({**WALL, "bridge.coating_fraction": 0.1}, "bridge.coating_fraction", "beside a wall"),
         ({"bridge.volume": 0.1, "bridge.coating_fraction": 0.1}, "bridge.coating_fraction", '"from coating"'),
-        ({"bridge.coating_fraction": 1.5}, "bridge.coating_fraction", "at most 1"),
         ({"bridge.coating_fraction": 1e-9}, "bridge.volume", "a larger bridge.coating_fraction"),
         ({"bridge.volume": "1e-30 m^3"}, "bridge.volume", "a volume above 5.12e-16 m^3"),
-        ({"bridge.volume": "1 m"}, "bridge.volume", "is a length, not a volume"),
         ({"bridge.volume": "of coating"}, "bridge.volume", 'or "from coating"'),
-        ({"bridge.volume": "-1 mm^3"}, "bridge.volume", "is out of range"),
         ({"particles.radius": "1 mm"}, "particles.diameter", "together with particles.radius"),
         ({**PAIR, "partner.radius": "1 mm"}, "partner.diameter", "together with partner.radius"),
         ({**PAIR, "partner.diameter": "10 m"}, "partner.diameter", "too far from the sphere's"),
         ({"impact.speed": "1 m/s"}, "impact.relative_speed", "together with impact.speed"),
-        ({"impact.relative_speed": "0 m/s"}, "impact.relative_speed", "> 0"),
     ],
 )
 def test_every_new_way_of_being_wrong(changes, field, says):

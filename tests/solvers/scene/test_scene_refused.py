@@ -24,9 +24,7 @@ def test_positive_quantities(name):
     ("changes", "field", "says"),
     [
         ({"particles.roughness": "8 um"}, "particles.roughness", 'below liquid.film_thickness = "8 um"'),
-        ({"particles.roughness": "-1 um"}, "particles.roughness", ">= 0"),
         ({**BRIDGE, "bridge.volume": 1e-6}, "bridge.volume", "above 0.000512"),
-        ({**BRIDGE, "bridge.contact_angle": "91 deg"}, "bridge.contact_angle", "from 0 deg to 90 deg"),
         (
             {**BRIDGE, "bridge.law": "mikhami"},
             "bridge.law",
@@ -35,12 +33,9 @@ def test_positive_quantities(name):
         ({**BRIDGE, "bridge.surface_tension": None}, "bridge.surface_tension", "missing"),
         ({"pendulum.length": "0.2 mm"}, "pendulum.length", "4a + x_f/2 = 0.000204 m"),
         ({"pendulum.gravity": "9.81 m/s^2"}, "pendulum.length", "missing"),
-        ({"impact.angle": "90 deg"}, "impact.angle", ">= 0 deg and < 90 deg"),
-        ({"impact.angle": "-1 deg"}, "impact.angle", ">= 0 deg and < 90 deg"),
         ({"impact.angle": 1.0}, "impact.angle", "has no unit"),
         ({"impact.stokes": 0.1, "impact.speed": "1 m/s"}, "impact.speed", "together with impact.stokes = 0.1"),
         ({"impact.stokes": True}, "impact.stokes", "is not a number"),
-        ({"impact.stokes": [1]}, "impact.stokes", "[1] is not a number"),
         ({"impact.stokes": 10**400}, "impact.stokes", "is not finite"),
         ({"particles.radius": "100 um"}, "particles.radius", 'together with particles.reduced_radius = "50 um"'),
         ({"partner.wall": "true"}, "partner.wall", "accepted: true, for a wall"),
@@ -52,12 +47,8 @@ def test_positive_quantities(name):
             "particles.reduced_mass",
             "is too far off",
         ),
-        ({"particles.dry_restitution": 1.01}, "particles.dry_restitution", "from 0 to 1"),
         ({"particles.youngs_modulus": "70 GPa"}, "particles.poisson_ratio", "while particles.youngs_modulus"),
         ({"particles.poisson_ratio": 0.2}, "particles.youngs_modulus", "while particles.poisson_ratio"),
-        ({"particles.poisson_ratio": -1.0}, "particles.poisson_ratio", "> -1 and <= 0.5"),
-        ({"particles.poisson_ratio": 0.51}, "particles.poisson_ratio", "> -1 and <= 0.5"),
-        ({"liquid.viscosity": "2 m"}, "liquid.viscosity", "is a length, not a viscosity"),
         (
             {"liquid.viscosty": "2 Pa s"},
             "liquid.viscosty",
@@ -67,7 +58,6 @@ def test_positive_quantities(name):
         ({"liqid.viscosity": "2 Pa s"}, "liqid", "did you mean liquid?"),
         ({"model.arm": "mid"}, "model.arm", "one of midgap"),
         ({"model.arm": "surface"}, "model.arm", "docs/reference/models.md"),
-        ({"model.glass": 3}, "model.glass", "one of literal, film-corrected"),
     ],
 )
 def test_bad_entries(changes, field, says):

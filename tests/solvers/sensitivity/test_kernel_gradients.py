@@ -21,11 +21,7 @@ from wetdoublet.solvers.sensitivity import gradients_many as many
 from wetdoublet.solvers.sensitivity.by_kernel import KNOWN
 from wetdoublet.solvers.sensitivity.gradients_many import STICK
 
-from ...helpers.sensitive import CASES
-from .test_sensitivities import REFERENCE, compared
-
 pytestmark = [pytest.mark.skipif(compiler() is None, reason="no C compiler"), pytest.mark.slow]
-NAMES = [case.name for case in CASES]
 OF = ("restitution", "rotation", "contact_time", "smallest_gap")
 SEPARATRIX = 0.049117734419372415  # St of granulation at 45 deg, by bisection at rtol 1e-13
 
@@ -36,16 +32,6 @@ def of_granulation() -> tuple[xr.Dataset, np.ndarray, np.ndarray]:
     draw = np.random.default_rng(5)
     stokes, angle = np.exp(draw.uniform(np.log(0.01), np.log(0.4), 24)), draw.uniform(0.1, 1.4, 24)
     return gradients_many("granulation", stokes=stokes, angle=angle, of=OF, engine="taylor"), stokes, angle
-
-
-@pytest.mark.parametrize("name", ["glass", "head-on", "no bridge, turned", "strings, glass"])
-def test_equals_differences(name: str) -> None:
-    """Results by all parameters at 1e-9: 1e-7 of the largest elasticity from differences of collisions at 1e-13."""
-    case = CASES[NAMES.index(name)]
-    found = sensitivities(case.scene, [of for of in REFERENCE[name] if of in KNOWN], engine="taylor")
-    assert found.engine == "taylor"
-    rows = REFERENCE[name]
-    assert compared(found, case, {of: rows[of] for of in found.value}) < 1e-7
 
 
 def test_equals_rosenbrock() -> None:
@@ -65,26 +51,6 @@ def test_equals_rosenbrock() -> None:
             scale = np.where(table.reference.values == 0, 1.0, table.reference.values)
             if row.any() and not np.isnan(row).any():
                 assert np.abs((own - row) * scale).max() < 1e-6 * np.abs(row * scale).max(), (k, name)
-
-
-@pytest.mark.parametrize("backward", [False, True])
-def test_contact_by_differences(backward: bool) -> None:
-    """Rebounds from the elastic length and from the roughness: derivatives are differences of the kernel itself."""
-    for changes, name in (
-        ({"particles.youngs_modulus": 1e9, "particles.roughness": 1e-9}, "youngs_modulus"),
-        ({"particles.roughness": 4e-7}, "roughness"),
-    ):
-        scene = Scene.load("granulation").with_entries({"liquid.glass_transition_pressure": 1e12} | changes)
-        at = getattr(scene.particles, name)
-        steps = np.array([0.0, 1e-4, -1e-4, 2e-4, -2e-4])
-        impacts = Impacts(scene, np.full(5, scene.speed_of(1.5)), np.full(5, 0.35), {name: at * (1 + steps)})
-        found = run_tangent(impacts, True, 1e-13, False, (name,), 11, backward=backward)
-        assert found is not None
-        assert (found.answers["outcome"] == 2).all()
-        e_n = found.answers["shown"][:, 0]
-        slope = (8 * (e_n[1] - e_n[2]) - (e_n[3] - e_n[4])) / (12e-4 * at)  # to fourth order: 1e-12 of it
-        own = found.slopes[0, found.quantities.index(name), 0]
-        assert own == pytest.approx(slope, rel=1e-7)
 
 
 @pytest.mark.parametrize(
@@ -176,14 +142,6 @@ def test_a_subset_is_columns_of_the_whole() -> None:
             expected = whole.elasticity.sel(quantity=name, parameter=some).values[k]
             if not np.isnan(row).all():
                 np.testing.assert_allclose(own, expected, atol=1e-6 * np.nanmax(np.abs(row)))
-
-
-def test_neighbours_do_not_matter() -> None:
-    """Derivatives are the same alone and in a lane among others, but for rounding on the way to the parameters."""
-    whole, stokes, angle = of_granulation()
-    for k in (2, 11, 17):
-        alone = gradients_many("granulation", stokes=stokes[k], angle=angle[k], of=OF, engine="taylor")
-        np.testing.assert_allclose(alone.gradient.values[:, 0], whole.gradient.values[:, k], rtol=1e-14)
 
 
 def test_sticks_and_boundaries() -> None:

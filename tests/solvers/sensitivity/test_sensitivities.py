@@ -12,10 +12,9 @@ from wetdoublet.solvers.sensitivity.parameters import known
 
 from ...helpers.command import run
 from ...helpers.data import DATA
-from ...helpers.independent import integrated
 from ...helpers.own_arm import described
 from ...helpers.reference import sensitivities
-from ...helpers.sensitive import CASES, DRY, GRANULATION, PENDULUM, Case, apart, cancelling, varied
+from ...helpers.sensitive import CASES, GRANULATION, PENDULUM, Case, apart, cancelling
 
 pytestmark = pytest.mark.slow
 
@@ -78,25 +77,6 @@ def test_cvodes_at_the_tightest_tolerance() -> None:
     found = sensitivities(case.scene, ["restitution"], method="adjoint", engine="cvodes", rtol=1e-13)
     row = REFERENCE[case.name]["restitution"]
     assert apart({name: found.elasticity["restitution"][name] for name in row}, row) < 1e-9
-
-
-def test_an_independent_model_has_the_same_derivatives() -> None:
-    """Scipy's Radau on equations typed in from the specification, in SI: differences of e_n without a bridge."""
-    scene = DRY.with_impact(stokes=0.3, angle="45 deg")
-    names = ("particles.roughness", "liquid.viscosity", "liquid.film_thickness", "liquid.glass_transition_pressure")
-    found = sensitivities(scene, wrt=names)
-
-    def e_n(name: str, part: float) -> float:
-        changed = varied(scene, name, float(scene.entries[name]) * (1 + part))
-        assert changed.stokes is not None
-        return integrated(changed, changed.stokes, math.radians(45), rtol=1e-11).state[1] / float(scene.speed or 0)
-
-    for name in names:
-        slope = (e_n(name, 2e-3) - e_n(name, -2e-3)) / 4e-3
-        # the differences' own error: a third derivative of order one times h^2 = 4e-6
-        expected = found.gradient["restitution"][name] * float(scene.entries[name])  # type: ignore[operator]  # not None here
-        assert expected == pytest.approx(slope, abs=1e-5)
-    assert found.gradient["restitution"]["particles.roughness"] == 0.0
 
 
 def test_the_condition_number_of_the_reference(separated_reference: dict[str, Any]) -> None:
@@ -277,36 +257,6 @@ def test_labelled_result() -> None:
     )
     assert data.gradient.dims == ("quantity", "parameter")
     assert all(str(found).count(f"\n{name} ") == 1 for name in found.parameters)
-
-
-@pytest.mark.parametrize(
-    ("entries", "names"),
-    [
-        ({"partner.radius": "150 um", "partner.density": "2500 kg/m^3"}, ("partner.radius", "partner.density")),
-        ({"partner.wall": True}, ("particles.reduced_radius", "particles.reduced_mass")),
-        ({"attraction.hamaker": "1e-16 J"}, ("attraction.hamaker", "impact.angle")),
-        ({"bridge.rupture": "own", "bridge.law": "willett", "bridge.volume": 0.05}, ("bridge.volume", "impact.angle")),
-        ({"model.film": "constant-volume"}, ("bridge.volume", "liquid.film_thickness")),
-        ({"model.film": "cavitating"}, ("liquid.viscosity", "liquid.film_thickness")),
-    ],
-    ids=lambda value: next(iter(value)) if isinstance(value, dict) else "",
-)
-def test_partners_attractions_and_films(entries: dict[str, object], names: tuple[str, ...]) -> None:
-    """What a scene may have beside the paper's is differentiated as well: central differences over 1e-4 of the entry.
-
-    Their error: the third derivative times 1e-8, and 1e-12 of e_n over 1e-4; 1e-6 of the elasticity is room for both.
-    """
-    scene = Scene.load("granulation").with_entries(entries).with_impact(stokes=0.2, angle="60 deg")
-    found = sensitivities(scene, of=["restitution"], wrt=names, rtol=1e-10)
-    for name in names:
-        base = float(scene.angle if name == "impact.angle" else dict(scene.entries)[name])
-        e_n = []
-        for value in (base * (1 - 1e-4), base * (1 + 1e-4)):
-            moved = scene.with_entries({name: value}).with_impact(speed=scene.speed)
-            e_n.append(collide(moved, rtol=1e-12, engine="rosenbrock", ledger=False).restitution)
-        difference = (e_n[1] - e_n[0]) / (2e-4 * base)
-        slope = found.gradient["restitution"][name]
-        assert abs(slope - difference) * base < 1e-6 * found.value["restitution"]
 
 
 def test_what_the_kernel_does_not_differentiate() -> None:

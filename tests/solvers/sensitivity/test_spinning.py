@@ -1,11 +1,10 @@
 """Derivatives of collisions in which spheres arrive spinning, beside central differences of collisions."""
 
 import math
-from typing import Any
 
 import numpy as np
 import pytest
-from wetdoublet.solvers import Scene, collide, gradients_many
+from wetdoublet.solvers import Scene, collide
 
 from ...helpers.reference import sensitivities
 
@@ -39,19 +38,6 @@ def test_derivatives_along_the_line_of_centres() -> None:
     assert gradient == pytest.approx(differences(GRANULATION), rel=1e-6)
 
 
-def test_the_kernel_differentiates_by_spins() -> None:
-    """As above by the kernel, for collisions at zero and at other angles; what is undefined at zero is NaN."""
-    wrt: dict[str, Any] = {"wrt": ["impact.spin", "impact.speed"], "hold": "speed", "rtol": 1e-10}
-    of = [*OF, "tangential_restitution"]
-    found = gradients_many(GRANULATION, speed=[SPEED, SPEED], angle=[0.0, 0.5], of=of, engine="taylor", **wrt)
-    assert set(found["engine"].values.tolist()) == {"taylor"}
-    assert found["gradient"].values[: len(OF), 0] == pytest.approx(differences(GRANULATION), rel=1e-6)
-    assert np.isnan(found["value"].values[-1, 0]) and np.all(np.isnan(found["gradient"].values[-1, 0]))
-    beside = sensitivities(GRANULATION, of, speed=SPEED, angle=0.5, engine="rosenbrock", **wrt)
-    rows = np.array([[beside.gradient[name][each] for each in wrt["wrt"]] for name in of], dtype=float)
-    assert found["gradient"].values[:, 1] == pytest.approx(rows, rel=1e-7)
-
-
 def test_where_nothing_spins_yet_spins_have_derivatives() -> None:
     """Head-on, the spins and the rotation after a collision are odd in those before it."""
     plain = Scene.load("granulation")
@@ -71,23 +57,3 @@ def test_a_spin_is_kept_where_the_doublet_parts_at_initial_contact() -> None:
         found = sensitivities("granulation-dry-bridge", ["final_spin"], wrt, stokes=0.4, angle=angle, engine="taylor")
         assert found.engine == "taylor"
         assert found.gradient["final_spin"] == {"impact.spin": 1.0, "liquid.viscosity": 0.0}
-
-
-@pytest.mark.parametrize("partner", [{}, {"partner.wall": True}], ids=["sphere", "wall"])
-def test_slip_restitution_has_derivatives(partner: dict[str, object]) -> None:
-    """By angle and spin, beside central differences; there is none head-on, where nothing slips."""
-    scene = GRANULATION.with_entries(partner).with_impact(speed=SPEED, angle=0.5)
-    found = sensitivities(scene, ["slip_restitution"], ["impact.angle", "impact.spin"], hold="speed")
-    for name, p in found.reference.items():
-
-        def value(part: float, name: str = name, p: float = p) -> float:
-            changed = scene.with_entries({name: p * (1 + part)})
-            one = collide(changed, rtol=1e-12, engine="rosenbrock", ledger=False).slip_restitution
-            assert one is not None
-            return one
-
-        assert value(0) == pytest.approx(found.value["slip_restitution"], rel=1e-8)
-        slope = (8 * (value(1e-3) - value(-1e-3)) - (value(2e-3) - value(-2e-3))) / (12e-3 * p)  # of fourth order
-        assert found.gradient["slip_restitution"][name] == pytest.approx(slope, rel=1e-7)
-    still = sensitivities("granulation", ["slip_restitution"], ["impact.angle"], speed=SPEED, angle=0.0)
-    assert still.value["slip_restitution"] is still.gradient["slip_restitution"]["impact.angle"] is None

@@ -6,7 +6,7 @@ import numpy as np
 import pint
 import pytest
 import xarray as xr
-from wetdoublet.solvers import Scene, collide, collide_many, collide_pair
+from wetdoublet.solvers import Scene, collide, collide_pair
 from wetdoublet.solvers.errors import InputError
 from wetdoublet.solvers.host.compiler import compiler
 from wetdoublet.solvers.scene.groups import si_values
@@ -14,11 +14,7 @@ from wetdoublet.solvers.space.by_casadi import own_axes
 from wetdoublet.solvers.space.ends import Ends, gains_energy
 from wetdoublet.solvers.space.pairs import Pairs, checked
 
-from ...helpers.in_space import collided
 from ...helpers.own_arm import surface
-from ...helpers.random_in_space import arrivals as any_arrivals
-from ...helpers.random_in_space import differences, quantities, request
-from ...helpers.two_bodies import bodies_of
 
 pytestmark = pytest.mark.skipif(compiler() is None, reason="no C compiler")
 _FEW = 1e-9
@@ -92,20 +88,6 @@ def equal():
     return given, values(collide_pair(GRANULATION, *given, rtol=1e-11))
 
 
-def test_momentum_and_angular_momentum_are_kept_to_rounding(equal):
-    """Of bounces, separations and sticks; energy is never created."""
-    (normal, velocities, spins), found = equal
-    assert set(found["outcome"]) == {0, 1, 2}
-    mass, _, distance = sizes(GRANULATION)
-    before, after = ((mass[:, None] * each).sum(axis=1) for each in (velocities, found["velocities"]))
-    assert np.all(np.abs(after - before) <= 1e-14 * (mass[:, None] * np.abs(velocities)).sum(axis=1))
-    first, size = momentum(GRANULATION, distance * normal, velocities, spins)
-    last, _ = momentum(GRANULATION, found["position"], found["velocities"], found["spins"])
-    assert np.all(np.linalg.norm(last - first, axis=1) <= 1e-12 * size)
-    left = energy(GRANULATION, found["velocities"], found["spins"]) / energy(GRANULATION, velocities, spins)
-    assert np.all(left < 1)
-
-
 def test_turning_the_picture_turns_the_answer(equal):
     """In any direction, to what rounding becomes of within the tolerance."""
     (normal, velocities, spins), found = equal
@@ -157,38 +139,6 @@ def test_a_common_velocity_is_added(equal):
     same(moved, found, found["outcome"] > 0)
 
 
-@pytest.mark.parametrize("scene", [GRANULATION, UNEQUAL], ids=["equal", "unequal"])
-def test_in_a_plane_it_is_the_planar_collision(scene):
-    """Restitutions, rates and times of `collide_many`, with spins, in a plane of any direction."""
-    draw, turn = np.random.default_rng(4), turning(5)
-    normal, across, out = turn.T
-    speed, angle = 10 ** draw.uniform(0.0, 1.5, 40), draw.uniform(0.0, 1.3, 40)
-    spins = draw.normal(size=(2, 40)) * speed / 1e-4
-    own = si_values(scene, None, None)
-    distance = sizes(scene)[2]
-    sideways = speed * np.tan(angle) * distance / (distance - own["film_thickness"])  # theta0 is of r omega at contact
-    velocities = np.zeros((40, 2, 3))
-    velocities[:, 1] = sideways[:, None] * across - speed[:, None] * normal
-    both = spins.T[:, :, None] * out
-    found = values(collide_pair(scene, normal, velocities, both, rtol=1e-11, engine="taylor"))
-    of = ["slip_restitution", "tangential_restitution", "contact_time", "final_spin", "final_spin_partner", "certified"]
-    planar = collide_many(
-        scene, speed=speed, angle=angle, vary={"impact.spin": spins[0], "impact.partner_spin": spins[1]}, of=of,
-        rtol=1e-11, engine="taylor",
-    )  # fmt: skip
-    assert np.array_equal(found["outcome"], planar.outcome.values)
-    parted = found["outcome"] > 0
-    assert parted.sum() > 10
-    assert found["restitution"][parted] == pytest.approx(planar.restitution.values[parted], rel=_FEW)
-    assert found["time"][parted] == pytest.approx(planar.contact_time.values[parted], rel=_FEW)
-    slip = planar.slip_restitution.values[parted]  # has a sign, where a ratio of lengths has none
-    assert slip.min() < 0
-    assert found["slip_restitution"][parted] == pytest.approx(np.abs(slip), rel=1e-7)
-    for k, name in enumerate(("final_spin", "final_spin_partner")):
-        assert found["spins"][parted, k] @ out == pytest.approx(planar[name].values[parted], rel=1e-7, abs=1e-3)
-    assert np.abs(found["normal"][parted] @ out).max() < 1e-12
-
-
 def test_hardly_out_of_the_plane_it_is_hardly_another_collision():
     """The vectors' kernel beside the planar one: a small spin out of the plane changes little."""
     normal, velocities = np.array([1.0, 0, 0]), np.array([[0.0, 0, 0], [-20.0, 15.0, 0]])
@@ -200,17 +150,6 @@ def test_hardly_out_of_the_plane_it_is_hardly_another_collision():
     assert flat["outcome"] == solid["outcome"] > 0
     for name in VECTORS:
         assert solid[name] == pytest.approx(flat[name], rel=1e-7, abs=1e-7 * np.abs(flat[name]).max())
-
-
-def test_engines_agree(equal):
-    """Rosenbrock and CVODES, in axes of the pair, with the kernel."""
-    (normal, velocities, spins), found = equal
-    rows = np.flatnonzero(found["outcome"] > 0)[:3]
-    for engine in ("rosenbrock", "cvodes"):
-        given = (each[rows] for each in (normal, velocities, spins))
-        other = values(collide_pair(GRANULATION, *given, rtol=1e-11, engine=engine))
-        assert np.array_equal(other["outcome"], found["outcome"][rows])
-        same(other, {name: found[name][rows] for name in VECTORS}, slice(None), rtol=1e-8)
 
 
 def test_a_doublet_that_tumbles_keeps_its_phase():
@@ -248,6 +187,7 @@ def test_a_stick_turns_as_one_body(equal):
     assert np.isnan(found["angular_velocity"][~stuck]).all()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("scene", [GRANULATION, WALL], ids=["spheres", "wall"])
 def test_a_stick_depends_on_its_arrival_alone(scene):
     """No tolerance and no engine changes its motion, which is at contact; `until` says where they stopped."""
@@ -284,38 +224,6 @@ def test_sliding_and_rolling_along_a_wall_superpose():
     )
     assert both["spins"][0] == pytest.approx(one["spins"][0] + other["spins"][0] + twist, rel=1e-10, abs=1e-6)
     assert np.isnan(both["spins"][1]).all()
-
-
-def test_beside_a_wall_it_is_the_planar_collision():
-    """Restitutions of `collide_many` with spin, against a wall that moves."""
-    angle, spin, speed = 0.7, 2e5, 40.0
-    planar = collide_many(
-        WALL, speed=speed, angle=[angle], vary={"impact.spin": [spin]}, of=["tangential_restitution", "final_spin"],
-        rtol=1e-11, engine="taylor",
-    )  # fmt: skip
-    wall = np.array([1.0, 2.0, 3.0])
-    velocity = wall + np.array([speed * np.tan(angle), 0, -speed])
-    rolls = np.cross([spin, 0, 0], [0, 0, -1.0])  # turns about normal x sliding
-    found = values(collide_pair(WALL, [0, 0, -2], [velocity, wall], [rolls], rtol=1e-11, engine="taylor"))
-    left = found["velocities"][0] - wall
-    assert left[2] / speed == pytest.approx(planar.restitution.values[0], rel=_FEW)
-    assert left[0] / (speed * np.tan(angle)) == pytest.approx(planar.tangential_restitution.values[0], rel=_FEW)
-    assert found["spins"][0] == pytest.approx(rolls / spin * planar.final_spin.values[0], rel=_FEW)
-
-
-@pytest.mark.parametrize("scene", [GRANULATION, UNEQUAL, WALL], ids=["equal", "unequal", "wall"])
-@pytest.mark.parametrize("speed", [3.0, 30.0])
-def test_the_reference_in_the_laboratory_s_axes_says_the_same(scene, speed):
-    """Outcomes, restitution, time, normal, velocities and spins of random pairs, from equations of both bodies."""
-    bodies = bodies_of(scene)
-    arrived = any_arrivals(bodies, speed, 3, np.random.default_rng(int(speed)))
-    found = values(collide_pair(scene, *request(bodies, arrived), rtol=1e-11, engine="taylor"))
-    for k, arrival in enumerate(arrived):
-        end = collided(bodies, arrival)
-        assert ["stick", "stick-rotate-separate", "bounce"][found["outcome"][k]] == end.outcome
-        row = {name: column[k] for name, column in found.items()}
-        apart = differences(bodies, arrival, row, quantities(bodies, arrival, end))
-        assert max(apart.values(), default=0.0) < 1e-9, apart
 
 
 def test_what_comes_out_goes_in_again():

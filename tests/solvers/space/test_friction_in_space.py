@@ -64,25 +64,6 @@ def test_friction_keeps_the_momenta_and_its_loss_closes_the_ledger():
         assert np.array(course.angular_momentum(y)) == pytest.approx(before, abs=1e-12 * size)
 
 
-@pytest.mark.parametrize("engine", ["taylor", "rosenbrock"])
-@pytest.mark.parametrize("friction", [0.02, 0.3])
-def test_in_a_plane_it_is_the_planar_collision_rest_included(engine, friction):
-    """Spinning spheres that chatter, slide at rest, and are released by their rotation."""
-    scene = rough(friction, **RESTS, **{"impact.spin": SPIN})
-    planar = collide(scene, stokes=5.0, angle=0.8, engine="rosenbrock", rtol=1e-10)
-    assert {"rests", "released"} <= {event.kind for event in planar.events}
-    apart = 4 * scene.reduced_radius
-    speed = scene.speed_of(5.0)
-    sideways = speed * math.tan(0.8) * (1 + scene.liquid.film_thickness / apart)
-    tilt = 1e-9 * SPIN * (engine == "taylor")  # out of the plane, for the vectors' kernel
-    spins = [[tilt, SPIN, 0.0], [tilt, SPIN, 0.0]]
-    found = collide_pair(scene, [0, 0, 1], [[0, 0, speed], [sideways, 0, 0]], spins, engine=engine, rtol=1e-10)
-    assert ["stick", "stick-rotate-separate", "bounce"][int(found.outcome)] == planar.outcome
-    assert float(found.restitution) == pytest.approx(planar.restitution, rel=1e-7)
-    assert float(found.time) == pytest.approx(planar.contact_time, rel=1e-7)
-    assert found.spins.values[:, 1] == pytest.approx(planar.final_spin, rel=1e-7)
-
-
 def by_kernel_alone(scene, arrival, rtol=1e-10):
     """The ends of a pair by the kernel with vectors, without and with ledger; no other engine is asked."""
     pairs = checked(scene, *(np.array(each) for each in (arrival.normal, arrival.velocities, arrival.spins)))

@@ -2,12 +2,9 @@
 
 import math
 
-import numpy as np
 import pytest
 from wetdoublet.solvers import Scene, boundary, collide
 
-from ...benchmarks.scanned import compared
-from ...helpers.random_spinning import scenes, tables, with_friction
 from ...helpers.scanned import Scan, scanned
 
 
@@ -49,13 +46,3 @@ def test_a_graze_is_where_a_dense_scan_has_it() -> None:
         low, high = (low, middle) if scan.result.reversal else (middle, high)
     changes = boundary(scene, angle=math.radians(45), stokes=(0.1, 0.13)).changes[0]
     assert [one.stokes for one in changes] == [pytest.approx(high, rel=1e-8)]
-
-
-def test_random_collisions_agree_with_a_dense_scan() -> None:
-    """Walls, unequal spheres, films, attractions, spins and friction: outcome, restitution, time and spins."""
-    draw = np.random.default_rng(4)
-    for k, (model, entries) in enumerate(scenes(8, 28, 12)):
-        described = tables(model, entries)
-        one = compared(Scene.from_dict(with_friction(described, draw) if k % 2 else described))
-        assert one.compared
-        assert one.agrees, (one, described)

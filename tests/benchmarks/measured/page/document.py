@@ -2,8 +2,8 @@
 
     python -m tests.benchmarks.measured.page.document [FOLDER]
 
-FOLDER (docs/engineering/performance) holds bench.json, compile_flags.json, cvodes_share.json and, if they were run,
-stress.json and law_in_c.json. With the usual folder also the figures on the front page, README.md, between its marks.
+FOLDER (docs/engineering/performance) holds bench.json and, if they were run, stress.json and law_in_c.json. With the
+usual folder also the figures on the front page, README.md, between its marks.
 """
 
 import json
@@ -19,13 +19,10 @@ from .targets import headline, target_table
 Record = dict[str, Any]
 
 README = Path(__file__).resolve().parents[4] / "README.md"
-RECORDS = ("bench", "compile_flags", "cvodes_share")
 BEGIN, END = "<!-- measured -->", "<!-- end of measured -->"
 
 
-def page(
-    bench: Record, flags: Record, share: Record, stress: Record | None, folder: str, law: Record | None = None
-) -> str:
+def page(bench: Record, stress: Record | None, folder: str, law: Record | None = None) -> str:
     """The page."""
     parts = [
         "# Performance",
@@ -42,8 +39,6 @@ def page(
     for task in bench["tasks"]:
         parts += [f"### {task['preset']}", tables.sample(task), tables.equal_error(task)]
         parts += [text for text in [tables.failures(task)] if text]
-    parts += ["## What a ledger, a trajectory and the rotation cost", f"![Cost of features]({folder}/cost.png)"]
-    parts += [tables.COST_NOTE]
     pictures = {"Near": "near.png", "Gradients to": "gradients.png", "From one": "growth.png"}
     for part in tables.others(bench):
         title, _, body = part.partition("\n\n")
@@ -57,8 +52,6 @@ def page(
         parts += [stress["tables"]["disagreements"], stress["tables"]["engines"], stress["tables"]["ledgers"]]
         parts += [f"![Error and cost]({folder}/stress-map.png)"]
         parts += [f"![Points beside boundaries]({folder}/stress-near.png)"]
-    parts += ["## Why integrators are compiled with -O1, and CVODES is told rtol/30", flags_text(flags)]
-    parts += [f"{SHARE} {share_text(share)}"]
     parts += ["## The machine", tables.surroundings(bench)]
     return "\n\n".join(parts) + "\n"
 
@@ -78,8 +71,7 @@ core, against the largest absolute error in e_n among those that separate.
   what that adds.
 * **heyoka**: batches of 8 lanes with a queue and terminal events, `fast_math`, not in compact mode. The level of energy
   that proves a stick is computed beforehand, for nothing.
-* **CVODE of scikit-sundae** has rates, Jacobian and events as machine code by numba; **scipy's** methods call CasADi
-  functions; **diffrax** is Tsit5, jitted and vectorised, with its own events.
+* **scipy's** methods call CasADi functions; **diffrax** is Tsit5, jitted and vectorised, with its own events.
 * **Reference values** by DOP853 at 1e-13, which no engine under test uses. Below the grey line an error cannot be told
   from the reference's own."""
 
@@ -89,54 +81,18 @@ boundaries, each by every engine. Two engines disagree where their outcomes diff
 its conditioning; that is explained only where a change of outcome lies within 1e3 rtol of the Stokes number, found by
 moving it. Certified sticks are continued without their certificate; ledgers must close."""
 
-SHARE = """\
-CVODES and Rosenbrock integrate the same located paths with the same landing on events, told the same relative
-tolerance; median error in e_n of the separating collisions among those drawn, and the median of the collisions' own
-ratios to Rosenbrock."""
-
-
-def flags_text(flags: Record) -> str:
-    """From how many collisions on a higher level would pay."""
-    lines = []
-    for task in dict.fromkeys(row["task"] for row in flags["rows"]):
-        found = {row["level"]: row for row in flags["rows"] if row["task"] == task}
-        dearer = found["-O3"]["first_pass"] - found["-O1"]["first_pass"]
-        gained = found["-O1"]["integrators"] - found["-O3"]["integrators"]
-        if gained > 0:
-            lines.append(
-                f"{task}: -O3 costs {dearer:.2f} s more once and has it back after {dearer / gained:.0f} collisions."
-            )
-        else:
-            lines.append(f"{task}: -O3 costs {dearer:.2f} s more once and is not faster.")
-    said = (
-        f"`python -m tests.benchmarks.compile_flags`, rtol {flags['rtol']:g}. A library belongs to one flow and one "
-        "tolerance, so that every new tolerance waits for the compiler: the first use counts more than the rest."
-    )
-    return " ".join([said, *lines])
-
-
-def share_text(share: Record) -> str:
-    """What the table says."""
-    both = {name: [row["median_ratio"][name] for row in share["rows"]] for name in ("cvodes", "cvodes/30")}
-    most = max(row["median_error"]["cvodes/30"] / row["rtol"] for row in share["rows"])
-    return (
-        f"`python -m tests.benchmarks.cvodes_share`. At equal tolerances CVODES' error is {min(both['cvodes']):.0f} to "
-        f"{max(both['cvodes']):.0f} times Rosenbrock's; at rtol/30 {min(both['cvodes/30']):.1f} to "
-        f"{max(both['cvodes/30']):.0f} times, and its median error is at most {most:.2g} rtol."
-    )
-
 
 def main() -> None:
     """Read, and write the page beside the folder."""
     folder = Path(sys.argv[1] if len(sys.argv) > 1 else "docs/engineering/performance")
-    records = [json.loads((folder / f"{name}.json").read_text()) for name in RECORDS]
+    bench = json.loads((folder / "bench.json").read_text())
     stress = folder / "stress.json"
     found = json.loads(stress.read_text()) if stress.is_file() else None
     law = folder / "law_in_c.json"
     exported = json.loads(law.read_text()) if law.is_file() else None
-    folder.with_suffix(".md").write_text(page(*records, found, folder.name, exported), encoding="utf-8")
+    folder.with_suffix(".md").write_text(page(bench, found, folder.name, exported), encoding="utf-8")
     if folder.resolve() == README.parent / "docs" / "engineering" / "performance":
-        README.write_text(fronted(README.read_text(encoding="utf-8"), records[0]), encoding="utf-8")
+        README.write_text(fronted(README.read_text(encoding="utf-8"), bench), encoding="utf-8")
 
 
 def fronted(text: str, bench: Record) -> str:

@@ -1,4 +1,4 @@
-"""The benchmark as pictures: time against achieved error, and what a feature costs."""
+"""The benchmark as pictures: time against achieved error, against distance and against number."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -11,8 +11,6 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter, NullLocator
 from wetdoublet.solvers.host.files import save
 
-from ..features import FEATURES
-
 Record = dict[str, Any]
 
 _STYLES = {  # Okabe-Ito colours, a marker each, peers dashed
@@ -23,7 +21,6 @@ _STYLES = {  # Okabe-Ito colours, a marker each, peers dashed
     "taylor, kernel alone": ("#E69F00", "1", ":"),
     "heyoka, batch of 8": ("#56B4E9", "P", "--"),
     "heyoka, without callbacks": ("#56B4E9", "x", ":"),
-    "sundae CVODE, numba": ("#8C6D31", "X", "--"),
     "diffrax Tsit5": ("#7F7F7F", "<", "--"),
     "scipy LSODA": ("#CC79A7", "^", "--"),
     "scipy Radau": ("#202020", "v", "--"),
@@ -33,19 +30,17 @@ _STYLES = {  # Okabe-Ito colours, a marker each, peers dashed
     "rosenbrock, adjoint": ("#0072B2", "o", "-"),
     "heyoka, variational equations": ("#56B4E9", "P", "--"),
     "heyoka's, without callbacks": ("#56B4E9", "x", ":"),
-    "diffrax, forward derivatives": ("#7F7F7F", "<", "--"),
     "central differences of taylor": ("#CC79A7", "^", "--"),
 }
 _OTHER = ("#AA3377", ".", ":")
-_FILLS = {"ledger": ("#E69F00", "//"), "trajectory": ("#56B4E9", ".."), "rotation": ("#009E73", "xx")}
 _RC: Any = {"font.size": 8.5, "axes.labelsize": 9, "legend.fontsize": 8, "hatch.linewidth": 0.6}
 
 
 def draw(record: Record, folder: Path) -> list[Path]:
-    """Draw both pictures; returns their files."""
+    """Draw the pictures; returns their files."""
     files = []
     with rc_context(_RC):
-        pictures = [("work.png", work_error), ("cost.png", cost_bars)]
+        pictures = [("work.png", work_error)]
         if record["growth"]:
             pictures.append(("growth.png", growth_curves))
         if record["near"]:
@@ -111,62 +106,6 @@ def _frame(axes: Axes, task: Record) -> None:
     axes.xaxis.set_minor_formatter(NullFormatter())
     axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
     axes.tick_params(labelleft=True)
-
-
-def cost_bars(record: Record) -> Figure:
-    """Ratios to the bare collision, as bars that start from it."""
-    rows = _rows(record)
-    figure = Figure(figsize=(7.2, 1.4 + 0.46 * len(rows)), layout="constrained")
-    axes = figure.add_subplot()
-    height = 0.2
-    for position, feature in enumerate(FEATURES):
-        there = [(k, ratios[feature]) for k, (_, ratios) in enumerate(rows) if feature in ratios]
-        places = [k + (position - 1) * height for k, _ in there]
-        colour, hatch = _FILLS[feature]
-        style: Any = {"color": colour, "hatch": hatch, "edgecolor": "white", "linewidth": 0}
-        axes.barh(places, [ratio - 1 for _, ratio in there], height, left=1.0, label=feature, **style)
-        for place, (_, ratio) in zip(places, there, strict=True):
-            side = 1 if ratio >= 1 else -1
-            axes.annotate(
-                f"{ratio:.2f}",
-                (ratio, place),
-                (3 * side, 0),
-                textcoords="offset points",
-                ha="left" if side > 0 else "right",
-                va="center",
-                fontsize=7,
-            )
-    axes.axvline(1.0, color="#202020", linewidth=0.9)
-    axes.set_yticks(range(len(rows)), [label for label, _ in rows])
-    axes.invert_yaxis()
-    axes.set_xscale("log")
-    axes.xaxis.set_major_locator(LogLocator(base=10, subs=(1.0, 2.0, 5.0)))
-    axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
-    axes.xaxis.set_minor_formatter(NullFormatter())
-    ratios = [ratio for _, each in rows for ratio in each.values()] or [1.0]
-    axes.set_xlim(min(0.8, 0.65 * min(ratios)), max(1.5, 1.6 * max(ratios)))
-    axes.grid(True, axis="x", which="major", linewidth=0.4, color="#CCCCCC")
-    axes.set_axisbelow(True)
-    axes.set_xlabel("CPU time with one feature on, over that of the bare collision (= 1)")
-    figure.legend(loc="outside upper center", ncols=4, frameon=False)
-    return figure
-
-
-def _rows(record: Record) -> list[tuple[str, dict[str, float]]]:
-    """A label and the ratios by feature, for every kind of collision and engine."""
-    rows: dict[tuple[str, str, str], dict[str, float]] = {}
-    bare: dict[tuple[str, str, str], float] = {}
-    for task in record["tasks"]:
-        for cost in task["costs"]:
-            key = (task["preset"], cost["outcome"], cost["engine"])
-            if not cost["on"]:
-                bare[key] = cost["cpu"]
-            elif len(cost["on"]) == 1:
-                rows.setdefault(key, {})[cost["on"][0]] = cost["ratio"]
-    return [
-        (f"{preset}, {outcome}\n{engine} ({bare[preset, outcome, engine] * 1e3:.3g} ms bare)", ratios)
-        for (preset, outcome, engine), ratios in rows.items()
-    ]
 
 
 def growth_curves(record: Record) -> Figure:

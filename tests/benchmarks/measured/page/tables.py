@@ -1,14 +1,12 @@
 """A benchmark's record as Markdown."""
 
-from collections.abc import Sequence
 from typing import Any
 
-from wetdoublet.solvers.formatting.markdown import ms, table
+from wetdoublet.solvers.formatting.markdown import table
 
 from ..cold import first_table
 from ..digits import us
 from ..gradient_work import gradient_work_text
-from ..lines import line_table
 from ..near import near_text
 from ..sharp import sharp_text
 
@@ -84,43 +82,17 @@ def _some(places: list[str]) -> str:
     return ", ".join(places) if len(places) < 4 else f"{places[0]} and {len(places) - 1} others"
 
 
-COST_NOTE = (
-    "Mean CPU time at rtol 1e-9; ratios to the bare collision. Engines of many collisions keep neither ledger nor "
-    "trajectory; the others always know the rotation."
-)
-
-
 def others(record: Record) -> list[str]:
-    """What was measured besides: structures, gradients, boundaries, growth; nothing for what was not."""
+    """What was measured besides: gradients, exact answers, the separatrix, growth; nothing for what was not."""
     parts: list[str] = []
-    if record["structures"]:
-        parts += ["## What a scene does not need, it does not pay for", structure_table(record["structures"])]
-    if record["gradients"]:
-        parts += ["## What a gradient adds to a collision", gradient_table(record["gradients"])]
     if record["gradient_work"]:
         parts += ["## Gradients to twelve parameters, beside peers", gradient_work_text(record["gradient_work"])]
     if record["sharp"]:
         parts += ["## How exact an answer can be asked for", sharp_text(record["sharp"])]
     if record["near"]:
         parts += ["## Near the separatrix", near_text(record["near"])]
-    if record["lines"]:
-        parts += ["## Boundaries, traced and searched for", line_table(record["lines"])]
     if record["growth"]:
         parts += ["## From one collision to many"]
     if record["first_use"]:
         parts += ["## First use", first_table(record["first_use"])]
     return parts
-
-
-def structure_table(found: Sequence[Record]) -> str:
-    """CPU time by what the scene has, and over that of the film alone."""
-    scenes, engines = (list(dict.fromkeys(each[key] for each in found)) for key in ("scene", "engine"))
-    cells = {(each["scene"], each["engine"]): f"{us(each['cpu'])} ({each['ratio']:.2f})" for each in found}
-    rows = [[scene, *(cells.get((scene, engine), "-") for engine in engines)] for scene in scenes]
-    return table(["CPU us a collision (times film alone)", *engines], rows)
-
-
-def gradient_table(found: Sequence[Record]) -> str:
-    """CPU time of a gradient by method and number of parameters."""
-    rows = [[each["method"], str(each["parameters"]), ms(each["cpu"]), f"{each['ratio']:.2f}"] for each in found]
-    return table(["method", "parameters", "CPU ms", "times the collision"], rows)

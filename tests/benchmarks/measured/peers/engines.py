@@ -60,7 +60,6 @@ def engines() -> tuple[Engine, ...]:
         Engine(KERNEL, many=_kernel, fast=True, missing=absent),
         Engine(HEYOKA, many=_heyoka, fast=True, missing=_absent("heyoka")),
         Engine(HEYOKA_ALONE, many=_heyoka_alone, fast=True, missing=_absent("heyoka")),
-        Engine("sundae CVODE, numba", one=_sundae, missing=_absent("sksundae", "scikit-sundae") or _absent("numba")),
         Engine("diffrax Tsit5", many=_diffrax, missing=_absent("diffrax")),
         Engine("scipy LSODA", one=partial(_peer, "LSODA"), builds=False, missing=scipy),
         Engine("scipy Radau", one=partial(_peer, "Radau"), builds=False, missing=scipy),
@@ -155,17 +154,6 @@ def _diffrax(scene: Scene, impacts: Sequence[Impact], rtol: float) -> Bulk:
     from .diffrax_engine import collisions
 
     return collisions(scene, impacts, rtol)
-
-
-def _sundae(scene: Scene, impacts: Sequence[Impact], rtol: float) -> Collide:
-    """One collision after another by CVODE."""
-    from .sundials_engine import locate_by_scipy as run_by_sundials
-
-    def one(k: int) -> Answer:
-        n = dimensionless(scene, impacts[k])
-        return answer(run_by_sundials(load(select_model(scene, n.oblique)), n.groups, rtol))
-
-    return one
 
 
 def _peer(method: str, scene: Scene, impacts: Sequence[Impact], rtol: float) -> Collide:

@@ -64,15 +64,6 @@ def _agrees(scene: Scene, stokes: Any, angle: Any) -> np.ndarray:
     return found["certified"].values
 
 
-@pytest.mark.parametrize("kind", KINDS)
-@pytest.mark.usefixtures("quick")
-def test_equals_rosenbrock(kind: str):
-    """Outcome, proof and every quantity are those of Rosenbrock; some sticks are proved, some trajectories separate."""
-    _, _, stokes, angle = KINDS[kind]
-    certified = _agrees(_scene(kind), stokes, angle)
-    assert 0 < certified.sum() < certified.size
-
-
 @pytest.mark.usefixtures("quick")
 def test_both_spins_of_a_pair():
     """`collide` shows the partner's own spin, and what a stick leaves undefined."""

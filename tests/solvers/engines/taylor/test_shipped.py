@@ -103,6 +103,7 @@ def collided(folder: Path, tmp_path: Path, *lesser: str) -> tuple[str, str]:
     return done.stdout, done.stderr
 
 
+@pytest.mark.slow
 @needs_compiler
 def test_without_a_compiler_the_shipped_kernel_answers(built: Path, tmp_path: Path) -> None:
     """And nothing is said, compiled or kept; nor for the sizes that `wetdoublet compile` shows."""
@@ -112,6 +113,7 @@ def test_without_a_compiler_the_shipped_kernel_answers(built: Path, tmp_path: Pa
     assert not (tmp_path / "cache").exists()
 
 
+@pytest.mark.slow
 @needs_compiler
 @pytest.mark.skipif(machine.sets_of(platform.machine(), [])[0].name != "x86-64", reason="one instruction set only")
 def test_a_lesser_processor_loads_the_baseline(built: Path, tmp_path: Path) -> None:
@@ -156,6 +158,7 @@ def test_a_damaged_or_stale_library_is_not_loaded(built: Path, tmp_path: Path) -
         assert float.fromhex(said.split()[1]) == pytest.approx(whole, rel=1e-7)
 
 
+@pytest.mark.slow
 @needs_compiler
 def test_the_bytes_are_reproducible(built: Path, tmp_path: Path) -> None:
     """Two builds give the same files: their names have digests of their contents."""

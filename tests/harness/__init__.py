@@ -1,1 +1,0 @@
-"""Properties of collisions, tried on random scenes of structures that together have every pair of choices."""

@@ -1,0 +1,102 @@
+"""Faults of the package, each with the property that must notice it."""
+
+from typing import NamedTuple
+
+RUNTIME = "solvers/engines/taylor/runtime"
+
+
+class Mutant(NamedTuple):
+    """A text of a file of the package, what stands in its place, and the property, as MODULE::FUNCTION."""
+
+    file: str
+    old: str
+    new: str
+    property: str
+
+
+MUTANTS = {
+    "a loss booked twice in a million times": Mutant(
+        f"{RUNTIME}/ledger.h",
+        "book->dry += in_lane(",
+        "book->dry += 1.0000003*in_lane(",
+        "test_conservation.py::test_the_ledger_closes",
+    ),
+    "an arm beside mid-gap": Mutant(
+        "generated/taylor/laws/arm_midgap.h",
+        "s->result[k] = 0.5*",
+        "s->result[k] = 0.5001*",
+        "test_conservation.py::test_angular_momentum_is_kept",
+    ),
+    "a smallest gap of the collision before": Mutant(
+        f"{RUNTIME}/queue.h",
+        "    LANE(l->smallest, lane) = 1.0;\n",
+        "",
+        "test_engines.py::test_neighbours_and_order_change_no_bit",
+    ),
+    "a tolerance ten thousand times too loose": Mutant(
+        f"{RUNTIME}/tolerance.h",
+        "double rtol = PER_STEP*q->rtol;",
+        "double rtol = 1e4*q->rtol;",
+        "test_engines.py::test_rtol_is_the_error",
+    ),
+    "a film that the kernel alone has": Mutant(
+        "generated/taylor/laws/film_finite.h", "(-2.0)", "(-2.001)", "test_engines.py::test_a_replay_is_the_kernel"
+    ),
+    "a batch with restitutions of its own": Mutant(
+        "solvers/many/by_kernel.py",
+        'np.where(separated, answers["shown"][:, 0], 0.0)',
+        'np.where(separated, answers["shown"][:, 0]*(1 + 1e-5), 0.0)',
+        "test_engines.py::test_a_batch_is_its_collisions",
+    ),
+    "a saltation that is too small": Mutant(
+        f"{RUNTIME}/tangent_step.h",
+        "-value/choose(falls",
+        "-0.999*value/choose(falls",
+        "test_derivatives.py::test_a_derivative_is_the_extrapolated_difference",
+    ),
+    "a certificate that always holds": Mutant(
+        f"{RUNTIME}/certificates.h",
+        "    mask proved = splat_mask(0);\n    (void)c; (void)y; (void)b; (void)contact;",
+        "    mask proved = splat_mask(TRUTH);\n    (void)c; (void)y; (void)b; (void)contact;",
+        "test_sticks_and_boundaries.py::test_a_certified_stick_followed_on_never_separates",
+    ),
+    "changes the wrong way round": Mutant(
+        "solvers/boundaries/changes.py",
+        "OUTCOMES[before], OUTCOMES[after])",
+        "OUTCOMES[after], OUTCOMES[before])",
+        "test_sticks_and_boundaries.py::test_nothing_changes_between_boundaries",
+    ),
+    "a length that is none": Mutant(
+        "generated/taylor/shared/scale_oblique.h",
+        "vec_exp(0.6*vec_log(q[SI_REDUCED_RADIUS]))",
+        "vec_exp(0.61*vec_log(q[SI_REDUCED_RADIUS]))",
+        "test_symmetries.py::test_similarity",
+    ),
+    "another film than the documents'": Mutant(
+        "generated/taylor/laws/film_finite.h", "(-2.0)", "(-2.001)", "test_reference.py::test_equals_the_reference"
+    ),
+    "an approach in the plane that is too fast": Mutant(
+        "solvers/space/by_kernel.py",
+        "impacts = Impacts(scene, -pairs.opening,",
+        "impacts = Impacts(scene, -1.0001*pairs.opening,",
+        "test_reference.py::test_a_plane_turned_in_space_is_the_plane",
+    ),
+    "an approach in space that is too fast": Mutant(
+        "solvers/space/by_kernel.py",
+        "run_in_space(pairs.scene, vectors, -pairs.opening,",
+        "run_in_space(pairs.scene, vectors, -1.0001*pairs.opening,",
+        "test_reference.py::test_equals_the_reference_in_space",
+    ),
+    "infinity is a number": Mutant(
+        "solvers/scene/schema.py",
+        "if not math.isfinite(value):",
+        "if math.isnan(value):",
+        "test_spoilt_scenes.py::test_a_spoilt_entry_is_named",
+    ),
+    "the farthest name": Mutant(
+        "solvers/errors.py",
+        'return f", did you mean {name}?" if name else ""',
+        'return f", did you mean {name[::-1]}?" if name else ""',
+        "test_spoilt_scenes.py::test_a_misspelt_entry_is_told_the_nearest",
+    ),
+}
