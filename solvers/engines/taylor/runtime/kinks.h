@@ -20,6 +20,8 @@ OUTLINE vec before_kinks(const series *s, vec h, mask creeps)
         vec guard[TERMS];
         for (int k = 0; k <= ORDER; k++)
             guard[k] = k > EXACT ? choose(creeps, damping(k)*guards[which][k], guards[which][k]) : guards[which][k];
+        mask on = (vec_abs(guard[0]) <= ON_KINK) & (guard[1] != 0.0);
+        h = choose(on, vec_min(h, vec_abs(4.0*ON_KINK/guard[1])), h); /* off it, for laws that no state's series has */
         mask close = (vec_abs(guard[0]) > ON_KINK) & NOT(least_of(guard, h) > 0.0);
         if (bits(close))
             look(&first, close, guard, splat(0.0), choose(guard[0] > 0.0, splat(1.0), splat(-1.0)), h, splat_mask(0));
