@@ -26,7 +26,9 @@ def taken() -> dict[str, str]:
     functions = {name for name in known_functions_C99.values() if isinstance(name, str)}
     result = dict.fromkeys(_names("*.py") | _ARGUMENTS | _GUARDS, EMITTED)
     result |= dict.fromkeys(_names("laws/*.py"), "an argument of laws")
-    result |= dict.fromkeys(functions | {"fabs", "if_else", "pi", "result"}, "a name that laws are emitted with")
+    result |= dict.fromkeys(
+        functions | {"abs", "fabs", "if_else", "max", "min", "pi", "result"}, "a name that laws are emitted with"
+    )
     result |= dict.fromkeys(c_words | _MACROS, "a word of C")
     result |= dict.fromkeys([*keyword.kwlist, *keyword.softkwlist], "a word of Python")
     return result | dict.fromkeys(VOCABULARY, "a quantity of the library")

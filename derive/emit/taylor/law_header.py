@@ -171,12 +171,19 @@ def _clearance(
     moving: tuple[sp.Symbol, ...],
     fixed: tuple[sp.Symbol, ...],
 ) -> list[str]:
-    """The C of `clearance`."""
-    expression, positive = clearance(each, intermediates, moving)
-    program, series = cheapest(expression, (), moving)
+    """The C of `clearance`.
+
+    Of a law with kinks it is the difference as it is, since expanded guards lose their digits. Sides stay within a
+    step: no state's series has them, so nothing else makes steps as short as a rounded side needs them.
+    """
+    sides = {side: sp.sign(kink) for kink, side in each.kinks}
+    expression, positive = (LIMIT - each.result, False) if sides else clearance(each, intermediates, moving)
+    definitions = [(symbol, sides.get(symbol, value)) for symbol, value in intermediates] if sides else []
+    program, series = cheapest(expression, definitions, moving)
     constants = Constants({argument: f"c->{argument.name}" for argument in (*fixed, LIMIT)})
     doc = f"Limit minus value{', times the positive denominator' if positive else ''}: the sign of the event function."
-    lines = _recurrences(f"{name}_clearance", doc, program, series, constants, moving)
+    kinks = [kink for kink, _ in each.kinks]
+    lines = _recurrences(f"{name}_clearance", doc, program, series, constants, moving, kinks)
     return [*_constants(f"{name}_clearance", constants, (*fixed, LIMIT)), *lines]
 
 

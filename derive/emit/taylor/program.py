@@ -19,7 +19,7 @@ from ..casadi.printer import EmissionError
 # Cost of an operation in products of whole series; a square counts one half.
 COST = {
     "linear": 0.0, "product": 1.0, "square": 0.5, "quotient": 1.0, "reciprocal": 1.0, "sqrt": 0.5, "exp": 1.0,
-    "log": 1.0, "power": 2.0, "sine": 2.0, "cosine": 0.0, "call": 0.0,
+    "log": 1.0, "side": 0.0, "power": 2.0, "sine": 2.0, "cosine": 0.0, "call": 0.0,
 }  # fmt: skip
 Call = tuple[str, str, tuple[str | sp.Expr, ...]]
 """Slot, function and arguments of a law's call: a series by name, a constant as an expression."""
@@ -169,6 +169,9 @@ class Program:
             inner = self.series(node.args[0])
             kind = "exp" if isinstance(node, sp.exp) else "log"
             return self._add(kind, (inner,), name, f"{kind}_of_{inner}")
+        if isinstance(node, sp.sign):
+            inner = self.series(node.args[0])
+            return self._add("side", (inner,), name, f"side_of_{inner}")
         if isinstance(node, (sp.sin, sp.cos)):
             return self._sine_or_cosine(node, name)
         if isinstance(node, sp.tan):

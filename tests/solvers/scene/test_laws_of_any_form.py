@@ -118,6 +118,26 @@ def test_kinks_of_a_potential(tmp_path: Path):
     assert values == pytest.approx([values[0]] * 3, rel=1e-8)
 
 
+def test_a_pressure_with_kinks(tmp_path: Path):
+    """A kink of the pressure is no glass transition: in every engine the law is 1.95 times the library's.
+
+    The pair passes the kinks at 0.926 x0 before it meets the criterion, or meets none.
+    """
+    law = 'law("glass", "mine", pressure=3*mu*a*(-u)/x**2*(1.95 + Min(Max(u/v0 - 1, 0), x/x0, 0.926)))'
+    own = scene(tmp_path, law)
+    library = Scene.load("granulation")
+    library = library.with_entries({"liquid.glass_transition_pressure": 20e6 / 1.95})
+    for stokes, angle in ((0.07, "34 deg"), (0.0316, "15 deg"), (0.1, "60 deg")):
+        expected = collide(library, stokes=stokes, angle=angle, rtol=1e-11, ledger=False)
+        for engine in ENGINES:
+            found = collide(own, stokes=stokes, angle=angle, rtol=1e-11, engine=engine, ledger=False)
+            assert (found.outcome, found.engine) == (expected.outcome, engine)
+            assert found.restitution == pytest.approx(expected.restitution, rel=1e-8)
+    bent = scene(tmp_path, 'law("glass", "mine", pressure=3*mu*a*(-u)/x**2*(1.95 + Min(x/x0, 0.926)))')
+    values = [collide(bent, stokes=0.07, angle="34 deg", rtol=1e-11, engine=by).restitution for by in ENGINES]
+    assert values == pytest.approx([values[0]] * 3, rel=1e-8)  # the criterion is met behind the kink
+
+
 @pytest.mark.parametrize("number", range(0, 60, 7))
 def test_random_laws(number: int, tmp_path: Path):
     """A law drawn at random is refused with a sentence, or the three engines agree on it."""

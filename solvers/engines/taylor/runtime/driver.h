@@ -297,6 +297,7 @@ static void run(queue *q)
         mask creeps;
         vec h = length_of_step(q, &e, &l, &f, &creeps);
 #if KINKS
+        expand_glass(&e.s, &f.c); /* its pressure may have kinks */
         h = before_kinks(&e.s, h, creeps);
 #endif /* KINKS */
         first_event first = event_of_step(q, &e, &l, &f, h);

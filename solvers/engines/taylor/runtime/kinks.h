@@ -23,6 +23,8 @@ OUTLINE vec before_kinks(const series *s, vec h, mask creeps)
         for (int k = 0; k <= ORDER; k++)
             guard[k] = k > EXACT ? choose(creeps, damping(k)*guards[which][k], guards[which][k]) : guards[which][k];
         vec size = vec_abs(guard[0]), sign = choose(guard[0] > 0.0, splat(1.0), splat(-1.0));
+        mask on = (size <= ON_KINK) & (guard[1] != 0.0);
+        h = choose(on, vec_min(h, vec_abs(4.0*ON_KINK/guard[1])), h); /* off it, for laws that no state's series has */
         vec target = sign*choose(size > 2.0*NEAR_KINK, splat(NEAR_KINK), 0.5*size);
         mask close = (size > ON_KINK) & NOT(least_of(guard, h) > NEAR_KINK);
         if (bits(close))
