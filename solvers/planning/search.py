@@ -156,6 +156,7 @@ class _Candidates:
         Arguments:
             top: number of promising candidates that are made exact at once until the best of them is: for the bound.
         """
+        start = chosen
         for _ in range(_CORRECTIONS):
             chosen = self._exchange(chosen.copy())
             promising = np.argsort(-self.rate(chosen))[:top]
@@ -164,7 +165,8 @@ class _Candidates:
             which = np.unique(np.concatenate([chosen, promising]))
             which = which[~self.is_exact[which]]
             self.single[:, which], self.is_exact[which] = self.exact(self.points[which]), True
-        return chosen
+        # an exchange for a candidate that was the best by its error may not be undone by single exchanges
+        return start if self.is_exact[start].all() and self.value(start) > self.value(chosen) else chosen
 
     def _exchange(self, chosen: np.ndarray) -> np.ndarray:
         """Each impact is replaced by the best candidate, until none is better."""
