@@ -11,15 +11,15 @@ from typing import TYPE_CHECKING
 from ..host.progress import Progress
 
 if TYPE_CHECKING:
-    from .boundary_cache import Detail
-    from .parts import Part
+    from .lines import Lines
+    from .report import Part
 
 PARTS = ("table1", "fig1", "fig3", "fig4a", "fig4b", "factors")
 """Each is the function `make` of the module of that name."""
 
 
 def reproduce(
-    which: Sequence[str], folder: Path, *, detail: Detail | None = None, say: Callable[[str], None] | None = None,
+    which: Sequence[str], folder: Path, *, lines: Lines | None = None, say: Callable[[str], None] | None = None,
     progress: Progress | None = None,
 ) -> list[Path]:  # fmt: skip
     """Compute parts of the paper and write the report on them.
@@ -27,7 +27,7 @@ def reproduce(
     Arguments:
         which: names from PARTS.
         folder: output folder; created if absent.
-        detail: resolution of the figures; None for print quality.
+        lines: with the resolution of the figures; None for print quality.
         say: called with a text on the current step.
         progress: called with (parts done, parts in all).
 
@@ -41,26 +41,27 @@ def reproduce(
 
     from ..formatting.document import report
     from ..host.files import write_all_in
-    from .boundary_cache import BoundaryCache
+    from .lines import Lines
     from .report import TITLE, blocks
 
     folder.mkdir(parents=True, exist_ok=True)
-    cache = BoundaryCache(detail, say)
+    lines = lines or Lines()
+    lines.say = say or lines.say
     parts: list[Part] = []
     stopped = None
     try:
         for name in which:
             if progress is not None:
                 progress(len(parts), len(which))
-            parts.append(import_module(f".{name}", __name__).make(cache, folder))
+            parts.append(import_module(f".{name}", __name__).make(lines, folder))
     except KeyboardInterrupt:
         if not parts:
             raise
-        left, kept = ", ".join(which[len(parts) :]), folder / "report.md"
-        stopped = KeyboardInterrupt(f"interrupted: {len(parts)} of {len(which)} parts are in {kept}; without {left}")
+        rest, file = ", ".join(which[len(parts) :]), folder / "report.md"
+        stopped = KeyboardInterrupt(f"interrupted: {len(parts)} of {len(which)} parts are in {file}; without {rest}")
     pictures = [folder / picture.file for part in parts for picture in part.pictures]
-    counted = f", from {cache.collisions} collisions" if cache.collisions else ""
-    failed = f" Not traced: {'; '.join(cache.failures)}." if cache.failures else ""
+    counted = f", from {lines.collisions} collisions" if lines.collisions else ""
+    failed = f" Not traced: {'; '.join(lines.failures)}." if lines.failures else ""
     date, ours = time.strftime("%Y-%m-%d", time.gmtime()), f"wetdoublet {version('wetdoublet')}"
     how = f"Computed by {ours} in one run on {date}{counted}; none of our numbers is typed in.{failed}"
     written = write_all_in(folder, report(TITLE, blocks(parts, how)))

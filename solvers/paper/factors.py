@@ -9,11 +9,9 @@ from ..formatting.document import Table
 from ..formatting.style import LETTERS
 from ..scene.scene import Scene
 from ..sensitivity.boundaries import moving
-from .boundary_cache import PRESSURE, BoundaryCache, Line, change_at, outcomes, printed_pressure
-from .fig4a import centrifugal, near_printed
-from .parts import Comparison, Part, degrees, number
+from .lines import BRIDGED, PRESSURE, Line, Lines, centrifugal, described, ends, outcomes, printed_pressure
 from .printed import PRINTED
-from .variants import BRIDGED, described, variant
+from .report import Comparison, Part, degrees, number
 
 DOUBLED = {
     "factor_volume": "bridge.volume",
@@ -27,18 +25,17 @@ _AT = math.radians(45)
 _OUT_OF_REACH = 1e9  # factor on the preset's glass-transition pressure
 
 
-def make(cache: BoundaryCache, folder: Path) -> Part:  # noqa: ARG001 # every part is made alike; this one has no picture
+def make(lines: Lines, folder: Path) -> Part:  # noqa: ARG001 # every part is made alike; this one has no picture
     """Compute the part: the S/SRS boundary of every scene with a doubled quantity."""
-    cache.say("factors: Ce* with one quantity doubled")
-    angles, place = cache.detail.critical, cache.detail.critical.index(_AT)
-    base = variant(BRIDGED, {})
-    base = base.with_entries({PRESSURE: _OUT_OF_REACH * printed_pressure(base)})
+    lines.say("factors: Ce* with one quantity doubled")
+    angles, place = lines.critical, lines.critical.index(_AT)
+    preset = Scene.load(BRIDGED)
+    base = preset.with_entries({PRESSURE: _OUT_OF_REACH * printed_pressure(preset)})
     scenes = [base, *(_doubled(base, entry) for entry in DOUBLED.values())]
-    lines = iter(cache.many([near_printed(scene, angle) for scene in scenes for angle in angles]))
-    traced = [[next(lines)[0] for _ in angles] for _ in scenes]
+    traced = [lines.along(scene, angles, near=True) for scene in scenes]
     critical = np.array([[centrifugal(line) for line in row] for row in traced])
     factors = critical[1:] / critical[0]  # by quantity and angle
-    [in_reach] = cache.lines(_doubled(variant(BRIDGED, {}), DOUBLED["factor_radius"]), (_AT,))
+    [in_reach] = lines.along(_doubled(preset, DOUBLED["factor_radius"]), (_AT,))
     through = ", ".join(LETTERS[outcome] for outcome in outcomes(in_reach))
     printed = np.array([PRINTED[key].value for key in DOUBLED])
     angle = int(np.argmin(((factors - printed[:, None]) ** 2).sum(axis=0)))
@@ -72,7 +69,7 @@ def _doubled(scene: Scene, entry: str) -> Scene:
 
 def _predicted(base: Scene, line: Line, factors: np.ndarray, names: list[list[str]]) -> Table:
     """Table of factors predicted by the exact elasticities of Ce* at 45 degrees, and of computed factors."""
-    elasticities = moving(base, _AT, change_at(line, "stick"), tuple(DOUBLED.values())).elasticity["centrifugal"]
+    elasticities = moving(base, _AT, ends(line), tuple(DOUBLED.values())).elasticity["centrifugal"]
     rows = []
     for name, entry, factor in zip(names, DOUBLED.values(), factors):
         elasticity = float(elasticities[entry] or 0.0)

@@ -9,20 +9,20 @@ from ..collision.plot.strip import draw_strip, strip_size
 from ..collision.result import Collision
 from ..formatting.document import Picture, Table
 from ..formatting.style import LETTERS
-from .boundary_cache import BoundaryCache, Job, Line
-from .parts import Comparison, Part, degrees, number
+from ..scene.scene import Scene
+from .lines import PENDULUM, STRING_VARIANTS, Line, Lines, described, variants
 from .printed import PRINTED, SHOT_ANGLE, SHOTS, Shot
+from .report import Comparison, Part, degrees, number
 from .style import COLUMN, sheet
-from .variants import PENDULUM, STRING_VARIANTS, described, variant
 
 _BEFORE, _AFTER = 1, 4  # frames before and after initial contact
 _MS = 1e3
 
 
-def make(cache: BoundaryCache, folder: Path) -> Part:
+def make(lines: Lines, folder: Path) -> Part:
     """Compute the part: the three collisions and their figure."""
-    cache.say("fig. 1: frames of the three collisions")
-    scene = variant(PENDULUM, {})
+    lines.say("fig. 1: frames of the three collisions")
+    scene = Scene.load(PENDULUM)
     shown = {"angle": SHOT_ANGLE, "ledger": False, "trajectory": True, "engine": "taylor"}
     collisions = [collide(scene, stokes=shot.stokes, **shown) for shot in SHOTS]  # type: ignore[arg-type]  # by keyword
     _draw(collisions, folder / "fig1.png")
@@ -44,7 +44,7 @@ def make(cache: BoundaryCache, folder: Path) -> Part:
         "Fig. 1: three collisions",
         comparisons=comparisons,
         pictures=(Picture("fig1.png", caption, COLUMN),),
-        tables=(_moved(cache),),
+        tables=(_moved(lines),),
         scenes=(PENDULUM,),
     )
 
@@ -56,13 +56,12 @@ def _said(one: Collision) -> str:
     return f"ends at the experiment's cut-off ({last.kind}) after {_MS * last.time:.4g} ms"
 
 
-def _moved(cache: BoundaryCache) -> Table:
+def _moved(lines: Lines) -> Table:
     """Table of outcomes and boundaries along the line of Fig. 1 for the variants."""
-    scenes = {name: variant(PENDULUM, changes) for name, changes in STRING_VARIANTS.items()}
-    cache.say("fig. 1: variants")
-    traced = cache.many([Job(scene, (SHOT_ANGLE,)) for scene in scenes.values()])
+    lines.say("fig. 1: variants")
     rows = []
-    for name, [line] in zip(scenes, traced):
+    for name, scene in variants(PENDULUM, STRING_VARIANTS).items():
+        [line] = lines.along(scene, (SHOT_ANGLE,))
         changes = ", ".join(f"{LETTERS[c.before]}/{LETTERS[c.after]} {number(c.stokes)}" for c in line)
         rows.append([name, *(_outcome(shot, line) for shot in SHOTS), changes or "failed"])
     rows.append(["paper", *(LETTERS[PRINTED[f"fig1{shot.panel}"].text] for shot in SHOTS), "-"])

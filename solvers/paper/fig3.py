@@ -10,32 +10,41 @@ from ..boundaries.boundary import Atlas
 from ..formatting.document import Picture, Table
 from ..formatting.style import halo
 from ..scene.scene import Scene
-from .boundary_cache import BoundaryCache, Job, Line, criterion_met, printed_pressure, shown, sticks_to
-from .parts import Comparison, Part, number
+from .lines import (
+    PENDULUM,
+    STRING_VARIANTS,
+    Line,
+    Lines,
+    criterion_met,
+    described,
+    printed_pressure,
+    sticks_to,
+    variants,
+)  # fmt: skip
 from .printed import PRINTED
+from .report import Comparison, Part, number, shown
 from .style import ANGLE, COLUMN, GREY, STOKES, draw_map, sheet
-from .variants import PENDULUM, STRING_VARIANTS, described, variant
 
 _REACH = 2.5  # St at the right edge
 _BESIDE = 1 + 1e-6
 _BELOW = 0.8  # start of the search for the criterion, relative to the boundary
 
 
-def make(cache: BoundaryCache, folder: Path) -> Part:
+def make(lines: Lines, folder: Path) -> Part:
     """Compute the part: the map, and St* at theta0 = 0 for the variants."""
-    cache.say("fig. 3: tracing the pendulum's boundaries")
-    scene = variant(PENDULUM, {})
-    whole = cache.map(scene, _REACH)
+    lines.say("fig. 3: tracing the pendulum's boundaries")
+    scene = Scene.load(PENDULUM)
+    whole = lines.map(scene, _REACH)
     _draw(whole, folder / "fig3.png")
     used = described(scene)
     at_printed = math.radians(PRINTED["angle_3"].value)
-    [head_on], [[rotates, *_]] = cache.many([Job(scene, (0.0,)), Job(scene, (at_printed,))])
+    head_on, [rotates, *_] = lines.along(scene, (0.0, at_printed))
     escapes, met = sticks_to(head_on), _met(scene, head_on)
     first = math.degrees(min(min(curve.x) for curve in whole.curves if curve.after == ROTATE))
     leaves = math.degrees(max(max(curve.x) for curve in whole.curves if curve.before == ROTATE))
     printed = PRINTED["stokes_3"]
-    cache.say("fig. 3: glass-transition pressure of the printed St*")
-    fitted = cache.pressure_for(scene, printed.value)
+    lines.say("fig. 3: glass-transition pressure of the printed St*")
+    fitted = lines.pressure_for(scene, printed.value)
     rows = (
         Comparison(
             "stokes_3",
@@ -63,7 +72,7 @@ def make(cache: BoundaryCache, folder: Path) -> Part:
         "Fig. 3: regime map of the pendulum",
         comparisons=rows,
         pictures=(Picture("fig3.png", caption, COLUMN),),
-        tables=(_moved(cache),),
+        tables=(_moved(lines),),
         scenes=(PENDULUM,),
     )
 
@@ -73,15 +82,13 @@ def _met(scene: Scene, head_on: Line) -> float:
     return criterion_met(scene, _BELOW * sticks_to(head_on), sticks_to(head_on) * _BESIDE)
 
 
-def _moved(cache: BoundaryCache) -> Table:
+def _moved(lines: Lines) -> Table:
     """Both readings of St* for the variants; lever arm and logarithm have no effect head-on."""
-    cache.say("fig. 3: variants")
-    scenes = {name: variant(PENDULUM, changes) for name, changes in STRING_VARIANTS.items()}
-    traced = cache.many([Job(scene, (0.0,)) for scene in scenes.values()])
-    rows = [
-        [name, shown(partial(_met, scene, head_on)), shown(partial(sticks_to, head_on))]
-        for (name, scene), [head_on] in zip(scenes.items(), traced)
-    ]
+    lines.say("fig. 3: variants")
+    rows = []
+    for name, scene in variants(PENDULUM, STRING_VARIANTS).items():
+        [head_on] = lines.along(scene, (0.0,))
+        rows.append([name, shown(partial(_met, scene, head_on)), shown(partial(sticks_to, head_on))])
     rows.append(["paper", PRINTED["stokes_3"].text, ""])
     head = ["variant", "St*: a criterion is met", "St*: escapes"]
     caption = "Pendulum at θ₀ = 0: St* under the variants (head-on, lever arm and tangential cut-off have no part)"

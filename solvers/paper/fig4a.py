@@ -10,36 +10,42 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from ..boundaries.boundary import Atlas
-from ..errors import ComputationError
 from ..formatting.document import Picture, Table
 from ..formatting.style import INK, halo
-from ..model.dimensionless import nondimensionalise
 from ..scene.scene import Scene
-from .boundary_cache import BoundaryCache, Job, Line, change_at, outcomes, printed_pressure, shown, sticks_to
-from .parts import Comparison, Part, degrees, number
+from .lines import (
+    BRIDGE_VARIANTS,
+    BRIDGED,
+    DRY,
+    Lines,
+    centrifugal,
+    described,
+    outcomes,
+    per_stokes_squared,
+    printed_pressure,
+    sticks_to,
+    variants,
+)  # fmt: skip
 from .printed import PRINTED
+from .report import Comparison, Part, degrees, number, shown
 from .style import ANGLE, BLUE, COLUMN, GREY, ORANGE, STOKES, draw_map, sheet
-from .variants import BRIDGE_VARIANTS, BRIDGED, DRY, described, variant
 
 _REACH = 0.26  # St at the right edge
-_NO_BRIDGE = "without a bridge there is no centrifugal number"
-_AROUND = 1.35  # factor in St; nearly a factor of two in Ce
 _TAIL = 1.15  # end of the lines of constant Ce, relative to our St*
 _OURS_AT = math.radians(45)  # angle at which our Ce* is read
 _FIRST = math.radians(0.5)  # the lowest oblique line without a bridge
 
 
-def make(cache: BoundaryCache, folder: Path) -> Part:
+def make(lines: Lines, folder: Path) -> Part:
     """Compute the part: both maps, and Ce* and St* for the variants."""
-    cache.say("fig. 4a: tracing the granules' boundaries")
-    scene, dry = variant(BRIDGED, {}), variant(DRY, {})
-    whole, dry_oblique = cache.map(scene, _REACH), cache.map(dry, _REACH, _FIRST)
-    [dry_head_on], [head_on] = cache.many([Job(dry, (0.0,)), Job(scene, (0.0,))])
-    cache.say("fig. 4a: variants")
-    critical = cache.detail.critical
-    variants = _variants_table(cache)  # traces all variants together
-    criticals = [centrifugal(line) for line in cache.lines(scene, critical)]
-    critical_centrifugal = centrifugal(cache.lines(scene, (_OURS_AT,))[0])
+    lines.say("fig. 4a: tracing the granules' boundaries")
+    scene, dry = Scene.load(BRIDGED), Scene.load(DRY)
+    whole, dry_oblique = lines.map(scene, _REACH), lines.map(dry, _REACH, _FIRST)
+    [dry_head_on], [head_on] = lines.along(dry, (0.0,)), lines.along(scene, (0.0,))
+    lines.say("fig. 4a: variants")
+    moved = _moved(lines)
+    criticals = [centrifugal(line) for line in lines.along(scene, lines.critical)]
+    critical_centrifugal = centrifugal(lines.along(scene, (_OURS_AT,))[0])
     stokes = sticks_to(head_on)
     with sheet(folder / "fig4a.png", 7.6) as figure:
         axes = figure.add_subplot()
@@ -55,37 +61,15 @@ def make(cache: BoundaryCache, folder: Path) -> Part:
     )
     return Part(
         "Fig. 4a: regime map of granules",
-        comparisons=_compared(cache, scene, dry, stokes, critical_centrifugal, criticals, only_head_on),
+        comparisons=_compared(lines, scene, dry, stokes, critical_centrifugal, criticals, only_head_on),
         pictures=(Picture("fig4a.png", caption, COLUMN),),
-        tables=(variants,),
+        tables=(moved,),
         scenes=(BRIDGED, DRY),
     )
 
 
-def centrifugal(line: Line) -> float:
-    """Ce* of a line of constant angle: Ce at the end of sticking."""
-    value = change_at(line, "stick").centrifugal
-    if value is None:
-        raise ComputationError(_NO_BRIDGE)
-    return value
-
-
-def per_stokes_squared(scene: Scene, angle: float) -> float:
-    """Ce over St^2 of a scene at an angle (rad)."""
-    value = nondimensionalise(scene, scene.speed_of(1.0), angle).centrifugal
-    if value is None:
-        raise ComputationError(_NO_BRIDGE)
-    return value
-
-
-def near_printed(scene: Scene, angle: float) -> Job:
-    """A job for the S/SRS boundary alone, searched around the printed Ce*."""
-    middle = math.sqrt(PRINTED["centrifugal"].value / per_stokes_squared(scene, angle))
-    return Job(scene, (angle,), (middle / _AROUND, middle * _AROUND))
-
-
 def _compared(
-    cache: BoundaryCache,
+    lines: Lines,
     scene: Scene,
     dry: Scene,
     stokes: float,
@@ -93,9 +77,9 @@ def _compared(
     criticals: Sequence[float],
     only_head_on: bool,
 ) -> tuple[Comparison, ...]:
-    cache.say("fig. 4a: glass-transition pressure of the printed St*")
-    pressure, fitted = printed_pressure(scene), cache.pressure_for(scene, PRINTED["stokes_4"].value)
-    ours_over_angles = _spread(cache.detail.critical, criticals)
+    lines.say("fig. 4a: glass-transition pressure of the printed St*")
+    pressure, fitted = printed_pressure(scene), lines.pressure_for(scene, PRINTED["stokes_4"].value)
+    ours_over_angles = _spread(lines.critical, criticals)
     return (
         Comparison(
             "stokes_4",
@@ -127,16 +111,12 @@ def _spread(angles: Sequence[float], values: Sequence[float]) -> str:
     return ", ".join(f"{number(value)} at {degrees(angle)}" for angle, value in zip(angles, values))
 
 
-def _variants_table(cache: BoundaryCache) -> Table:
-    critical = cache.detail.critical
-    scenes = {name: variant(BRIDGED, changes) for name, changes in BRIDGE_VARIANTS.items()}
-    head_on = cache.many([Job(scene, (0.0,)) for scene in scenes.values()])
-    jobs = [near_printed(scene, angle) for scene in scenes.values() for angle in critical]
-    oblique = iter(cache.many(jobs))
-    rows = []
-    for name, [line] in zip(scenes, head_on):
-        cells = [shown(partial(centrifugal, *next(oblique))) for _ in critical]
-        rows.append([name, shown(partial(sticks_to, line)), *cells])
+def _moved(lines: Lines) -> Table:
+    """St* and Ce* for the variants."""
+    critical, rows = lines.critical, []
+    for name, scene in variants(BRIDGED, BRIDGE_VARIANTS).items():
+        [head_on], oblique = lines.along(scene, (0.0,)), lines.along(scene, critical, near=True)
+        rows.append([name, shown(partial(sticks_to, head_on)), *(shown(partial(centrifugal, one)) for one in oblique)])
     rows.append(["paper", PRINTED["stokes_4"].text, *(PRINTED["centrifugal"].text for _ in critical)])
     head = ["variant", "St* at 0°", *(f"Ce* at {degrees(angle)}" for angle in critical)]
     return Table("Granules: St* and Ce* under the variants", head, rows)

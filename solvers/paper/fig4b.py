@@ -13,11 +13,10 @@ from ..formatting.document import Picture, Table
 from ..formatting.style import INK
 from ..many.collide_many import collide_many
 from ..scene.scene import Scene
-from .boundary_cache import BoundaryCache, Line, outcomes
-from .parts import Comparison, Part, degrees, number
+from .lines import BRIDGED, Line, Lines, described, outcomes
 from .printed import CURVES, PRINTED
+from .report import Comparison, Part, degrees, number
 from .style import BLUE, COLUMN, GREEN, ORANGE, PURPLE, SKY, STOKES, sheet
-from .variants import BRIDGED, described, variant
 
 _REACH = 0.25  # St at the right edge
 _BESIDE = 1e-6  # relative distance from a boundary at which a curve ends
@@ -41,14 +40,14 @@ class Curve:
         return float(self.restitution.max())
 
 
-def make(cache: BoundaryCache, folder: Path) -> Part:
+def make(lines: Lines, folder: Path) -> Part:
     """Compute the part: the curves between the boundaries, and their figure."""
-    cache.say("fig. 4b: tracing boundaries")
-    scene = variant(BRIDGED, {})
-    lines = cache.lines(scene, CURVES)
-    cache.say("fig. 4b: restitution along the curves")
-    curves, counted = _curves(scene, lines, cache.detail.curve)
-    cache.collisions += counted
+    lines.say("fig. 4b: tracing boundaries")
+    scene = Scene.load(BRIDGED)
+    traced = lines.along(scene, CURVES)
+    lines.say("fig. 4b: restitution along the curves")
+    curves, counted = _curves(scene, traced, lines.curve)
+    lines.collisions += counted
     with sheet(folder / "fig4b.png", 8.2) as figure:
         axes = figure.add_subplot()
         _against_stokes(axes, curves)
@@ -56,7 +55,7 @@ def make(cache: BoundaryCache, folder: Path) -> Part:
     largest = max(curves, key=lambda curve: curve.highest)
     where = int(largest.restitution.argmax())
     rotating = max((curve for curve in curves if curve.outcome == ROTATE), key=lambda curve: curve.highest)
-    at_15, apart = lines[1], _apart(curves)
+    at_15, apart = traced[1], _apart(curves)
     used = described(scene)
     rows = (
         Comparison(
@@ -95,7 +94,7 @@ def make(cache: BoundaryCache, folder: Path) -> Part:
         "sent back with what speed it still had.",
         comparisons=rows,
         pictures=(Picture("fig4b.png", caption, COLUMN),),
-        tables=(_jumps(lines, curves),),
+        tables=(_jumps(traced, curves),),
         scenes=(BRIDGED,),
     )
 

@@ -11,10 +11,9 @@ from ..formatting.document import Picture
 from ..formatting.style import INK
 from ..host import files
 from ..scene.scene import Scene
-from .boundary_cache import BoundaryCache
-from .parts import Part
+from .lines import BRIDGED, PENDULUM, Lines, described
+from .report import Part
 from .style import GREY, sheet
-from .variants import BRIDGED, PENDULUM, described
 
 if TYPE_CHECKING:
     from ...derive.emit.document.theory import Equation
@@ -24,9 +23,9 @@ _TALL, _LOW, _HEAD, _MARGIN = 0.98, 0.58, 0.7, 0.25  # cm; lines with and withou
 _WRAP = 37  # characters of a note on a line without a formula
 
 
-def make(cache: BoundaryCache, folder: Path) -> Part:
+def make(lines: Lines, folder: Path) -> Part:
     """Compute the part: the equations of the presets' laws, typeset into `folder`."""
-    cache.say("table 1: deriving")
+    lines.say("table 1: deriving")
     bridged, hung = Scene.load(BRIDGED), Scene.load(PENDULUM)
     assert bridged.bridge is not None
     assert hung.pendulum is not None
@@ -34,16 +33,16 @@ def make(cache: BoundaryCache, folder: Path) -> Part:
 
     model = bridged.model
     laws = {"arm": model.arm, "shear": model.tangential, "glass": model.glass}
-    lines = theory(laws | {"bridge": bridged.bridge.law, "strings": hung.pendulum.law})
-    _draw(lines, folder / "table1.png")
-    files.write(folder / "table1.tex", document(lines))
+    equations = theory(laws | {"bridge": bridged.bridge.law, "strings": hung.pendulum.law})
+    _draw(equations, folder / "table1.png")
+    files.write(folder / "table1.tex", document(equations))
     words = (
         "The equations of the model in SI, written by the derivation in the symbols of its vocabulary; nothing is "
         f"typed in. Laws: {described(bridged)}; {described(hung)}. The paper's own table is a "
         "picture that its text does not have: these are rebuilt from first principles and held against what it prints."
     )
     picture = Picture("table1.png", "Table 1: theory. LaTeX in table1.tex.", _WIDTH)
-    formulas = tuple((line.group, line.latex, line.note) for line in lines)
+    formulas = tuple((line.group, line.latex, line.note) for line in equations)
     return Part("Table 1: theory", words, pictures=(picture,), formulas=formulas)
 
 

@@ -1,11 +1,11 @@
-"""The Fisher information of planned impacts: the covariance of the score of the fit's likelihood.
+"""The Fisher information of planned impacts, by the moments of what a fit is told.
 
-An impact is seen as its outcome and, if it separates, its restitution with noise. With the scatter integrated out, the
-probability of outcome k is p_k, and a separated one has the density f_k(e) of the measured restitution; both depend on
-the free entries. The outcome tells the sum of p_k' p_k'^T/p_k. If it is known, the restitution tells in addition, for
-every separated outcome, the integral of f_k' f_k'^T/f_k over e less p_k' p_k'^T/p_k. Lines, changes of outcome and
-interpolation along the lines are those of the likelihood, so f_k is a sum of normal densities at the points of its
-quadrature, with exact derivatives.
+An impact is seen as its outcome k and, if it separates, its restitution e with noise. The expectations of functions of
+both, q_j(e) where the outcome is k, have exact derivatives m' by the free entries: the lines through the scatter, their
+changes of outcome and the results along them are those of the likelihood. With G = E[q_i q_j] the information is
+m'^T G^-1 m', the part of the score that such functions tell. Of a stick q is 1 alone: p' p'^T/p. Of other outcomes
+they are polynomials of e; the noise in them is integrated exactly. More of them tell more, and none ever more than
+there is.
 """
 
 from dataclasses import dataclass, replace
@@ -19,13 +19,13 @@ from ..fitting.likelihood import NEGLIGIBLE, Likelihood
 from ..fitting.measurements import Measurements
 from ..fitting.scatter import Resolution, ScatterLines, Segments, nearest_normals
 from ..scene.scene import Scene
-from .density import Curve, information_of
 from .window import RESTITUTION
 
-FINE = Resolution(points=64)
-FINEST = Resolution(lines=9, points=128), Resolution(lines=6, points=128)
+USUAL = Resolution(points=32)
+FINE = Resolution(lines=9, points=32), Resolution(lines=6, points=32)
 # with more lines, some would lie where impacts graze
-_STICK = OUTCOMES.index(STICK)
+_DEGREE = 12  # of the polynomials of the restitution, where there is one line; else less than the number of lines, up
+# to which the rule across them is exact
 _NEAR = 4.0  # standard deviations within which a boundary turns the lines
 _TRIED = 36  # directions of the lines
 
@@ -51,7 +51,7 @@ def information(
     values: np.ndarray,
     plan: Measurements,
     rtol: float = RTOL,
-    resolution: Resolution = FINE,
+    resolution: Resolution = USUAL,
 ) -> Information:
     """The Fisher information of each planned impact; InputError for values that no scene may have.
 
@@ -73,17 +73,17 @@ def information(
     slopes = np.zeros((*probability.shape, len(names)))
     np.add.at(probability, (segments.row, segments.outcome), share)
     np.add.at(slopes, (segments.row, segments.outcome), share[:, None] * segments.mass_slopes(ends))
-    by_restitution = np.zeros((size, len(names), len(names)))
-    noise = plan.observed[RESTITUTION][1] if RESTITUTION in plan.observed else np.full(size, np.nan)
-    dense = (mass > NEGLIGIBLE) & (segments.outcome != _STICK) & np.isfinite(noise[segments.row])
-    counts = np.bincount(lines.row, minlength=size)
-    curves = _curves(experiment, lines, segments.part(dense), ends[:, dense], resolution)
-    for (row, _), row_curves in curves.items():
-        by_restitution[row] += information_of(row_curves, int(counts[row]), float(noise[row]), resolution.points)
     outer = slopes[..., :, None] * slopes[..., None, :]
     single = np.where(probability[..., None, None] > NEGLIGIBLE, outer, 0.0)
     outcome = (single / np.maximum(probability, NEGLIGIBLE)[..., None, None]).sum(axis=1)
-    return Information(outcome + by_restitution, outcome, probability)
+    total = outcome.copy()
+    noise = plan.observed[RESTITUTION][1] if RESTITUTION in plan.observed else np.full(size, np.nan)
+    dense = (mass > NEGLIGIBLE) & (segments.outcome != OUTCOMES.index(STICK)) & np.isfinite(noise[segments.row])
+    counts = np.bincount(lines.row, minlength=size)
+    for row, points in _points(experiment, lines, segments.part(dense), ends[:, dense], resolution):
+        degree = _DEGREE if counts[row] == 1 else min(_DEGREE, int(counts[row]) - 1)
+        total[row] += _beyond_outcome(*points, float(noise[row]), degree)
+    return Information(total, outcome, probability)
 
 
 def reliable_information(
@@ -93,7 +93,7 @@ def reliable_information(
 
     Where they differ, changes of outcome meet or impacts graze, and errors of a quadrature look like information.
     """
-    one, other = (information(scene, names, values, plan, rtol, each) for each in FINEST)
+    one, other = (information(scene, names, values, plan, rtol, each) for each in FINE)
     scale = values**2
     less = np.einsum("cii,i->c", other.total, scale) < np.einsum("cii,i->c", one.total, scale)
     pairs = zip(vars(one).values(), vars(other).values(), strict=True)
@@ -116,22 +116,47 @@ def _directions(experiment: Experiment, plan: Measurements) -> np.ndarray:
     return np.where(near.any(axis=1), tried[worst.argmax(axis=1)], 0.0)
 
 
-def _curves(
+_Points = tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]
+"""Weights, derivatives of their logarithms, restitutions, derivatives: (points,), (points, free entries), twice."""
+
+
+def _points(
     experiment: Experiment, lines: ScatterLines, segments: Segments, ends: np.ndarray, resolution: Resolution
-) -> dict[tuple[int, int], list[Curve]]:
-    """Row and outcome -> the restitution on the segments, line by line; without those that were not completed."""
-    number = segments.line - np.searchsorted(lines.row, segments.row)
-    every: dict[int, Curve] = {}
+) -> list[tuple[int, _Points]]:
+    """Row and points of the scatter, for each of its outcomes; without trajectories that were not completed."""
+    parts: dict[tuple[int, int], list[_Points]] = {}
     exact = replace(resolution, approximate=False)
     for which, mapping, value, slope in segments.results(experiment, lines, ends, (RESTITUTION,), exact):
+        g = mapping.at_points
         for j, k in enumerate(which.tolist()):
             if np.isfinite(value[0, j]).all():
-                span = np.array([segments.low[k], segments.high[k]])
-                every[k] = Curve(
-                    int(segments.kind[k]), mapping.at_nodes.size, int(number[k]), span, ends[:, k],
-                    value[0, j], slope[0, j],
+                length = max(segments.high[k] - segments.low[k], 1e-12)
+                y, (low, high) = segments.low[k] + length * g, ends[:, k]
+                density = np.exp(-(y**2) / 2) / np.sqrt(2 * np.pi)
+                weight = segments.weight[k] * length * mapping.rate * mapping.weight * density
+                moves = np.outer(1 - g, low) + np.outer(g, high)
+                points = (
+                    weight, (high - low) / length - y[:, None] * moves,
+                    mapping.interpolate @ value[0, j], mapping.interpolate @ slope[0, j],
                 )  # fmt: skip
-    curves: dict[tuple[int, int], list[Curve]] = {}
-    for k in sorted(every):
-        curves.setdefault((int(segments.row[k]), int(segments.outcome[k])), []).append(every[k])
-    return curves
+                parts.setdefault((int(segments.row[k]), int(segments.outcome[k])), []).append(points)
+    return [(row, tuple(map(np.concatenate, zip(*each, strict=True)))) for (row, _), each in parts.items()]  # type: ignore[misc]
+
+
+def _beyond_outcome(
+    weight: np.ndarray, log_slope: np.ndarray, value: np.ndarray, slope: np.ndarray, noise: float, degree: int
+) -> np.ndarray:
+    """What polynomials of the measured restitution tell if the outcome is known: (free entries, free entries)."""
+    t, share = np.polynomial.hermite_e.hermegauss(degree + 1)
+    weights = np.outer(weight, share / share.sum()).ravel()
+    measured = (value[:, None] + noise * t).ravel()
+    centre = np.average(measured, weights=weights)
+    scale = np.sqrt(np.average((measured - centre) ** 2, weights=weights))
+    q = np.polynomial.hermite_e.hermevander((measured - centre) / scale, degree)
+    rate = np.pad(q[:, :-1] * np.arange(1, degree + 1), ((0, 0), (1, 0))) / scale
+    of_weight, of_value = (np.repeat(each, t.size, axis=0) for each in (log_slope, slope))
+    moments = (weights[:, None] * q).T @ of_weight + (weights[:, None] * rate).T @ of_value
+    factor = np.linalg.qr(np.sqrt(weights)[:, None] * q, mode="r")
+    told = np.linalg.solve(factor.T, moments)[1:]  # without the constant, which is the outcome
+    information: np.ndarray = told.T @ told
+    return information

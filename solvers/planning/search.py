@@ -8,19 +8,18 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.optimize import minimize
 
 Evaluate = Callable[[np.ndarray], np.ndarray]
 """From points in the unit square (points, 2) to information (draws, points, entries, entries)."""
 
-_LEVELS = 3  # of refinement of the candidates
+_WIDE, _LEVELS = 3, 6  # levels of refinement about the most promising candidates, and in all
 _PROMISING = 24  # candidates around which finer ones are tried, beside those of the design
 _ROUNDS = 30
-_TOP = 16  # candidates that are made exact at once
+_TOP = 16  # most promising candidates that are made exact at once
 _CORRECTIONS = 12  # rounds of exchange and exact information
 _GAIN = 1e-6  # least of the criterion that is worth an exchange
 _LOSS = 3e-3  # of the criterion, that neighbours may cost by becoming one
-_STEPS = 24  # evaluations of the continuous refinement of a point
+_AROUND = np.array([(i, j) for i in (-1, 0, 1) for j in (-1, 0, 1) if (i, j) != (0, 0)])
 
 
 @dataclass(frozen=True)
@@ -97,23 +96,20 @@ def search(
         exact: `evaluate` with smaller errors, for impacts that are chosen: a candidate may be best by an error alone.
     """
     table = _Candidates(evaluate, exact or evaluate, criterion, before, first)
-    moving = np.ptp(first, axis=0) > 0
-    steps = np.array([(i, j) for i in (-1, 0, 1) for j in (-1, 0, 1) if (i, j) != (0, 0)]) * moving
+    near = 3 * h / 2**_WIDE
     chosen = table.exchanged(table.greedy(size))
-    for _ in range(_LEVELS):
+    for level in range(_LEVELS):
         h /= 2
-        around = np.unique(np.concatenate([chosen, np.argsort(-table.rate(chosen))[:_PROMISING]]))
-        table.add((table.points[around][:, None] + h * steps).reshape(-1, 2))
-        chosen = table.exchanged(chosen)
-    chosen = table.settled(chosen)
-    total, rate, bound = table.total(chosen), table.rate(chosen), None
+        promising = np.argsort(-table.rate(chosen))[: _PROMISING if level < _WIDE else 0]
+        around = table.points[np.unique(np.concatenate([chosen, promising]))]
+        table.add((around[:, None] + h * _AROUND * (np.ptp(first, axis=0) > 0)).reshape(-1, 2))
+        chosen = table.exchanged(chosen, _TOP * (level == _LEVELS - 1))
+    rate, bound = table.rate(chosen), None
     if table.is_exact[np.argmax(rate)]:
-        bound = float(criterion.value(total)) + size * float(rate.max()) - float(rate[chosen].sum())
+        bound = table.value(chosen) + size * float(rate.max()) - float(rate[chosen].sum())
+    chosen = table.merged(chosen, near)
     distinct, counts = np.unique(chosen, return_counts=True)
-    points, total = table.moved(distinct, counts, total, h * moving)
-    points, counts, total = table.merged(points, counts, total, 3 * h)
-    value = float(criterion.value(total))
-    return Choice(points, counts, total, value, None if bound is None else max(bound, value), len(table.points))
+    return Choice(table.points[distinct], counts, table.total(chosen), table.value(chosen), bound, len(table.points))
 
 
 class _Candidates:
@@ -131,46 +127,50 @@ class _Candidates:
         total: np.ndarray = self.before + self.single[:, chosen].sum(axis=1)
         return total
 
+    def value(self, chosen: np.ndarray) -> float:
+        return float(self.criterion.value(self.total(chosen)))
+
     def rate(self, chosen: np.ndarray) -> np.ndarray:
         return self.criterion.rate(self.total(chosen), self.single)
 
     def add(self, points: np.ndarray) -> None:
         """Add points that are not among the candidates, clipped to the unit square."""
-        known = {tuple(each) for each in self.points.round(9).tolist()}
-        new = np.unique(np.clip(points, 0, 1).round(9), axis=0)
-        new = np.array([each for each in new.tolist() if tuple(each) not in known]).reshape(-1, 2)
+        known = set(map(tuple, self.points.round(9).tolist()))
+        new = np.array(sorted(set(map(tuple, np.clip(points, 0, 1).round(9).tolist())) - known)).reshape(-1, 2)
         if new.size:
             self.points = np.concatenate([self.points, new])
             self.single = np.concatenate([self.single, self.evaluate(new)], axis=1)
             self.is_exact = np.concatenate([self.is_exact, np.zeros(len(new), bool)])
 
-    def _make_exact(self, which: np.ndarray) -> bool:
-        """Compute the exact information of those that have not got it; False if there is none."""
-        which = np.unique(which[~self.is_exact[which]])
-        if which.size:
-            self.single[:, which], self.is_exact[which] = self.exact(self.points[which]), True
-        return bool(which.size)
-
     def greedy(self, size: int) -> np.ndarray:
         """Candidates chosen one by one, each the best in addition to those before it."""
         total, chosen = self.before, []
         for _ in range(size):
-            best = int(np.argmax(self.criterion.value(total[:, None] + self.single)))
-            chosen.append(best)
-            total = total + self.single[:, best]
+            chosen.append(int(np.argmax(self.criterion.value(total[:, None] + self.single))))
+            total = total + self.single[:, chosen[-1]]
         return np.array(chosen)
 
-    def exchanged(self, chosen: np.ndarray) -> np.ndarray:
-        """The choice after Fedorov's exchange, repeated until the information of all its impacts is exact."""
+    def exchanged(self, chosen: np.ndarray, top: int = 0) -> np.ndarray:
+        """The choice after Fedorov's exchange, repeated until the information of all its impacts is exact.
+
+        Arguments:
+            top: number of promising candidates that are made exact at once until the best of them is: for the bound.
+        """
+        start = chosen
         for _ in range(_CORRECTIONS):
             chosen = self._exchange(chosen.copy())
-            if not self._make_exact(chosen):
+            promising = np.argsort(-self.rate(chosen))[:top]
+            if self.is_exact[chosen].all() and self.is_exact[promising[:1]].all():
                 break
-        return chosen
+            which = np.unique(np.concatenate([chosen, promising]))
+            which = which[~self.is_exact[which]]
+            self.single[:, which], self.is_exact[which] = self.exact(self.points[which]), True
+        # an exchange for a candidate that was the best by its error may not be undone by single exchanges
+        return start if self.is_exact[start].all() and self.value(start) > self.value(chosen) else chosen
 
     def _exchange(self, chosen: np.ndarray) -> np.ndarray:
         """Each impact is replaced by the best candidate, until none is better."""
-        value = float(self.criterion.value(self.total(chosen)))
+        value = self.value(chosen)
         for _ in range(_ROUNDS):
             start = value
             for k in range(chosen.size):
@@ -182,56 +182,13 @@ class _Candidates:
                 break
         return chosen
 
-    def settled(self, chosen: np.ndarray) -> np.ndarray:
-        """The choice after the most promising candidates, on which the bound depends, have exact information."""
-        for _ in range(_CORRECTIONS):
-            top = np.argsort(-self.rate(chosen))[:_TOP]
-            if self.is_exact[top[0]]:
-                break
-            self._make_exact(top)
-            chosen = self.exchanged(chosen)
+    def merged(self, chosen: np.ndarray, near: float) -> np.ndarray:
+        """The choice with neighbours as repetitions of the more frequent, as far as that costs next to nothing."""
+        distinct = np.unique(chosen)
+        apart = np.abs(self.points[distinct][:, None] - self.points[distinct]).max(axis=-1)
+        for pair in distinct[np.argwhere(np.triu(apart < near, 1))].tolist():
+            gone, into = sorted(pair, key=lambda k: int((chosen == k).sum()))
+            fewer = np.where(chosen == gone, into, chosen)
+            if self.value(fewer) > self.value(chosen) - _LOSS:
+                chosen = fewer
         return chosen
-
-    def moved(
-        self, distinct: np.ndarray, counts: np.ndarray, total: np.ndarray, h: np.ndarray
-    ) -> tuple[np.ndarray, np.ndarray]:
-        """The points of distinct impacts, each moved continuously to where it is best; and the information of all."""
-        points = self.points[distinct].copy()
-        free = np.flatnonzero(h > 0)
-        for k in range(len(points)) if free.size else ():
-            rest = total - counts[k] * self.single[:, distinct[k]]
-
-            def with_point(at: np.ndarray, k: int = k, rest: np.ndarray = rest) -> np.ndarray:
-                place = points[k].copy()
-                place[free] = at
-                information: np.ndarray = rest + counts[k] * self.exact(place[None])[:, 0]
-                return information
-
-            start = points[k][free]
-            corners = np.vstack([start, start + np.diag(np.where(start < 0.5, 1, -1) * h[free])])
-            best = minimize(
-                lambda at, information=with_point: -float(self.criterion.value(information(at))), start,
-                method="Nelder-Mead", bounds=[(0, 1)] * free.size,
-                options={"maxfev": _STEPS, "initial_simplex": corners},
-            )  # fmt: skip
-            if -best.fun > self.criterion.value(total):
-                total = with_point(best.x)
-                points[k, free] = best.x
-        return points, total
-
-    def merged(
-        self, points: np.ndarray, counts: np.ndarray, total: np.ndarray, near: float
-    ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """The impacts with neighbours as repetitions of one, as far as that costs next to nothing."""
-        apart = np.abs(points[:, None] - points).max(axis=-1)
-        for one, other in np.argwhere(np.triu(apart < near, 1)).tolist():
-            into, gone = (one, other) if counts[one] >= counts[other] else (other, one)
-            if counts[one] and counts[other]:
-                fewer = counts.copy()
-                fewer[into], fewer[gone] = counts[into] + counts[gone], 0
-                kept = np.flatnonzero(fewer)
-                again = self.before + np.einsum("c,mcij->mij", fewer[kept], self.exact(points[kept]))
-                if self.criterion.value(again) > self.criterion.value(total) - _LOSS:
-                    counts, total = fewer, again
-        kept = np.flatnonzero(counts)
-        return points[kept], counts[kept], total

@@ -3,21 +3,28 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from ..errors import InputError, did_you_mean
 from ..fitting.measurements import ANGLE_SD, RESULT_SD, SPEED_SD, UNKNOWN, Measurements, rows_of
+from ..scene import units
 from ..scene.scene import Scene
-from ..scene.schema import FIELDS
+from ..scene.schema import FIELDS, Field, Range
 
 RESTITUTION = "restitution"
 SPEEDS = ("stokes", "speed", "relative_speed")
 _AXES = (*SPEEDS, "angle")
-_WIDEST_SPEED, _WIDEST_ANGLE = 1 / 3, 0.5
+_SPEED_SD = Field(
+    "speed_sd", "a part of the speed", '"2 %" or 0.02', Range("from 0 to below 0.33", 0.0, 1 / 3, low_open=False)
+)
+_ANGLE_SD = Field(
+    "angle_sd", "an angle", '"1 deg"', Range("from 0 to below 0.5 rad", 0.0, 0.5, low_open=False), unit="rad"
+)
+_NOISE = Field("restitution_sd", "a standard deviation", "0.02", words=("none",))
 _ALONG, _ACROSS = 96, 32  # outcomes that are looked at for their changes: speeds, angles
 _BESIDE = (-1.5, 0.0, 1.5)  # candidates beside a change of outcome, in standard deviations of the speed
 
@@ -45,46 +52,25 @@ class Scatter:
             noise = float(np.median(sd[np.isfinite(values)])) if np.isfinite(values).any() else None
         return cls(float(np.median(data.speed_sd / data.speed)), float(np.median(data.angle_sd)), noise)
 
-    @staticmethod
-    def checked(speed: object, angle: object, restitution: object, default: Scatter) -> Scatter:
+    @classmethod
+    def checked(cls, speed: object, angle: object, restitution: object, default: Scatter) -> Scatter:
         """From an argument each, None for the default; "none" for a restitution that is not measured.
 
         Raises:
             InputError: no acceptable standard deviation, or none in speed and angle.
         """
-        scatter = default
-        if speed is not None:
-            accepted = f'a part of the speed, 0 to below {_WIDEST_SPEED:.2g}, such as "2 %" or 0.02'
-            part = _number("speed_sd", speed, accepted, lambda value: 0 <= value < _WIDEST_SPEED, True)
-            scatter = replace(scatter, speed=part)
-        if angle is not None:
-            scatter = replace(scatter, angle=FIELDS["impact.angle"].number(angle, label="angle_sd"))
-            if scatter.angle >= _WIDEST_ANGLE:
-                accepted = f'an angle from 0 to below {_WIDEST_ANGLE} rad, such as "1 deg"'
-                raise InputError("angle_sd", angle, accepted, "is out of range")
-        if isinstance(restitution, str) and restitution.strip() == "none":
-            scatter = replace(scatter, restitution=None)
-        elif restitution is not None:
-            accepted = 'a number > 0, or "none" where only outcomes are recorded'
-            noise = _number("restitution_sd", restitution, accepted, lambda value: 0 < value < math.inf)
-            scatter = replace(scatter, restitution=noise)
+        if isinstance(speed, str) and speed.strip().endswith("%"):
+            speed = units.number(speed.strip()[:-1], "speed_sd", _SPEED_SD.accepts) / 100
+        noise: Any = default.restitution if restitution is None else _NOISE.read(restitution)
+        scatter = cls(
+            default.speed if speed is None else _SPEED_SD.number(speed),
+            default.angle if angle is None else _ANGLE_SD.number(angle),
+            None if noise == "none" else noise,
+        )
         if scatter.speed == scatter.angle == 0:
             accepted = "speed_sd or angle_sd above 0: an outcome without scatter has no likelihood"
             raise InputError("speed_sd", 0, accepted)
         return scatter
-
-
-def _number(label: str, value: Any, accepted: str, holds: Callable[[float], bool], percent: bool = False) -> float:
-    """A number, or with `percent` also text in %; InputError for anything else."""
-    text = value.strip() if isinstance(value, str) else value
-    try:
-        in_percent = percent and isinstance(text, str) and text.endswith("%")
-        number = float(text[:-1]) / 100 if in_percent else float(text)
-    except (TypeError, ValueError):
-        raise InputError(label, value, accepted, "is not a number") from None
-    if not holds(number):
-        raise InputError(label, value, accepted, "is out of range")
-    return number
 
 
 @dataclass(frozen=True)

@@ -16,14 +16,18 @@ from wetdoublet.solvers.formatting.document import Table, html_page
 from wetdoublet.solvers.formatting.document import report as written
 from wetdoublet.solvers.host.files import write_all_in
 from wetdoublet.solvers.paper import PARTS, factors, fig1, fig3, fig4a, fig4b, report, table1
-from wetdoublet.solvers.paper.boundary_cache import BoundaryCache, Detail, Job, outcomes
-from wetdoublet.solvers.paper.parts import Comparison, number
+from wetdoublet.solvers.paper.lines import BRIDGED, PENDULUM, Lines, outcomes
 from wetdoublet.solvers.paper.printed import CURVES, PRINTED, SHOTS
-from wetdoublet.solvers.paper.variants import BRIDGED, PENDULUM, variant
+from wetdoublet.solvers.paper.report import Comparison, number
+from wetdoublet.solvers.scene.scene import Scene
 
 pytestmark = pytest.mark.slow
 
-COARSE = Detail(lines=5, curve=12, critical=(CURVES[3],))
+
+def coarse():
+    return Lines(starts=5, curve=12, critical=(CURVES[3],))
+
+
 FACTORS = {  # an independent prototype's
     "factor_volume": 1.038,
     "factor_film": 0.762,
@@ -38,12 +42,12 @@ FACTORS = {  # an independent prototype's
 def made(tmp_path_factory):
     """Every part, coarsely drawn, in one folder with the report."""
     folder = tmp_path_factory.mktemp("paper")
-    cache = BoundaryCache(COARSE)
+    lines = coarse()
     modules = {"table1": table1, "fig1": fig1, "fig3": fig3, "fig4a": fig4a, "fig4b": fig4b, "factors": factors}
     assert tuple(modules) == PARTS
-    parts = {name: module.make(cache, folder) for name, module in modules.items()}
+    parts = {name: module.make(lines, folder) for name, module in modules.items()}
     write_all_in(folder, written(report.TITLE, report.blocks(list(parts.values()), "In a test.")))
-    return folder, parts, cache
+    return folder, parts, lines
 
 
 @pytest.fixture
@@ -119,7 +123,7 @@ def test_factors(compared, key):
     """Ce* factors are those of the independent prototype, and on the paper's side of 1."""
     one = compared[key]
     assert one.ours == pytest.approx(FACTORS[key], abs=6e-4)
-    assert (one.ours > 1) == (one.printed.value >= 1)
+    assert (one.ours > 1) == (PRINTED[key].value >= 1)
 
 
 @pytest.mark.parametrize("key", ["dry", "two_at_15", "same_at_15", "above_one"])
@@ -206,14 +210,13 @@ def test_assumed_values_are_named(made):
         assert assumed in text
 
 
-def test_desk_traces_nothing_twice():
+def test_nothing_is_traced_twice():
     """A line that is known is not traced again, in whatever order it is asked for."""
-    cache, scene = BoundaryCache(COARSE), variant(BRIDGED, {})
-    first = cache.lines(scene, CURVES[2:4])
-    count = cache.collisions
-    again = cache.many([Job(scene, CURVES[3:4]), Job(scene, CURVES[2:3])])
-    assert cache.collisions == count
-    assert [again[1][0], again[0][0]] == first
+    lines, scene = coarse(), Scene.load(BRIDGED)
+    first = lines.along(scene, CURVES[2:4])
+    count = lines.collisions
+    assert lines.along(scene, (CURVES[3], CURVES[2])) == first[::-1]
+    assert lines.collisions == count
     assert outcomes(first[0]) == ("stick", "stick-rotate-separate", "bounce")
 
 
