@@ -1,18 +1,21 @@
 #!/usr/bin/env bash
 # pymunk 7.3.1 (Chipmunk), rapier3d 0.36.1, Box2D 2.3.10 and pyb2d3 0.11.1 (Box2D 3): the restitution of a pair
 #
-# Guess: two balls of a material with restitution 0.5 rebound with 0.5; a ball of 0.9 on a ball of 0.5 gives the same
-#   number in each rigid-body engine, somewhere between the two.
-# What happens: the restitution is an attribute of a *body*, and each engine has a rule of its own for the pair. Chipmunk
-#   multiplies (0.5 on 0.5 is 0.25), Rapier takes the mean, Box2D the greater. 0.9 on 0.5 is 0.45, 0.70 and 0.90.
-# Why: impact restitution belongs to a pair of materials; engines that keep one number a body must invent the pair's.
-# Why it matters here: a wet restitution that was computed for the pair and is given to both bodies is right in Box2D and
-#   Rapier and is squared in pymunk (give its square root there).
+# Guess: two balls of a material with restitution 0.5 rebound with 0.5; a ball of 0.9 on a ball of 0.5 gives the
+#   same number in each rigid-body engine, somewhere between the two.
+# What happens: the restitution is an attribute of a *body*, and each engine has a rule of its own for the pair.
+#   Chipmunk multiplies (0.5 on 0.5 is 0.25), Rapier takes the mean, Box2D the greater. 0.9 on 0.5 is 0.45, 0.70 and
+#   0.90.
+# Why: impact restitution belongs to a pair of materials; engines that keep one number a body must invent the
+#   pair's.
+# Why it matters here: a wet restitution that was computed for the pair and is given to both bodies is right in
+#   Box2D and Rapier and is squared in pymunk (give its square root there).
 set -euo pipefail
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 python3 -m venv "$work/venv"
-"$work/venv/bin/pip" install -qq --disable-pip-version-check 'pymunk==7.3.1' 'rapier3d==0.36.1' 'Box2D==2.3.10' 'pyb2d3==0.11.1' 'numpy==2.4.6'
+"$work/venv/bin/pip" install -qq --disable-pip-version-check \
+    'pymunk==7.3.1' 'rapier3d==0.36.1' 'Box2D==2.3.10' 'pyb2d3==0.11.1' 'numpy==2.4.6'
 cd "$work"
 "$work/venv/bin/python" - <<'PY'
 from importlib.metadata import version

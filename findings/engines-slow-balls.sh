@@ -2,19 +2,21 @@
 # Box2D 2.3.10, pyb2d3 0.11.1 (Box2D 3) and rapier3d 0.36.1: slow balls neither rebound nor fly on
 #
 # Guess: without gravity and friction a ball flies on at its speed, and restitution 0.9 is 0.9 at every speed.
-# What happens: in both Box2D a closing speed up to 1 m/s ends in a perfectly inelastic impact, whatever the restitution.
-#   And a ball in free flight stops for good half a second later if it is slow: below 0.01 m/s (Box2D 2), 0.05 m/s (Box2D 3);
-#   in Rapier a ball of 0.02 m/s stops so too and never reaches its partner. Momentum is gone, and nothing says so.
-# Why: engines for games let slow bodies "sleep", and drop small rebounds so that piles come to rest. The limits are lengths
-#   and times of a game: metres and seconds. `can_sleep=False` (Rapier), `allowSleep`/`enable_sleep` and the threshold of the
-#   world turn it off.
-# Why it matters here: oblique impacts of coated grains are studied at 0.01 to 1 m/s, exactly below these limits: what looks
-#   like a stick is the engine's.
+# What happens: in both Box2D a closing speed up to 1 m/s ends in a perfectly inelastic impact, whatever the
+#   restitution. And a ball in free flight stops for good half a second later if it is slow: below 0.01 m/s (Box2D
+#   2), 0.05 m/s (Box2D 3); in Rapier a ball of 0.02 m/s stops so too and never reaches its partner. Momentum is
+#   gone, and nothing says so.
+# Why: engines for games let slow bodies "sleep", and drop small rebounds so that piles come to rest. The limits are
+#   lengths and times of a game: metres and seconds. `can_sleep=False` (Rapier), `allowSleep`/`enable_sleep` and the
+#   threshold of the world turn it off.
+# Why it matters here: oblique impacts of coated grains are studied at 0.01 to 1 m/s, exactly below these limits:
+#   what looks like a stick is the engine's.
 set -euo pipefail
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 python3 -m venv "$work/venv"
-"$work/venv/bin/pip" install -qq --disable-pip-version-check 'rapier3d==0.36.1' 'Box2D==2.3.10' 'pyb2d3==0.11.1' 'numpy==2.4.6'
+"$work/venv/bin/pip" install -qq --disable-pip-version-check \
+    'rapier3d==0.36.1' 'Box2D==2.3.10' 'pyb2d3==0.11.1' 'numpy==2.4.6'
 cd "$work"
 "$work/venv/bin/python" - <<'PY'
 from importlib.metadata import version
