@@ -151,10 +151,10 @@ class EnergyCertificate(Certificate):
     def _drift(self, y: np.ndarray, phase: Phase, barrier: float) -> float:
         """Bound of the energy that a drift of angular momentum can add, over m v0^2; 0 with the lever arm at mid-gap.
 
-        |dL| = |1 - 2 lever/r| |dJ|. J can change by its deviation from
-        rigid rotation and, as the gap varies, by the change of its rigid value; with friction by this deviation
-        again at each rebound that reverses it. Energy and barrier change by omega dL each, where |omega| is taken as
-        the larger of the present one and that of rigid rotation.
+        |dL| = |1 - 2 lever/r| |dJ|. J can change by its deviation from rigid rotation and, as the gap varies, by the
+        change of its rigid value; with friction by this deviation again at each rebound that reverses it. Energy and
+        barrier change by omega dL each, where |omega| is taken as the larger of the present one and that of rigid
+        rotation.
         """
         if self.theorem:
             return 0.0
