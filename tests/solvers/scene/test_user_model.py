@@ -234,3 +234,19 @@ def test_the_page_on_models_is_true(tmp_path: Path):
     assert all(check.ok for check in checks)
     for check in checks:
         assert f"ok   {check.name}" in page
+
+
+def test_a_default_of_another_dimension_is_no_example(tmp_path: Path):
+    """A pressure as the default of a viscosity is refused, and what is accepted is the viscosity's unit."""
+    file = tmp_path / "mine.py"
+    file.write_text(
+        "from wetdoublet.derive.user import *\n"
+        'k = quantity("k", unit="Pa s", default="1 Pa")\n'
+        'law("film", "mine", resistance=6*pi*k*a**2*u/x)\n',
+        encoding="utf-8",
+    )
+    refused = run("generate", file, "--out", tmp_path / "mine")
+    assert refused.exit_code == 2
+    assert refused.stderr.rstrip().endswith(
+        '"1 Pa" is a pressure, not a viscosity; accepted: the k > 0 with its unit, which is Pa s'
+    )
