@@ -140,7 +140,8 @@ def _sign(model: UserModel, law: Law, function: LawFunction, label: str) -> Chec
     for at in _samples(model, law, function):
         least = min(least, value := _value(compiled, at))
         if value < 0:
-            return Check(name, statement, False, f"{function.name} = {value:.3g} at {_at(at)}")
+            hint = ": its sign is that of u, as of u*Abs(u)**(n - 1)" * (law.slot == "film")
+            return Check(name, statement, False, f"{function.name} = {value:.3g} at {_at(at)}{hint}")
     return Check(name, statement, True, f"least value {least:.3g}")
 
 

@@ -30,7 +30,7 @@ def declared(path: Path, text: str | None = None) -> tuple[str, Declarations]:
         except Exception as error:  # noqa: BLE001 # whatever a user's file does
             where = f"{path}, line {_line(error, path)}"
             reason = " ".join(f"{type(error).__name__}: {error}".split())
-            raise ModelFileError(where, None, _ACCEPTED, reason) from None
+            raise ModelFileError(where, None, _remedy(error), reason) from None
     if not result.laws and not result.events:
         accepted = "law(SLOT, NAME, ...) or event(NAME, ...), at least once"
         raise ModelFileError(str(path), None, accepted, "declares no law and no event")
@@ -61,6 +61,17 @@ def _text(path: Path) -> str:
         raise ModelFileError(str(path), None, _ACCEPTED, f"cannot be read ({error.strerror or error})") from None
     except UnicodeDecodeError:
         raise ModelFileError(str(path), None, _ACCEPTED, "is not UTF-8 text") from None
+
+
+def _remedy(error: Exception) -> str:
+    """What to write in place of what failed."""
+    if isinstance(error, NameError):
+        return "a name of `wetdoublet generate --names`, or one of the file's own"
+    if "truth value of Relational" in str(error):
+        return "Piecewise((value, condition), (value, True)) in place of if, and, or"
+    if "ufunc" in str(error):
+        return "the functions of a model file, as exp(x), in place of numpy's"
+    return _ACCEPTED
 
 
 def _line(error: BaseException, path: Path) -> int:

@@ -183,6 +183,8 @@ def dimension_of_unit(text: str, numbers: Mapping[str, sp.Symbol] = MappingProxy
             raise UnitError('is not a unit (one factor behind each "/")')
         for factor in factors:
             match = _FACTOR.fullmatch(factor)
+            if match is None and factor.partition("^")[0] in UNITS:
+                raise UnitError(f"has {factor!r}, whose exponent is not whole, nor a plain number declared before")
             if match is None or match[1] not in UNITS:
                 raise UnitError(f"has the unknown unit {factor!r}")
             if (match[2] or "1")[0].isalpha() and match[2] not in numbers:

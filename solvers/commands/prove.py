@@ -9,6 +9,7 @@ from . import options, texts
 from .bar import Bar
 from .signature import as_command, passed
 
+_ENDS = 'LO:HI, such as liquid.viscosity="1.9:2.1 Pa s"'
 _STOKES, _ANGLE = FIELDS["impact.stokes"], FIELDS["impact.angle"]
 
 
@@ -113,14 +114,15 @@ def _box(within: tuple[str, ...], request: options.SceneRequest) -> Any:
     if plain and len(within) > 1:
         raise InputError("--within", plain[0], "an uncertainty of the impact alone, or entries NAME=RANGE")
     if plain:
-        return texts.number("a relative uncertainty, such as 1e-4, or NAME=LO:HI", plain[0])
+        return texts.share("a relative uncertainty, such as 1e-4, or NAME=LO:HI", plain[0], "--within")
     box: dict[str, Any] = {}
-    for name, text in texts.assigned('NAME=LO:HI, such as liquid.viscosity="1.9:2.1 Pa s"', within).items():
+    for name, text in texts.assigned(f"NAME={_ENDS}", within, "--within").items():
         known = fields(request.package)
         if name in known and ":" in text and not (known[name].choices or known[name].flag):
             box[name] = texts.span(known[name], text, f"--within {name}")
         elif ":" in text:
             box[name] = tuple(text.split(":", 1))
         else:
-            box[name] = texts.number("a relative uncertainty, such as 1e-4, or LO:HI", text)
+            accepted = f"a relative uncertainty, such as 1e-4 or 1 %, or both ends, {_ENDS}"
+            box[name] = texts.share(accepted, text, f"--within {name}")
     return box

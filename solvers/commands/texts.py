@@ -49,12 +49,13 @@ def assigned(accepted: str, texts: Sequence[str], label: str = "") -> dict[str, 
     return values
 
 
-def number(accepted: str, text: str) -> float:
-    """A number; InputError for another text."""
+def share(accepted: str, text: str, label: str = "") -> float:
+    """A part of the whole, as 0.01 or "1 %"; InputError for another text."""
+    plain = text.strip().removesuffix("%")
     try:
-        return float(text)
+        return float(plain) / (1 if plain == text.strip() else 100)
     except ValueError:
-        raise InputError("", text, accepted, "is no number") from None
+        raise InputError(label, text, accepted, "is no number") from None
 
 
 def whole(text: str) -> int:

@@ -14,7 +14,7 @@ def command(
     film: str | None,
     rate: str | None,
     scale: str | None,
-    scale_sd: Annotated[float | None, partial(texts.number, "a number")],
+    scale_sd: Annotated[float | None, partial(texts.share, "a number, as 0.005, or 0.5 %")],
     noise: str | None,
     near: str | None,
     request: options.EntriesRequest,

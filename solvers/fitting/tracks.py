@@ -170,7 +170,8 @@ def tracks(
     gap = None if near is None else _size(near, "m", "near", pixel=pixel, plain=None)
     clock = known.get("time") or known.get("frame")
     if clock is None:
-        raise InputError("tracks", ", ".join(known), "a column frame, or time [s]", "has no time")
+        given = ", ".join(each.name for each in columns)
+        raise InputError("tracks", given, "a column frame, or time [s]", "has no time")
     time = _numbers(clock, lines, "s", per_frame, "rate" * (clock.name == "frame"))
     unit_of_clock = f" {clock.unit}" if clock.unit and clock.name == "time" else ""
     films = [str(each) for each in known["impact"].cells] if "impact" in known else ["1"] * time.size
@@ -269,7 +270,7 @@ def _impact(
 
     def check_times(gap: float, most: float = math.inf) -> None:
         text, lost = uneven(free(gap), interval, floor)
-        faults = [f"give {', '.join(repeated[:_NAMED])} more than once"] if repeated else []
+        faults = [f"has {', '.join(repeated[:_NAMED])} more than once"] if repeated else []
         faults += [text] if text and lost <= most else []
         if faults:
             raise InputError(where, None, "frames numbered as they were filmed, each once", "; ".join(faults))
@@ -327,7 +328,7 @@ def _impact(
             problem += ", and stay there: is the scale, the diameter or the tracker off?" * rests
             raise InputError(where, None, within, problem)
         if time.size - first < LEAST:
-            problem = f"end {time.size - first} frames after it"
+            problem = f"has {time.size - first} after they meet"
             raise InputError(where, None, f"at least {LEAST} frames after the films meet", problem)
         remarks.append(
             f"together to the end of the film, {time[-1] - time[first]:.3g} s after they met: taken for a stick"

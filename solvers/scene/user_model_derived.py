@@ -47,7 +47,9 @@ def derived_package(path: Path, folder: Path | None) -> Derived:
         try:
             emitted.fields[name].read(value)
         except InputError as error:
-            raise InputError(f"{path}: {name}, default", value, error.accepted, error.problem) from None
+            accepted = error.accepted.partition(", such as")[0]  # the example is this default
+            accepted += f", which is {unit}" if (unit := emitted.fields[name].unit) else ""
+            raise InputError(f"{path}: {name}, default", value, accepted, error.problem) from None
     meanings = [f"{model.name}: {model.meaning}."]
     meanings += [f"  {law.slot} law {law.name}: {law.meaning}" for law in model.laws]
     meanings += [f"  event {event.proposed.word}: {event.proposed.meaning}" for event in model.events]

@@ -69,7 +69,7 @@ def draw_band(data: xarray.Dataset) -> Figure:
     axis = figure.subplots()
     shade: Any = {"color": "#2a6f97", "alpha": 0.25, "linewidth": 0, "label": "±2σ, first order"}
     axis.fill_between(x, y - spread, y + spread, **shade)
-    axis.plot(x, y, color="#2a6f97", linewidth=1.6, label="as given")
+    axis.plot(x, y, ".-", color="#2a6f97", linewidth=1.6, label="as given")
     dashes: Any = {"color": "#c1554a", "linewidth": 0.9, "linestyle": "--"}
     axis.plot(x, low, label=f"2.5 and 97.5 % of {data.attrs['samples']} samples", **dashes)
     axis.plot(x, high, **dashes)

@@ -142,7 +142,10 @@ def test_frames_near_contact_are_left_out(film: dict[str, np.ndarray]) -> None:
 def test_frames_and_times_that_are_shared_are_named(film: dict[str, np.ndarray]) -> None:
     """A row twice names its frame; a clock too coarse for the film names its times and what to give instead."""
     again = {name: np.append(values, values[3]) for name, values in film.items()}
-    with pytest.raises(InputError, match="give frame 3 more than once"):
+    unknown = {"Zeit": film["frame"]} | {name: values for name, values in film.items() if name != "frame"}
+    with pytest.raises(InputError, match='"Zeit, .*" has no time'):
+        read(unknown)
+    with pytest.raises(InputError, match="has frame 3 more than once"):
         read(again)
     lost = {name: np.append(np.delete(values, 9), values[3]) for name, values in film.items()}
     lost["frame"] = np.append(np.arange(film["frame"].size - 1), 3)

@@ -2,6 +2,7 @@
 
 import ctypes
 import itertools
+import json
 from collections import Counter
 
 import numpy as np
@@ -16,6 +17,8 @@ from wetdoublet.solvers.host.user_cache import loaded
 from wetdoublet.solvers.model.model import select_model
 from wetdoublet.solvers.scene.held import impact_quantity
 from wetdoublet.solvers.scene.schema import FIELDS
+
+from ...helpers.command import run
 
 pytestmark = pytest.mark.skipif(compiler() is None, reason="no C compiler")
 
@@ -238,3 +241,14 @@ def test_a_funnel_that_forgets_early_ruptures_is_noticed() -> None:
     """Bounds of the last panel alone leave restitutions out."""
     early = "if (to >= first)"
     assert left_out("bridge.volume", (early, "if (to >= last)")) > 0
+
+
+def test_a_box_on_the_command_line() -> None:
+    """A percentage is that part of the value; what is no width of a box is refused by the entry's name."""
+    proved = [run("prove", "granulation", "--stokes", "0.01", "--json", "--within", f"liquid.viscosity={width}")
+              for width in ("5 %", "0.05", "1.9:2.1 Pa s")]  # fmt: skip
+    boxes = [json.loads(done.stdout)["inputs"]["viscosity"] for done in proved]
+    assert boxes == [pytest.approx([1.9, 2.1])] * 3
+    refused = run("prove", "granulation", "--within", "liquid.viscosity=2 Pa s +- 5 %")
+    assert refused.exit_code == 2
+    assert refused.stderr.startswith('--within liquid.viscosity: "2 Pa s +- 5 %" is no number')

@@ -230,3 +230,19 @@ def test_the_checks_of_the_template_hold():
     checks = model_checks(Path("mine.py"), TEMPLATE)[1]
     assert {check.name.partition(":")[0] for check in checks} == {"dimensions", "groups", "limits", "limit", "emission"}
     assert all(check.ok for check in checks)
+
+
+def test_a_default_of_another_dimension_is_no_example(tmp_path: Path):
+    """A pressure as the default of a viscosity is refused, and what is accepted is the viscosity's unit."""
+    file = tmp_path / "mine.py"
+    file.write_text(
+        "from wetdoublet.derive.user import *\n"
+        'k = quantity("k", unit="Pa s", default="1 Pa")\n'
+        'law("film", "mine", resistance=6*pi*k*a**2*u/x)\n',
+        encoding="utf-8",
+    )
+    refused = run("generate", file, "--out", tmp_path / "mine")
+    assert refused.exit_code == 2
+    assert refused.stderr.rstrip().endswith(
+        '"1 Pa" is a pressure, not a viscosity; accepted: the k > 0 with its unit, which is Pa s'
+    )

@@ -51,6 +51,16 @@ def test_band_against_samples(tmp_path: Path) -> None:
     assert (tmp_path / "band.png").stat().st_size > 10_000
 
 
+def test_a_band_shows_every_value() -> None:
+    """Three impacts of three outcomes, which no line joins, are three points of the picture."""
+    found = band(GRANULATION, {"liquid.viscosity": "2 %"}, "impact.stokes", [0.01, 0.05, 0.3], samples=4)
+    (axis,) = found.wetdoublet.plot().axes
+    (line,) = (line for line in axis.lines if line.get_label() == "as given")
+    y = np.asarray(line.get_ydata())
+    assert y[np.isfinite(y)] == pytest.approx(found.restitution.values)
+    assert line.get_marker() == "."
+
+
 def test_tornado(tmp_path: Path) -> None:
     """A bar for every parameter that can be seen, as long as its elasticity; the others are named in words."""
     found = sensitivities(GRANULATION, ["restitution", "contact_time"])
