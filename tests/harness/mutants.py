@@ -27,9 +27,9 @@ MUTANTS = {
         "s->result[k] = 0.5001*",
         "test_conservation.py::test_angular_momentum_is_kept",
     ),
-    "a smallest gap of the collision before": Mutant(
+    "the film of the collision before": Mutant(
         f"{RUNTIME}/queue.h",
-        "    LANE(l->smallest, lane) = 1.0;\n",
+        "    LANE(l->film, lane) = 1.0;\n",
         "",
         "test_engines.py::test_neighbours_and_order_change_no_bit",
     ),

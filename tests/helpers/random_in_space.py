@@ -83,7 +83,7 @@ def differences(bodies: Bodies, arrival: Arrival, one: Mapping[str, np.ndarray],
     radii = np.array([radius for radius in bodies.radii if math.isfinite(radius)])
     scale = {
         "restitution": max(1e-3, abs(float(other["restitution"][0]))) if other else 1.0,
-        "time": float(other["time"][0]) if other else 1.0,
+        "time": float(other["time"][0]) or 1.0 if other else 1.0,
         "normal": 1.0,
         "velocities": fast,
         "spins": (fast / radii)[:, None],

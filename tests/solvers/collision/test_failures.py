@@ -55,6 +55,7 @@ def test_interrupt(delay: float) -> None:
     assert (said.strip(), running.returncode) == ("interrupted", 130)
 
 
+@pytest.mark.slow
 def test_threads_give_the_serial_results() -> None:
     """Two threads that collide at once: every result is the one of a single thread, to the bit."""
 

@@ -55,6 +55,7 @@ def test_the_reference_knows_every_action() -> None:
         finder._done("explode", finder.phase, "")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("scene", [GRANULATION, PENDULUM], ids=["granulation", "pendulum"])
 def test_both_engines_decide_alike_on_spheres_that_meet_outside_the_film(scene):
     """Events, outcome and restitution of soft spheres with a bridge, whose elastic length is up to three films.

@@ -122,6 +122,7 @@ def test_spheres_that_rub_are_those_of_collide_pair(tmp_path: Path):
     assert np.nanmax(np.abs(spins[0] - spins[1])) > 1.0  # rad/s: friction acts
 
 
+@pytest.mark.slow
 def test_a_stick_depends_on_the_pair_alone(law: Law, folder: Path):
     """Another compilation, lanes and tolerance change when its integration stops, and nothing of what is returned."""
     rows = law.pairs(*arrivals(OWN, 150, seed=7))
@@ -321,6 +322,7 @@ def test_the_header_says_why_there_is_none(scene: Scene, why: str):
     assert "law_collide_pair(const" not in said
 
 
+@pytest.mark.slow
 def test_an_end_with_more_energy_than_its_beginning_is_refused(folder: Path, law: Law, tmp_path: Path):
     """A separation as fast as the approach is an answer; one at twice that speed, which no contact allows, is none."""
     name = law.name

@@ -36,6 +36,7 @@ def test_a_table_in_two_parts_is_one_table(tables):
     assert together[1] == pytest.approx(alone[1], rel=1e-8)
 
 
+@pytest.mark.slow
 def test_scenes_that_share_nothing_are_fitted_alone(tables):
     """With an entry of its own each scene has the estimate and the interval that it has alone."""
     found = fit([OIL, SYRUP], tables, VISCOSITY, own=VISCOSITY, starts=4)
@@ -51,6 +52,7 @@ def test_scenes_that_share_nothing_are_fitted_alone(tables):
         assert (joint.low, joint.high) == pytest.approx((alone.low, alone.high), abs=0.05 * width)
 
 
+@pytest.mark.slow
 def test_gradients_of_shared_and_own_entries_and_of_noise(tables):
     """The gradient is that of the density, for the scatter in speed and angle too."""
     names = [VISCOSITY, FILM, NOISE, "noise.speed", "noise.angle"]
@@ -91,6 +93,7 @@ def test_noise_is_that_of_the_residuals():
     assert found.log_likelihood == pytest.approx(normal.sum(), abs=0.01)
 
 
+@pytest.mark.slow
 def test_command(tables, tmp_path):
     """Pairs of scene and data give entries by label, and a scene each."""
     pairs = []

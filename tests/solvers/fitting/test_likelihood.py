@@ -150,6 +150,7 @@ def test_undecided_collisions_are_reported(monkeypatch: pytest.MonkeyPatch):
     assert result.probability[0] + result.undecided[0] <= 1 + 1e-9
 
 
+@pytest.mark.slow
 def test_likelihood_has_no_steps_where_an_outcome_becomes_rare():
     """Its differences are its slopes, but for the place where the likelihood from the nearest change takes over."""
     seen = {"stokes": [0.12], "angle [deg]": [10.0], "outcome": ["bounce"]}

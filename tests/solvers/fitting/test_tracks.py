@@ -83,6 +83,7 @@ def test_turns_that_cannot_be_counted_are_left_out() -> None:
     assert "turns cannot be counted" in found.remarks[0]
 
 
+@pytest.mark.slow
 def test_the_table_is_read_by_fit(tmp_path: Path) -> None:
     """Films in one file, through the command, to a fit that finds the viscosity of the films."""
     true = Scene.load("lactose-pvp")

@@ -176,6 +176,7 @@ def test_a_map_has_the_flags_of_each_cell():
 ELASTIC = ("youngs", "poisson")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("without", [("glass_transition",), ELASTIC, ("glass_transition", *ELASTIC)])
 def test_friction_that_cannot_act_whatever_criteria_a_scene_has(without):
     """Glass and elastic contact may be left out: many collisions are flagged, and single ones say it."""

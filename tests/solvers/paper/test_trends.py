@@ -14,6 +14,7 @@ PLANE = Scene.from_dict({
 ENTRIES = ["liquid.viscosity", "liquid.film_thickness", "particles.dry_restitution"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("name", "of_thickness"), [("pendulum", 0.9), ("granulation", 0.1)])
 @pytest.mark.parametrize("angle", [45, 60, 70])
 def test_turning_doublets_forget_their_film(name: str, of_thickness: float, angle: int) -> None:
@@ -66,6 +67,7 @@ def test_restitution_is_linear_in_the_inverse_stokes_number() -> None:
         assert line[0] < 0
 
 
+@pytest.mark.slow
 def test_initial_spin_moves_the_tangential_restitution_alone() -> None:
     """Buck et al., Powder Technol. 2017: e_n does not depend on it; rolling increases the tangential velocity."""
     rough = PLANE.with_entries({"particles.friction": 0.3})

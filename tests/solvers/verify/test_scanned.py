@@ -35,6 +35,7 @@ def test_the_events_of_a_preset_are_those_of_a_dense_scan(preset: str, stokes: f
     assert len(found.events) == len(expected.events) or found.outcome == "stick"
 
 
+@pytest.mark.slow
 def test_a_graze_is_where_a_dense_scan_has_it() -> None:
     """The Stokes number at which the film's pressure just reaches the glass transition, by bisection of scans."""
     scene = Scene.load("granulation").with_entries({"impact.angle": math.radians(45)})

@@ -34,6 +34,7 @@ LAWS: list[tuple[dict[str, Any], float]] = [
 ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("laws", "rtol"), LAWS)
 def test_results_are_those_of_whole_trajectories(laws: dict[str, Any], rtol: float) -> None:
     """No outcome differs, and e_n by less than the tolerance: a jump may take a tenth of it, and contracts it."""
