@@ -96,25 +96,20 @@ class OverAngles:
     Attributes:
         nodes: the collisions that separate, whose weighted sums the means are.
         segments: the parts of the lines.
-        collisions: number of collisions that were computed.
     """
 
     mean: np.ndarray
     error: np.ndarray
     nodes: Nodes
     segments: Segments
-    collisions: int
 
 
 def over_angles(
     experiment: Experiment, pair: np.ndarray, speed: np.ndarray, hints: np.ndarray | None, tolerance: float
 ) -> OverAngles:
     """The means of lines, each a pair (by index) at a relative speed (m/s); `hints` as for `segments`."""
-    collisions = 0
 
     def labels(line: np.ndarray, angle: np.ndarray) -> np.ndarray:
-        nonlocal collisions
-        collisions += line.size
         return collide(experiment, pair[line], speed[line], angle, locating=True).label
 
     parts = segments(labels, pair.size, WIDTH, hints)
@@ -132,7 +127,6 @@ def over_angles(
         angle, length = panels.nodes()
         line = parts.line[panels.owner]
         lines, flat = np.repeat(line, angle.shape[1]), angle.ravel()
-        collisions += flat.size
         collided = collide(experiment, pair[lines], speed[lines], flat)
         weight = length * np.sin(2 * angle)
         expected = outcome[panels.owner]
@@ -152,4 +146,4 @@ def over_angles(
         if not panels.size:
             break
     nodes = Nodes(*(np.concatenate(each) for each in zip(*kept, strict=True)))
-    return OverAngles(mean, error, nodes, parts, collisions)
+    return OverAngles(mean, error, nodes, parts)

@@ -46,7 +46,6 @@ class Means:
 
     mean: np.ndarray
     error: np.ndarray
-    collisions: int
     batches: list[Batch]
 
 
@@ -56,11 +55,10 @@ def means(experiment: Experiment, pairs: int, speeds: Speeds, tolerance: float, 
     if speeds.density is None:
         every, speed, one = np.arange(pairs), np.full(pairs, speeds.knots[0]), np.ones(pairs)
         along = over_angles(experiment, every, speed, None, inner)
-        return Means(along.mean, along.error, along.collisions, [Batch(every, speed, one, one, along)])
+        return Means(along.mean, along.error, [Batch(every, speed, one, one, along)])
     sequences = _Sequences(replace(experiment, rtol=max(experiment.rtol, _LOOSE)), float(speeds.knots[-1]))
     panels, pair_of, hints = _panels(sequences, pairs, speeds, cut)
     mean_square = speeds.moment(2)
-    collisions = sequences.collisions
     mean, error = np.zeros((pairs, COLUMNS)), np.zeros((pairs, COLUMNS))
     batches = []
     for last in (k == _ROUNDS for k in range(_ROUNDS + 1)):
@@ -70,7 +68,6 @@ def means(experiment: Experiment, pairs: int, speeds: Speeds, tolerance: float, 
         owner = pair_of[panels.owner]
         pair, near = np.repeat(owner, KRONROD.size), np.repeat(hints[panels.owner], KRONROD.size, axis=0)
         along = over_angles(experiment, pair, speed.ravel(), near, inner)
-        collisions += along.collisions
         weight = (length * speeds.density(speed))[:, :, None]
         values, errors = (each.reshape(*speed.shape, COLUMNS) for each in (along.mean, along.error))
         for each in (values, errors):  # energies, over the mean one
@@ -88,7 +85,7 @@ def means(experiment: Experiment, pairs: int, speeds: Speeds, tolerance: float, 
         kept = weight[:, :, 0] * done[:, None]
         batches.append(Batch(pair, speed.ravel(), (kept * KRONROD).ravel(), (kept * GAUSS).ravel(), along))
         panels = panels.part(~done).halved()
-    return Means(mean, error, collisions, batches)
+    return Means(mean, error, batches)
 
 
 def _panels(sequences: _Sequences, pairs: int, speeds: Speeds, cut: float) -> tuple[Panels, np.ndarray, np.ndarray]:
@@ -114,19 +111,14 @@ class _Sequences:
 
     A line is also sampled at angles between the changes of lines of the same pair at similar speeds, where segments are
     narrow if the sequence is about to change.
-
-    Attributes:
-        collisions: number of collisions that were computed.
     """
 
     def __init__(self, experiment: Experiment, fastest: float) -> None:
-        self.collisions = 0
         self._experiment, self._far = experiment, 3 * fastest
         self._keys, self._hints = np.zeros(0), np.zeros((0, 0))  # of all lines so far, by pair and speed
 
     def __call__(self, pair: np.ndarray, speed: np.ndarray) -> np.ndarray:
         def labels(line: np.ndarray, angle: np.ndarray) -> np.ndarray:
-            self.collisions += line.size
             return collide(self._experiment, pair[line], speed[line], angle, locating=True).label
 
         hints = self.hints(pair, speed, speed) if self._keys.size else None

@@ -5,10 +5,13 @@ from __future__ import annotations
 import csv
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+from scipy.integrate import fixed_quad
 
 from ..errors import InputError, shown
 from ..scene.schema import FIELDS, Field, Range
@@ -29,8 +32,7 @@ _ACCEPTED = (
     "or a table of relative speeds (m/s) and their density among collisions: two arrays, or a CSV file with a header"
 )
 _MAXWELL = (0.0, 2.0, 4.0, 10.0)  # panels of a Maxwellian, in standard deviations; 4e-10 of the collisions are faster
-_POINTS, _POINT_WEIGHTS = np.polynomial.legendre.leggauss(40)
-_NODES, _WEIGHTS = (1 + _POINTS) / 2, _POINT_WEIGHTS / 2  # on (0, 1)
+_NODES = 40  # of Gauss's rule between two knots
 _HEADER = ("relative_speed", "density")
 
 
@@ -54,14 +56,18 @@ class Speeds:
             return float(self.knots[0] ** power)
         if power < 0 and self.knots[0] == 0 and self.density(self.knots[:1])[0] > 0:
             return np.inf
-        low, high = self.knots[:-1, None], self.knots[1:, None]
-        with np.errstate(divide="ignore"):
-            ratio = np.where(low > 0, high / low, 1.0)
-        speed = np.where(low > 0, low * ratio**_NODES, high * _NODES)
-        length = np.where(low > 0, speed * np.log(ratio), high)
-        return float((self.density(speed.ravel()).reshape(speed.shape) * speed**power * length * _WEIGHTS).sum())
+        density = self.density
 
-    @property
+        def by_logarithm(s: np.ndarray) -> np.ndarray:
+            return density(np.exp(s)) * np.exp((power + 1) * s)
+
+        return float(sum(
+            fixed_quad(by_logarithm, np.log(low), np.log(high), n=_NODES)[0] if low > 0
+            else fixed_quad(lambda speed: density(speed) * speed**power, low, high, n=_NODES)[0]
+            for low, high in pairwise(self.knots.tolist())
+        ))  # fmt: skip
+
+    @cached_property
     def mean(self) -> float:
         """The mean relative speed of all pairs, m/s, which collide in proportion to it; NaN where they would rest."""
         inverse = self.moment(-1)

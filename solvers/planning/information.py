@@ -156,7 +156,7 @@ def _beyond_outcome(
     rate = np.pad(q[:, :-1] * np.arange(1, degree + 1), ((0, 0), (1, 0))) / scale
     of_weight, of_value = (np.repeat(each, t.size, axis=0) for each in (log_slope, slope))
     moments = (weights[:, None] * q).T @ of_weight + (weights[:, None] * rate).T @ of_value
-    factor = np.linalg.qr(np.sqrt(weights)[:, None] * q, mode="r")
+    factor = np.asarray(np.linalg.qr(np.sqrt(weights)[:, None] * q, mode="r"))
     told = np.linalg.solve(factor.T, moments)[1:]  # without the constant, which is the outcome
     information: np.ndarray = told.T @ told
     return information
