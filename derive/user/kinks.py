@@ -88,7 +88,7 @@ class _Smoothing:
 
     def __call__(self, node: sp.Expr) -> sp.Expr:
         if isinstance(node, sp.Piecewise):
-            return self._piecewise(node)
+            return self._named("part", self._piecewise(node))
         if isinstance(node, sp.Pow):
             return self._power(node)
         arguments = [self(argument) for argument in node.args]
@@ -99,7 +99,7 @@ class _Smoothing:
         if isinstance(node, sp.Heaviside):
             return self._step(arguments[0])
         if isinstance(node, (sp.Max, sp.Min)):
-            return self._extreme(arguments, 1 if isinstance(node, sp.Max) else -1)
+            return self._named("part", self._extreme(arguments, 1 if isinstance(node, sp.Max) else -1))
         if isinstance(node, sp.log) and self._vanishes(node.args[0]):
             inner = node.args[0]
             return sp.log(self._squared(self(inner.args[0] if isinstance(inner, sp.Abs) else inner))) / 2

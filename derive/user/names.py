@@ -16,7 +16,8 @@ EMITTED = "a name in emitted functions"
 _GENERATED = Path(__file__).resolve().parents[2] / "generated"  # as text: it is not imported here
 _MACROS = {"asm", "errno", "far", "linux", "near", "typeof", "unix"}  # of compilers and C's headers
 _ARGUMENTS = {"after", "c", "guard", "of", "s", "splat", "v", "vec", "y"}  # of C functions in which own names stand
-_GUARDS = {f"{word}_{k}" for word in ("kink", "side") for k in range(1, 100)}  # parts of laws that have kinks
+_GUARDS = {f"{word}_{k}" for word in ("base", "kink", "part", "side") for k in range(1, 100)} | {"squared_width"}
+"""Parts of laws that have kinks."""
 
 
 @cache

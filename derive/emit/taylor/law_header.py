@@ -142,6 +142,8 @@ def _closed_integral(
             potential = other(*other.arguments)
             if sp.simplify(potential.diff(moving[0]) - each(*each.arguments)) == 0:
                 return potential
+    if each.kinks:  # no rule has them
+        return None
     force, change = each.result, {moving[0]}  # what changes with the gap, directly or by another intermediate
     for symbol, value in intermediates:
         if value.free_symbols & change:

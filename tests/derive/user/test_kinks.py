@@ -6,6 +6,7 @@ from random import Random
 import pytest
 import sympy as sp
 from wetdoublet.derive.checks.user import model_checks
+from wetdoublet.derive.emit.taylor.law_slopes import slopes_header
 from wetdoublet.derive.user.kinks import WIDTH
 from wetdoublet.derive.user.modelfile import read
 
@@ -88,6 +89,19 @@ def test_what_no_engine_has_is_refused(body: str, said: str):
     """`generate` refuses a law with the reason; a pole inside a branch is found where it is met."""
     failing = [check.figure for check in model_checks(Path("mine.py"), HEAD + body)[1] if not check.ok]
     assert any(said in figure for figure in failing) or not said
+
+
+def test_several_kinks_below_a_fraction():
+    """The emitted slope of a law stays short: each extreme is a part, which no expansion multiplies out."""
+    factor = "1 + 1/(1 + Min((x/x0)**2, Abs(x/x0 - 0.5), 0.371)**2)"
+    model = read(Path("mine.py"), HEAD + FILM.format(factor))
+    assert len(slopes_header(model.laws[0])) < 20_000
+    gap = sp.Rational(3, 5)  # where the least is 0.1
+    value = model.laws[0]["resistance"](*model.laws[0]["resistance"].arguments).subs(
+        sp.Symbol("gap", positive=True), gap
+    )
+    library = (1 - gap) ** 2 / gap
+    assert float((value / library).evalf(30)) == pytest.approx(1 + 1 / 1.01, rel=1e-12)
 
 
 @pytest.mark.parametrize("number", range(6))
