@@ -19,6 +19,7 @@ from .plane import ANGLE, check_plane
 if TYPE_CHECKING:
     import xarray
 
+_PATIENCE = 300  # undecided collisions, after which a picture goes without boundaries
 _LINES = 5  # seed lines of constant angle; the lattice of the atlas finds the curves between them
 
 
@@ -71,5 +72,7 @@ def _curves(scene: Scene, angles: np.ndarray, values: np.ndarray, impact: str, r
 
     span = (float(angles.min()), float(angles.max()))
     window = (float(values.min() * normal(np.array(span[1]))), float(values.max() * normal(np.array(span[0]))))
-    atlas = curves_of(check_plane(scene, ANGLE, span, window, rtol), _LINES, lambda *_: None)
+    plane = check_plane(scene, ANGLE, span, window, rtol)
+    plane.patience = _PATIENCE
+    atlas = curves_of(plane, _LINES, lambda *_: None)
     return [(np.array(one.x), np.array(one.stokes) / normal(np.array(one.x))) for one in atlas.curves]

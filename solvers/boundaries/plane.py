@@ -11,7 +11,7 @@ from ..engines.choice import collision_engine
 from ..engines.settings import KERNEL_STEPS
 from ..engines.taylor.call import run_kernel
 from ..engines.taylor.record import run_recorded
-from ..errors import InputError
+from ..errors import ComputationError, InputError
 from ..host.cores import usable_cores
 from ..many.batch import Batch, ascending, checked_numbers, checked_vary
 from ..many.by_casadi import run
@@ -40,6 +40,8 @@ class Plane:
     Attributes:
         edge: the lowest x that was requested; if that is head-on, `span` starts at a small angle.
         collisions: number of computed collisions.
+        undecided: number of these that the kernel did not decide.
+        patience: most undecided collisions, each of which takes as long as thousands of others.
         kernel: True if the Taylor kernel supports the scene.
     """
 
@@ -50,6 +52,8 @@ class Plane:
     rtol: float
     edge: float = field(init=False)
     collisions: int = field(default=0, init=False)
+    undecided: int = field(default=0, init=False)
+    patience: float = field(default=math.inf, init=False)
     kernel: bool = field(default=True, init=False)
 
     def __post_init__(self) -> None:
@@ -116,6 +120,10 @@ class Plane:
                 where = np.flatnonzero(sound)
                 outcome[where] = np.where(answers["status"] <= LAST_ANSWER, answers["outcome"], -1)
                 reversal[where] = answers["reversal"]
+            self.undecided += int((outcome < 0).sum())
+            if self.undecided > self.patience:
+                message = f"the kernel does not decide {self.undecided} collisions beside them"
+                raise ComputationError(message, advice="`boundary` traces them one by one, which may take minutes")
         left = np.flatnonzero(outcome < 0) if not self.kernel else _middles_of_long_runs(outcome < 0)[:most]
         if left.size:
             outcome[left] = run(request.part(left), True)["outcome"]

@@ -4,7 +4,8 @@ from pathlib import Path
 from random import Random
 
 import pytest
-from wetdoublet.solvers import Scene, collide, sensitivities
+from wetdoublet.solvers import ModelWarning, Scene, collide, regime_map, sensitivities
+from wetdoublet.solvers.boundaries.on_map import map_curves
 from wetdoublet.solvers.scene.user_model_derived import derived_package
 
 from ...helpers.random_laws import random_law
@@ -43,6 +44,14 @@ def test_a_fraction_as_exponent(tmp_path: Path):
     """The bridge decays with the power 1.3 of the gap; the value is that of an independent integration."""
     given = scene(tmp_path, 'law("bridge", "mine", force=2*pi*R*sigma*(1 + x/x0)**(-1.3))')
     assert by_kernel(given) == pytest.approx(0.6396, abs=5e-5)
+
+
+def test_a_picture_goes_without_boundaries_that_take_minutes(tmp_path: Path):
+    """Beside a boundary with many undecided collisions the map is drawn without it, and says so."""
+    given = scene(tmp_path, POWER.format("Abs(u)"), custom__flow_index="0.6")
+    data = regime_map(given, stokes=[0.01, 0.03, 0.1, 0.3], angle=[0.6, 0.9, 1.2])
+    with pytest.warns(ModelWarning, match="lacks boundaries"):
+        assert map_curves(data, given.package) == {0: []}
 
 
 def test_an_arm_with_a_quantity(tmp_path: Path):
