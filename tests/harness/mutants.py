@@ -60,10 +60,10 @@ MUTANTS = {
         "    mask proved = splat_mask(TRUTH);\n    (void)c; (void)y; (void)b; (void)contact;",
         "test_sticks_and_boundaries.py::test_a_certified_stick_followed_on_never_separates",
     ),
-    "changes the wrong way round": Mutant(
+    "changes at a Stokes number three times too large": Mutant(
         "solvers/boundaries/changes.py",
-        "OUTCOMES[before], OUTCOMES[after])",
-        "OUTCOMES[after], OUTCOMES[before])",
+        "return Change(stokes, line",
+        "return Change(3 * stokes, line",
         "test_sticks_and_boundaries.py::test_nothing_changes_between_boundaries",
     ),
     "a length that is none": Mutant(
