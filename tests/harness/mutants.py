@@ -87,10 +87,10 @@ MUTANTS = {
         "run_in_space(pairs.scene, vectors, -1.0001*pairs.opening,",
         "test_reference.py::test_equals_the_reference_in_space",
     ),
-    "infinity is a number": Mutant(
+    "no range": Mutant(
         "solvers/scene/schema.py",
-        "if not math.isfinite(value):",
-        "if math.isnan(value):",
+        "if not self.range.holds(value):",
+        "if self.range is None:",
         "test_spoilt_scenes.py::test_a_spoilt_entry_is_named",
     ),
     "the farthest name": Mutant(
