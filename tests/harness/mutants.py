@@ -27,10 +27,10 @@ MUTANTS = {
         "s->result[k] = 0.5001*",
         "test_conservation.py::test_angular_momentum_is_kept",
     ),
-    "the film of the collision before": Mutant(
+    "a film that depends on the lane": Mutant(
         f"{RUNTIME}/queue.h",
-        "    LANE(l->film, lane) = 1.0;\n",
-        "",
+        "LANE(l->film, lane) = 1.0;\n",
+        "LANE(l->film, lane) = 1.0 + 1e-9*lane;\n",
         "test_engines.py::test_neighbours_and_order_change_no_bit",
     ),
     "a tolerance ten thousand times too loose": Mutant(
