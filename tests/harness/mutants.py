@@ -27,10 +27,10 @@ MUTANTS = {
         "s->result[k] = 0.5001*",
         "test_conservation.py::test_angular_momentum_is_kept",
     ),
-    "the film of the collision before": Mutant(
+    "a film that depends on the lane": Mutant(
         f"{RUNTIME}/queue.h",
-        "    LANE(l->film, lane) = 1.0;\n",
-        "",
+        "LANE(l->film, lane) = 1.0;\n",
+        "LANE(l->film, lane) = 1.0 + 1e-9*lane;\n",
         "test_engines.py::test_neighbours_and_order_change_no_bit",
     ),
     "a tolerance ten thousand times too loose": Mutant(
@@ -60,10 +60,10 @@ MUTANTS = {
         "    mask proved = splat_mask(TRUTH);\n    (void)c; (void)y; (void)b; (void)contact;",
         "test_sticks_and_boundaries.py::test_a_certified_stick_followed_on_never_separates",
     ),
-    "changes the wrong way round": Mutant(
+    "changes at a Stokes number three times too large": Mutant(
         "solvers/boundaries/changes.py",
-        "OUTCOMES[before], OUTCOMES[after])",
-        "OUTCOMES[after], OUTCOMES[before])",
+        "return Change(stokes, line",
+        "return Change(3 * stokes, line",
         "test_sticks_and_boundaries.py::test_nothing_changes_between_boundaries",
     ),
     "a length that is none": Mutant(
@@ -87,10 +87,10 @@ MUTANTS = {
         "run_in_space(pairs.scene, vectors, -1.0001*pairs.opening,",
         "test_reference.py::test_equals_the_reference_in_space",
     ),
-    "infinity is a number": Mutant(
+    "no range": Mutant(
         "solvers/scene/schema.py",
-        "if not math.isfinite(value):",
-        "if math.isnan(value):",
+        "if not self.range.holds(value):",
+        "if self.range is None:",
         "test_spoilt_scenes.py::test_a_spoilt_entry_is_named",
     ),
     "the farthest name": Mutant(

@@ -59,6 +59,7 @@ def test_a_law_may_bear_any_word():
         assert ("bridge", word) in declared.laws
 
 
+@pytest.mark.slow
 def test_parts_that_bear_reserved_words_are_the_same_law():
     """Values of an emitted law whose every part has a word that means something, and with harmless names: equal."""
     body = "".join(f'p{k} = let("{word}", {k + 2}*x/R + V)\n' for k, word in enumerate(FREE))

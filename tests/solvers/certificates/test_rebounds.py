@@ -84,6 +84,7 @@ TWISTED = (  # pairs that come to rest with friction, and turn on with twist
 )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("engine", ["taylor", "rosenbrock"])
 def test_rest_with_friction_and_twist_is_a_proved_stick(engine: str) -> None:
     """Where the slip energy without the share of the spins would do to release the doublet."""

@@ -136,6 +136,7 @@ def test_a_stick_depends_on_the_pair_alone(law: Law, folder: Path):
         assert np.all(np.abs(tight[name] - other[name])[sticks] <= 1e-14 * size[sticks]), name
 
 
+@pytest.mark.slow
 def test_what_is_conserved(law: Law):
     """Momentum and angular momentum to rounding, sticks' too; energy is never created."""
     normal, velocities, spins = arrivals(OWN, 300, seed=2)

@@ -166,6 +166,7 @@ def test_contradicting_data_end_a_fit_soon() -> None:
     assert max(count for count, _ in done[:-1]) < 100
 
 
+@pytest.mark.slow
 def test_a_distant_first_guess_is_no_contradiction() -> None:
     """A viscosity 30 times the first guess is found, although all impacts contradict the first guess."""
     true = Scene.load("lactose-pvp").with_entries({"liquid.viscosity": "210 mPa s"})

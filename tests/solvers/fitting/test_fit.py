@@ -45,6 +45,7 @@ def test_evaluations_are_counted_to_the_last(pendulum):
     assert len(set(pendulum[2][-1])) == 1
 
 
+@pytest.mark.slow
 def test_estimates_verdicts_and_intervals(pendulum):
     """The interval of what the data tell holds the truth; a roughness behind the glass criterion is bounded above."""
     found, *_ = pendulum

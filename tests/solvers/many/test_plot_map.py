@@ -18,6 +18,7 @@ def _of(axes, gid):
     return [artist for artist in axes.get_children() if artist.get_gid() == gid]
 
 
+@pytest.mark.slow
 def test_a_picture_has_the_exact_boundaries(chart):
     """Over the cells run the curves: each passes between the outcomes that `boundary` has at an angle between cells."""
     curves = map_curves(chart)

@@ -136,6 +136,7 @@ def test_a_picture_for_one_entry_shows_all_its_words() -> None:
         assert 0 <= extent.x0 < extent.x1 <= figure.bbox.width, words.get_text()
 
 
+@pytest.mark.slow
 def test_the_table_is_what_a_fit_reads(found: Design, tmp_path: Path) -> None:
     """Filled in, it is read with the speeds, angles and scatter that were planned."""
     lines = found.to_csv().splitlines()

@@ -235,6 +235,7 @@ def wrong(tried: Engine, farthest: float, inputs: Inputs) -> tuple[int, int]:
     return proved, contradicted
 
 
+@pytest.mark.slow
 def test_boxes_of_pairs_that_fall_back_are_proved() -> None:
     """Within 3 % of the change of outcome most boxes of up to 1 % are proved, and collisions in them agree."""
     inputs = Inputs.of(NEAR, {"impact.stokes": 1e-6, "impact.angle": 1e-6})

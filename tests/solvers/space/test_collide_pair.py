@@ -88,6 +88,7 @@ def equal():
     return given, values(collide_pair(GRANULATION, *given, rtol=1e-11))
 
 
+@pytest.mark.slow
 def test_turning_the_picture_turns_the_answer(equal):
     """In any direction, to what rounding becomes of within the tolerance."""
     (normal, velocities, spins), found = equal

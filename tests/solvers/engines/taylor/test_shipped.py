@@ -138,6 +138,7 @@ def test_derivatives_at_default_tolerances_are_shipped(rtol: float) -> None:
             assert variant in there
 
 
+@pytest.mark.slow
 @needs_compiler
 def test_a_damaged_or_stale_library_is_not_loaded(built: Path, tmp_path: Path) -> None:
     """One flipped bit is named; a library of other equations is no library of these. Another engine then answers."""
