@@ -14,7 +14,7 @@ from .lines import (
     PENDULUM,
     STRING_VARIANTS,
     Line,
-    Lines,
+    PaperLines,
     criterion_met,
     described,
     printed_pressure,
@@ -30,7 +30,7 @@ _BESIDE = 1 + 1e-6
 _BELOW = 0.8  # start of the search for the criterion, relative to the boundary
 
 
-def make(lines: Lines, folder: Path) -> Part:
+def make(lines: PaperLines, folder: Path) -> Part:
     """Compute the part: the map, and St* at theta0 = 0 for the variants."""
     lines.say("fig. 3: tracing the pendulum's boundaries")
     scene = Scene.load(PENDULUM)
@@ -64,7 +64,7 @@ def make(lines: Lines, folder: Path) -> Part:
         ),
     )
     caption = (
-        "Fig. 3: regime map of the pendulum. Lines: theory; dashed: the paper's "
+        "Fig. 3: regime map of the pendulum. PaperLines: theory; dashed: the paper's "
         f"St* = {printed.text}. St along and angle up, as the text has it (“at higher θ₀ for a given St”); the "
         f"measured points of the paper are in its picture alone. SRS/B leaves the map to the right above {leaves:.3g}°."
     )
@@ -82,7 +82,7 @@ def _met(scene: Scene, head_on: Line) -> float:
     return criterion_met(scene, _BELOW * sticks_to(head_on), sticks_to(head_on) * _BESIDE)
 
 
-def _moved(lines: Lines) -> Table:
+def _moved(lines: PaperLines) -> Table:
     """Both readings of St* for the variants; lever arm and logarithm have no effect head-on."""
     lines.say("fig. 3: variants")
     rows = []
