@@ -38,7 +38,7 @@ def make(lines: PaperLines, folder: Path) -> Part:
         f"Fig. 1: pendulum at {degrees(SHOT_ANGLE)}, "
         + ", ".join(f"({shot.panel}) St {shot.stokes:g}" for shot in SHOTS)
         + "; seen from above in the frame of the centre of mass, to scale, at the paper's intervals. Before first "
-        "touch and after rupture the spheres move on straight lines, strings left out. PaperLines: marks that met at touch."
+        "touch and after rupture the spheres move on straight lines, strings left out. Lines: marks that met at touch."
     )
     return Part(
         "Fig. 1: three collisions",

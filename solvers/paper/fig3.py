@@ -64,7 +64,7 @@ def make(lines: PaperLines, folder: Path) -> Part:
         ),
     )
     caption = (
-        "Fig. 3: regime map of the pendulum. PaperLines: theory; dashed: the paper's "
+        "Fig. 3: regime map of the pendulum. Lines: theory; dashed: the paper's "
         f"St* = {printed.text}. St along and angle up, as the text has it (“at higher θ₀ for a given St”); the "
         f"measured points of the paper are in its picture alone. SRS/B leaves the map to the right above {leaves:.3g}°."
     )
