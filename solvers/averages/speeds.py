@@ -59,7 +59,8 @@ class Speeds:
         density = self.density
 
         def by_logarithm(s: np.ndarray) -> np.ndarray:
-            return density(np.exp(s)) * np.exp((power + 1) * s)
+            values: np.ndarray = density(np.exp(s)) * np.exp((power + 1) * s)
+            return values
 
         return float(sum(
             fixed_quad(by_logarithm, np.log(low), np.log(high), n=_NODES)[0] if low > 0

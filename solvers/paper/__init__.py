@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from ..host.progress import Progress
 
 if TYPE_CHECKING:
-    from .lines import Lines
+    from .lines import PaperLines
     from .report import Part
 
 PARTS = ("table1", "fig1", "fig3", "fig4a", "fig4b", "factors")
@@ -19,7 +19,7 @@ PARTS = ("table1", "fig1", "fig3", "fig4a", "fig4b", "factors")
 
 
 def reproduce(
-    which: Sequence[str], folder: Path, *, lines: Lines | None = None, say: Callable[[str], None] | None = None,
+    which: Sequence[str], folder: Path, *, lines: PaperLines | None = None, say: Callable[[str], None] | None = None,
     progress: Progress | None = None,
 ) -> list[Path]:  # fmt: skip
     """Compute parts of the paper and write the report on them.
@@ -41,11 +41,11 @@ def reproduce(
 
     from ..formatting.document import report
     from ..host.files import write_all_in
-    from .lines import Lines
+    from .lines import PaperLines
     from .report import TITLE, blocks
 
     folder.mkdir(parents=True, exist_ok=True)
-    lines = lines or Lines()
+    lines = lines or PaperLines()
     lines.say = say or lines.say
     parts: list[Part] = []
     stopped = None

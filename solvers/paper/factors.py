@@ -9,7 +9,7 @@ from ..formatting.document import Table
 from ..formatting.style import LETTERS
 from ..scene.scene import Scene
 from ..sensitivity.boundaries import moving
-from .lines import BRIDGED, PRESSURE, Line, Lines, centrifugal, described, ends, outcomes, printed_pressure
+from .lines import BRIDGED, PRESSURE, Line, PaperLines, centrifugal, described, ends, outcomes, printed_pressure
 from .printed import PRINTED
 from .report import Comparison, Part, degrees, number
 
@@ -25,7 +25,7 @@ _AT = math.radians(45)
 _OUT_OF_REACH = 1e9  # factor on the preset's glass-transition pressure
 
 
-def make(lines: Lines, folder: Path) -> Part:  # noqa: ARG001 # every part is made alike; this one has no picture
+def make(lines: PaperLines, folder: Path) -> Part:  # noqa: ARG001 # every part is made alike; this one has no picture
     """Compute the part: the S/SRS boundary of every scene with a doubled quantity."""
     lines.say("factors: Ce* with one quantity doubled")
     angles, place = lines.critical, lines.critical.index(_AT)

@@ -10,7 +10,7 @@ from ..collision.result import Collision
 from ..formatting.document import Picture, Table
 from ..formatting.style import LETTERS
 from ..scene.scene import Scene
-from .lines import PENDULUM, STRING_VARIANTS, Line, Lines, described, variants
+from .lines import PENDULUM, STRING_VARIANTS, Line, PaperLines, described, variants
 from .printed import PRINTED, SHOT_ANGLE, SHOTS, Shot
 from .report import Comparison, Part, degrees, number
 from .style import COLUMN, sheet
@@ -19,7 +19,7 @@ _BEFORE, _AFTER = 1, 4  # frames before and after initial contact
 _MS = 1e3
 
 
-def make(lines: Lines, folder: Path) -> Part:
+def make(lines: PaperLines, folder: Path) -> Part:
     """Compute the part: the three collisions and their figure."""
     lines.say("fig. 1: frames of the three collisions")
     scene = Scene.load(PENDULUM)
@@ -56,7 +56,7 @@ def _said(one: Collision) -> str:
     return f"ends at the experiment's cut-off ({last.kind}) after {_MS * last.time:.4g} ms"
 
 
-def _moved(lines: Lines) -> Table:
+def _moved(lines: PaperLines) -> Table:
     """Table of outcomes and boundaries along the line of Fig. 1 for the variants."""
     lines.say("fig. 1: variants")
     rows = []

@@ -14,7 +14,7 @@ from .lines import (
     PENDULUM,
     STRING_VARIANTS,
     Line,
-    Lines,
+    PaperLines,
     criterion_met,
     described,
     printed_pressure,
@@ -30,7 +30,7 @@ _BESIDE = 1 + 1e-6
 _BELOW = 0.8  # start of the search for the criterion, relative to the boundary
 
 
-def make(lines: Lines, folder: Path) -> Part:
+def make(lines: PaperLines, folder: Path) -> Part:
     """Compute the part: the map, and St* at theta0 = 0 for the variants."""
     lines.say("fig. 3: tracing the pendulum's boundaries")
     scene = Scene.load(PENDULUM)
@@ -82,7 +82,7 @@ def _met(scene: Scene, head_on: Line) -> float:
     return criterion_met(scene, _BELOW * sticks_to(head_on), sticks_to(head_on) * _BESIDE)
 
 
-def _moved(lines: Lines) -> Table:
+def _moved(lines: PaperLines) -> Table:
     """Both readings of St* for the variants; lever arm and logarithm have no effect head-on."""
     lines.say("fig. 3: variants")
     rows = []

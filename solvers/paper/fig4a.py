@@ -17,7 +17,7 @@ from .lines import (
     BRIDGE_VARIANTS,
     BRIDGED,
     DRY,
-    Lines,
+    PaperLines,
     centrifugal,
     described,
     outcomes,
@@ -36,7 +36,7 @@ _OURS_AT = math.radians(45)  # angle at which our Ce* is read
 _FIRST = math.radians(0.5)  # the lowest oblique line without a bridge
 
 
-def make(lines: Lines, folder: Path) -> Part:
+def make(lines: PaperLines, folder: Path) -> Part:
     """Compute the part: both maps, and Ce* and St* for the variants."""
     lines.say("fig. 4a: tracing the granules' boundaries")
     scene, dry = Scene.load(BRIDGED), Scene.load(DRY)
@@ -69,7 +69,7 @@ def make(lines: Lines, folder: Path) -> Part:
 
 
 def _compared(
-    lines: Lines,
+    lines: PaperLines,
     scene: Scene,
     dry: Scene,
     stokes: float,
@@ -111,7 +111,7 @@ def _spread(angles: Sequence[float], values: Sequence[float]) -> str:
     return ", ".join(f"{number(value)} at {degrees(angle)}" for angle, value in zip(angles, values))
 
 
-def _moved(lines: Lines) -> Table:
+def _moved(lines: PaperLines) -> Table:
     """St* and Ce* for the variants."""
     critical, rows = lines.critical, []
     for name, scene in variants(BRIDGED, BRIDGE_VARIANTS).items():

@@ -13,7 +13,7 @@ from ..formatting.document import Picture, Table
 from ..formatting.style import INK
 from ..many.collide_many import collide_many
 from ..scene.scene import Scene
-from .lines import BRIDGED, Line, Lines, described, outcomes
+from .lines import BRIDGED, Line, PaperLines, described, outcomes
 from .printed import CURVES, PRINTED
 from .report import Comparison, Part, degrees, number
 from .style import BLUE, COLUMN, GREEN, ORANGE, PURPLE, SKY, STOKES, sheet
@@ -40,7 +40,7 @@ class Curve:
         return float(self.restitution.max())
 
 
-def make(lines: Lines, folder: Path) -> Part:
+def make(lines: PaperLines, folder: Path) -> Part:
     """Compute the part: the curves between the boundaries, and their figure."""
     lines.say("fig. 4b: tracing boundaries")
     scene = Scene.load(BRIDGED)

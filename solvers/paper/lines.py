@@ -56,7 +56,7 @@ def described(scene: Scene) -> str:
 
 
 @dataclass
-class Lines:
+class PaperLines:
     """Boundaries of a run, and the resolution of its figures.
 
     Attributes:

@@ -11,7 +11,7 @@ from ..formatting.document import Picture
 from ..formatting.style import INK
 from ..host import files
 from ..scene.scene import Scene
-from .lines import BRIDGED, PENDULUM, Lines, described
+from .lines import BRIDGED, PENDULUM, PaperLines, described
 from .report import Part
 from .style import GREY, sheet
 
@@ -23,7 +23,7 @@ _TALL, _LOW, _HEAD, _MARGIN = 0.98, 0.58, 0.7, 0.25  # cm; lines with and withou
 _WRAP = 37  # characters of a note on a line without a formula
 
 
-def make(lines: Lines, folder: Path) -> Part:
+def make(lines: PaperLines, folder: Path) -> Part:
     """Compute the part: the equations of the presets' laws, typeset into `folder`."""
     lines.say("table 1: deriving")
     bridged, hung = Scene.load(BRIDGED), Scene.load(PENDULUM)

@@ -16,7 +16,7 @@ from wetdoublet.solvers.formatting.document import Table, html_page
 from wetdoublet.solvers.formatting.document import report as written
 from wetdoublet.solvers.host.files import write_all_in
 from wetdoublet.solvers.paper import PARTS, factors, fig1, fig3, fig4a, fig4b, report, table1
-from wetdoublet.solvers.paper.lines import BRIDGED, PENDULUM, Lines, outcomes
+from wetdoublet.solvers.paper.lines import BRIDGED, PENDULUM, PaperLines, outcomes
 from wetdoublet.solvers.paper.printed import CURVES, PRINTED, SHOTS
 from wetdoublet.solvers.paper.report import Comparison, number
 from wetdoublet.solvers.scene.scene import Scene
@@ -25,7 +25,7 @@ pytestmark = pytest.mark.slow
 
 
 def coarse():
-    return Lines(starts=5, curve=12, critical=(CURVES[3],))
+    return PaperLines(starts=5, curve=12, critical=(CURVES[3],))
 
 
 FACTORS = {  # an independent prototype's
