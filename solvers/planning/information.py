@@ -21,7 +21,7 @@ from ..fitting.scatter import Resolution, ScatterLines, Segments, nearest_normal
 from ..scene.scene import Scene
 from .window import RESTITUTION
 
-USUAL = Resolution(points=32)
+USUAL = Resolution(lines=5, points=32)  # with fewer, degrees are too low to find the best plan
 FINE = Resolution(lines=9, points=32), Resolution(lines=6, points=32)
 # with more lines, some would lie where impacts graze
 _DEGREE = 12  # of the polynomials of the restitution, where there is one line; else less than the number of lines, up
