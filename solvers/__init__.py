@@ -5,13 +5,12 @@ Names are loaded on first use, so that a command pays only for what it needs.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import wraps
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from .averages.averages import collision_averages
     from .boundaries.boundary import Atlas, Boundaries, atlas, boundary
     from .collision.collide import collide

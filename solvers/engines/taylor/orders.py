@@ -2,7 +2,7 @@
 
 The cheapest order grows with the digits asked for, slowly: every order that is compiled costs a second of somebody's
 time, and a neighbouring one little. With these two no decade of the tolerance costs more than 6 % above its best order
-(`tests/benchmarks/orders.py` of release 0.3.0).
+(the benchmark `orders` of release 0.3.0).
 """
 
 ORDERS = ((3e-8, 9), (0.0, 11))
