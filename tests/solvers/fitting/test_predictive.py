@@ -9,6 +9,7 @@ from tests.helpers.synthetic import drawn
 from .test_fit import ROUGHNESS, VISCOSITY, plan
 
 
+@pytest.mark.slow
 def test_probabilities_are_those_of_the_posterior():
     """With one entry they are sums over a fine grid of its values, each weighted by its likelihood."""
     scene = Scene.load("pendulum")

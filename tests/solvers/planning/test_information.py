@@ -23,6 +23,7 @@ def planned(scene: Scene, stokes: list[float], degrees: list[float], speed_sd: f
     )  # fmt: skip
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("preset", "stokes", "degrees", "names"),
     [

@@ -30,6 +30,7 @@ def holds(found: ProvedBoundary) -> bool:
     return True
 
 
+@pytest.mark.slow
 def test_the_line_is_covered_by_stretches_that_are_proved_again() -> None:
     """What is proved, what lies around changes and what is undecided have their ends in common, from end to end."""
     found = prove_boundary("granulation", **LINE)
@@ -45,6 +46,7 @@ MUTANTS = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("change", MUTANTS.values(), ids=MUTANTS)
 def test_a_broken_cover_is_noticed(change: tuple[str, str]) -> None:
     """A stretch whose end is not enclosed, one whose proof failed, and one that is missing."""

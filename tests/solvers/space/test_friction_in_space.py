@@ -74,6 +74,7 @@ def by_kernel_alone(scene, arrival, rtol=1e-10):
     assert np.all(np.abs(residual(ends.energy)) < 1e-9 * ends.energy[:, 0])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("friction", [0.02, 0.3])
 def test_the_kernel_creeps_where_surfaces_roll(friction):
     """In a plane but for a tilt of 1e-9: with and without ledger as the planar kernel, which has a mode for rolling."""
