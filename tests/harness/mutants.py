@@ -60,12 +60,6 @@ MUTANTS = {
         "    mask proved = splat_mask(TRUTH);\n    (void)c; (void)y; (void)b; (void)contact;",
         "test_sticks_and_boundaries.py::test_a_certified_stick_followed_on_never_separates",
     ),
-    "changes at a Stokes number three times too large": Mutant(
-        "solvers/boundaries/changes.py",
-        "return Change(stokes, line",
-        "return Change(3 * stokes, line",
-        "test_sticks_and_boundaries.py::test_nothing_changes_between_boundaries",
-    ),
     "a length that is none": Mutant(
         "generated/taylor/shared/scale_oblique.h",
         "vec_exp(0.6*vec_log(q[SI_REDUCED_RADIUS]))",
