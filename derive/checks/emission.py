@@ -121,7 +121,7 @@ def _by_kernel(function: LawFunction, moving: tuple[sp.Symbol, ...]) -> _Values:
     lines = [*_lines(value), *_lines(program)]
     results = ", ".join(each if isinstance(each, str) else _text(each) for each in (result, *slopes.values()))
     names = ", ".join(argument.name for argument in function.arguments)
-    space: dict[str, Any] = {"cmath": cmath}
+    space: dict[str, Any] = {"cmath": cmath, "side": lambda value: math.copysign(1.0, complex(value).real)}
     exec("\n    ".join([f"def values({names}):", *lines, f"return [{results}]"]), space)  # our own text
 
     def values(at: Mapping[sp.Symbol, float]) -> list[float]:
@@ -140,7 +140,8 @@ def _lines(program: Program) -> list[str]:
 
 
 def _text(expression: sp.Expr) -> str:
-    return str(sp.pycode(expression, fully_qualified_modules=True)).replace("math.", "cmath.")
+    text = sp.pycode(expression, fully_qualified_modules=True, user_functions={"side": "side"})
+    return str(text).replace("math.", "cmath.")
 
 
 def _expression(each: Operation) -> sp.Expr:
@@ -156,5 +157,6 @@ def _expression(each: Operation) -> sp.Expr:
         case "power":
             return sp.Pow(parts[0], each.factors[0], evaluate=False)
     functions = {"square": lambda a: a**2, "reciprocal": lambda a: 1 / a, "sqrt": sp.sqrt, "exp": sp.exp, "log": sp.log}
-    result: sp.Expr = {**functions, "sine": sp.sin, "cosine": sp.cos}[each.kind](parts[0])
+    functions |= {"sine": sp.sin, "cosine": sp.cos, "side": sp.Function("side")}
+    result: sp.Expr = functions[each.kind](parts[0])
     return result

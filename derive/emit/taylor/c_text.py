@@ -62,6 +62,8 @@ class Text:
             return f"{node.func.__name__.replace('.', '_')}({arguments})", _ATOM
         if type(node) in _FUNCTIONS:
             return f"{_FUNCTIONS[type(node)]}({self(node.args[0])})", _ATOM
+        if isinstance(node, sp.tanh):
+            return self._print(1 - 2 / (1 + sp.exp(2 * node.args[0])))
         raise EmissionError(f"no lane-wise C for {type(node).__name__}: {node}")
 
     def _at_least(self, node: sp.Basic, strength: int) -> str:

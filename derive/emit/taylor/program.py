@@ -176,7 +176,11 @@ class Program:
             return self._sine_or_cosine(node, name)
         if isinstance(node, sp.tan):
             return self.series(sp.sin(node.args[0]) / sp.cos(node.args[0]), name)
-        if isinstance(node, (sp.sinh, sp.cosh, sp.tanh)):
+        if isinstance(node, sp.tanh):  # by exponentials that fall, which never overflow
+            side = sp.sign(node.args[0])
+            fallen = sp.exp(-2 * side * node.args[0])
+            return self.series(side * (1 - fallen) / (1 + fallen), name)
+        if isinstance(node, (sp.sinh, sp.cosh)):
             return self.series(node.rewrite(sp.exp), name)
         raise EmissionError(f"no Taylor recurrence for {type(node).__name__}: {node}")
 

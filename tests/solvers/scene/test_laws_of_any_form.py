@@ -127,6 +127,18 @@ def test_kinks_of_a_potential(tmp_path: Path):
     assert values == pytest.approx([values[0]] * 3, rel=1e-8)
 
 
+def test_a_steep_step(tmp_path: Path):
+    """A step by tanh, a thousand times steeper than the speeds vary: no exponential of it overflows."""
+    factor = "(Rational(5, 4) + tanh(u/(v0/1000))/4)"
+    own = scene(tmp_path, f'law("film", "mine", resistance=6*pi*mu*a**2*u/x*(1 - x/x0)**2*{factor})')
+    values = [collide(own, stokes=0.1, rtol=1e-11, engine=by).restitution for by in ENGINES]
+    assert values == pytest.approx([values[0]] * 3, rel=1e-8)
+    glass = "3*mu*a*(-u)/x**2*(Rational(3, 2) + tanh((x/x0 - Rational(1, 2))*2000)/2)"
+    own = scene(tmp_path, f'law("glass", "mine", pressure={glass})')
+    values = [collide(own, stokes=0.1, rtol=1e-11, engine=by).restitution for by in ENGINES]
+    assert values == pytest.approx([values[0]] * 3, rel=1e-8)
+
+
 def test_a_pressure_with_kinks(tmp_path: Path):
     """A kink of the pressure is no glass transition: in every engine the law is 1.95 times the library's.
 
