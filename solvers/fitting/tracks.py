@@ -170,8 +170,8 @@ def tracks(
     gap = None if near is None else _size(near, "m", "near", pixel=pixel, plain=None)
     clock = known.get("time") or known.get("frame")
     if clock is None:
-        given = ", ".join(each.name for each in columns)
-        raise InputError("tracks", given, "a column frame, or time [s]", "has no time")
+        header = ", ".join(column.name for column in columns)
+        raise InputError("tracks", header, "a column frame, or time [s]", "has no time")
     time = _numbers(clock, lines, "s", per_frame, "rate" * (clock.name == "frame"))
     unit_of_clock = f" {clock.unit}" if clock.unit and clock.name == "time" else ""
     films = [str(each) for each in known["impact"].cells] if "impact" in known else ["1"] * time.size
@@ -205,6 +205,8 @@ def tracks(
         remarks += [f"impact {label}: {each}" for each in said]
     if not rows:
         raise left_out[0]
+    if rate is not None and per_frame is None:
+        remarks.append(f"the rate {rate} is not used: the times are those of the column time")
     gaps = f"x0 = {1e6 * loaded.liquid.film_thickness:.4g} um and x_f = {1e6 * loaded.rupture_gap:.4g} um"
     remarks.append(
         f"Speed, angle, contact time and rotation are those at the scene's gaps, {gaps}; no standard deviation holds "

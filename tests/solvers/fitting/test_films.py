@@ -139,6 +139,15 @@ def test_frames_near_contact_are_left_out(film: dict[str, np.ndarray]) -> None:
         assert "are left out" in found.remarks[0]
 
 
+def test_a_rate_beside_times_is_said_not_to_be_used(film: dict[str, np.ndarray]) -> None:
+    """Times in a column are what counts, whatever rate is given with them."""
+    timed = {"time [us]": film["frame"] / 0.15} | {name: film[name] for name in ("x1", "y1", "x2", "y2")}
+    found = read(timed, noise=0.2)
+    assert found.columns["speed"] == pytest.approx(read(film, noise=0.2).columns["speed"], rel=1e-9)
+    assert "is not used: the times are those of the column time" in " ".join(found.remarks)
+    assert "is not used" not in " ".join(read(film, noise=0.2).remarks)
+
+
 def test_frames_and_times_that_are_shared_are_named(film: dict[str, np.ndarray]) -> None:
     """A row twice names its frame; a clock too coarse for the film names its times and what to give instead."""
     again = {name: np.append(values, values[3]) for name, values in film.items()}
