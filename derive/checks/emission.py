@@ -90,7 +90,7 @@ def _different(casadi: list[float], kernel: list[float], function: LawFunction) 
             if not math.isfinite(value):
                 return f"{what} {form} is no finite number"
         size = max(map(abs, casadi[1:] if place else casadi[:1]))
-        if abs(one - other) > _EQUAL * max(size, 1.0):
+        if abs(one - other) > (100 if place else 1) * _EQUAL * max(size, 1.0):  # a branch not taken leaves rounding
             return f"{what} is {one:.6g} by CasADi and {other:.6g} by the kernel's recurrences"
     return ""
 

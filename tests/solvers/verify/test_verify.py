@@ -118,10 +118,11 @@ def test_the_picture_shows_the_terms(tmp_path) -> None:
     budget = restitution_budget("granulation", stokes=[0.01, 0.03, 0.1, 0.3], angle=angles)
     figure = plot(budget, tmp_path / "budget.png")
     assert (tmp_path / "budget.png").stat().st_size > 10_000
-    lines = [line for axes in figure.axes for line in axes.lines if len(line.get_xdata()) == 4]
-    drawn = [line.get_ydata() for line in lines]
+    drawn = [np.asarray(line.get_ydata(), dtype=float) for axes in figure.axes for line in axes.lines]
+    drawn = [line[np.isfinite(line)] for line in drawn]  # broken where the outcome changes
     for row in (1, 2):
-        assert any(np.array_equal(line, budget["excess"].values[row], equal_nan=True) for line in drawn)
+        excess = budget["excess"].values[row]
+        assert any(np.array_equal(line, excess[np.isfinite(excess)]) for line in drawn)
 
 
 def test_amplification_of_a_relaxing_spin() -> None:
