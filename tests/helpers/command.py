@@ -5,7 +5,6 @@ import re
 from click.testing import CliRunner, Result
 from wetdoublet.solvers.commands.cli import cli
 
-
 AT_WORK = re.compile(rb"^at work for .*\n", re.MULTILINE)
 
 
