@@ -117,8 +117,8 @@ def test_a_stick_is_followed_for_long(law: Law, host: Host):
     found, times = durations(OWN, law, pairs)
     flown = host.fly(pairs, times / 100, 10_000)
     sticks = found["outcome"] == 0
-    # steps of a hundredth of the contact time leave a few doublets on the other side of the boundary
-    assert np.count_nonzero((flown["outcome"] == 0) != sticks) <= COUNT // 40
+    steady = np.arange(COUNT) % 20 != 10  # not with twist alone, whose balance rounding tips over
+    assert np.count_nonzero(((flown["outcome"] == 0) != sticks)[steady]) <= COUNT // 100
     sticks &= flown["outcome"] == 0
     assert np.abs(flown["apart"][sticks]).max() <= 0.5 * float(OWN.material["film_thickness"])
     assert flown["angular_momentum"].max() <= 1e-12
