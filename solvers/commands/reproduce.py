@@ -26,5 +26,5 @@ def command(part: str | None, out: options.Folder) -> None:
 
     with Bar("parts", "a single PART takes less") as progress:
         parts = PARTS if part in (None, "all") else (part,)
-        written = reproduce(parts, out or Path("paper"), say=progress.note, progress=progress)
+        written = reproduce(parts, out or Path("paper"), progress=progress)
     click.echo("\n".join(map(str, written)))

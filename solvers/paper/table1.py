@@ -8,12 +8,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..formatting.document import Picture
-from ..formatting.style import INK
-from ..host import files
+from ..formatting.style import INK, NOTE
 from ..scene.scene import Scene
-from .lines import BRIDGED, PENDULUM, PaperLines, described
-from .report import Part
-from .style import GREY, sheet
+from .report import Part, sheet
+from .theory import BRIDGED, PENDULUM, described
 
 if TYPE_CHECKING:
     from ...derive.emit.document.theory import Equation
@@ -23,9 +21,8 @@ _TALL, _LOW, _HEAD, _MARGIN = 0.98, 0.58, 0.7, 0.25  # cm; lines with and withou
 _WRAP = 37  # characters of a note on a line without a formula
 
 
-def make(lines: PaperLines, folder: Path) -> Part:
-    """Compute the part: the equations of the presets' laws, typeset into `folder`."""
-    lines.say("table 1: deriving")
+def table1(folder: Path) -> Part:
+    """The equations of the presets' laws, typeset."""
     bridged, hung = Scene.load(BRIDGED), Scene.load(PENDULUM)
     assert bridged.bridge is not None
     assert hung.pendulum is not None
@@ -35,26 +32,16 @@ def make(lines: PaperLines, folder: Path) -> Part:
     laws = {"arm": model.arm, "shear": model.tangential, "glass": model.glass}
     equations = theory(laws | {"bridge": bridged.bridge.law, "strings": hung.pendulum.law})
     _draw(equations, folder / "table1.png")
-    files.write(folder / "table1.tex", document(equations))
     words = (
         "The equations of the model in SI, written by the derivation in the symbols of its vocabulary; nothing is "
         f"typed in. Laws: {described(bridged)}; {described(hung)}. The paper's own table is a "
         "picture that its text does not have: these are rebuilt from first principles and held against what it prints."
     )
-    picture = Picture("table1.png", "Table 1: theory. LaTeX in table1.tex.", _WIDTH)
+    picture = Picture(
+        "table1.png", "Table 1: theory. LaTeX below; `wetdoublet export SCENE --to latex` writes a document.", _WIDTH
+    )
     formulas = tuple((line.group, line.latex, line.note) for line in equations)
     return Part("Table 1: theory", words, pictures=(picture,), formulas=formulas)
-
-
-def document(lines: tuple[Equation, ...]) -> str:
-    """The equations as a LaTeX document."""
-    body: list[str] = []
-    for group, members in groupby(lines, key=lambda line: line.group):
-        body += [rf"\section*{{{group}}}", r"\begin{align*}"]
-        rows = [rf"  {line.left} &{line.relation} {line.latex.split(f' {line.relation} ', 1)[1]}" for line in members]
-        body += [" \\\\\n".join(rows), r"\end{align*}"]
-    head = ["% Emitted by wetdoublet from its derivation.", r"\documentclass{article}", r"\usepackage{amsmath}"]
-    return "\n".join([*head, r"\begin{document}", *body, r"\end{document}", ""])
 
 
 def _draw(lines: tuple[Equation, ...], file: Path) -> None:
@@ -80,7 +67,7 @@ def _draw(lines: tuple[Equation, ...], file: Path) -> None:
                     formula = line.latex.replace(r"\frac", r"\dfrac")
                     put(left + _MARGIN, middle, f"${formula}$", fontsize=8, math_fontfamily="cm", color=INK)
                     note = textwrap.fill(line.note, _WRAP - len(line.latex) // 8, break_long_words=False)
-                    put(right, middle, note, fontsize=6.5, color=GREY, ha="right")
+                    put(right, middle, note, fontsize=6.5, color=NOTE, ha="right")
                     place -= _height(line)
 
 
