@@ -49,15 +49,9 @@ def saddle_of(probe: EventLocator, barrier: Barrier) -> Saddle | None:
     film = int(barrier.gap < 1 or not probe.model.edged)
     # cavitated: a doublet that escapes passes the saddle with a growing gap
     region = Region(film, shear=int(barrier.gap < probe.edge), resting=False, cavitated=probe.model.cavitates)
-    return saddle_at(probe.model, barrier.gap, probe.y[: len(probe.model.state)], probe.p, region)
-
-
-def saddle_at(model: Model, gap: float, y: np.ndarray, p: np.ndarray, region: Region) -> Saddle | None:
-    """The saddle at a gap: rigid rotation with the angular momentum of a state; None without a growing mode.
-
-    Where the tangential force is cut off, nothing drives a doublet to rigid rotation: it is at rest in its gap.
-    """
-    rest = np.concatenate([[gap, 0.0], y[2:]])
+    model, gap, p = probe.model, barrier.gap, probe.p
+    rest = np.concatenate([[gap, 0.0], probe.y[2 : len(model.state)]])
+    # where the tangential force is cut off, nothing drives a doublet to rigid rotation: it is at rest in its gap
     rigid = np.array(list(model.values("rigid_rotation", rest, p).values())) if region.shear else rest
     matrix = np.asarray(_jacobian(model, region)(rigid, p).full())
     values, vectors = np.linalg.eig(matrix)

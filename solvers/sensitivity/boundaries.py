@@ -10,10 +10,15 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ...generated.automaton import OUTCOMES
 from ..boundaries.boundary import Boundaries, boundary
 from ..boundaries.changes import Change, changes_along
 from ..boundaries.line import Line
 from ..boundaries.scene_sampler import SceneSampler
+from ..changes.brackets import Brackets, enclose
+from ..changes.experiment import Rows
+from ..changes.lines import Lines
+from ..changes.slopes import normals, outcomes_along, slopes
 from ..engines.settings import RTOL, check_rtol
 from ..errors import ComputationError, InputError
 from ..formatting.markdown import numbers_aligned
@@ -21,8 +26,7 @@ from ..formatting.notebook import frame, view
 from ..host.arguments import check_function
 from ..host.pictures import Drawn
 from ..scene.scene import Scene
-from ..scene.schema import DEFAULTS, FIELDS, SPEEDS
-from .boundary_slope import slope
+from ..scene.schema import DEFAULTS, FIELDS, MEETING, SPEEDS
 from .parameters import check_wrt, kind_of, parameter_map, references
 from .results import Row
 
@@ -36,6 +40,8 @@ _STEPS = (1e-3, 1e-4)  # in theta, at which derivatives are confirmed; the secon
 _REACH = 3e-3  # in ln St, about where it is expected
 _AGREES = 1e-4  # largest error of the confirmed derivative, in ln St per theta
 _SHARPEST = 1e-11  # tolerance of the differentiated trajectories, which pass the saddle
+_ERROR = 1e-6  # of the derivatives beside the largest: smaller ones are 0
+_ASIDE, _NARROW = 1e-8, 1e-10  # of St*: where both sides must have their outcomes, and to which the change is enclosed
 
 
 @dataclass(frozen=True)
@@ -244,27 +250,23 @@ def check_boundary_wrt(scene: Scene, wrt: Sequence[str] | str | None, label: str
 def moving(scene: Scene, angle: float, change: Change, names: tuple[str, ...], rtol: float = RTOL) -> Moving:
     """Derivatives of one change at an angle (rad) in the named parameters."""
     try:
-        gradient = slope(scene, angle, change, min(rtol, _SHARPEST))
+        by_parameter = _of_logarithm(scene, angle, change, names, min(rtol, _SHARPEST))
     except ComputationError as error:
         return Moving(change, reason=str(error))
-    kind = kind_of(scene, "stokes")
-    everything = (*names, "impact.stokes")
-    via = parameter_map(kind, everything, gradient.groups)
-    reference = references(scene, kind, scene.speed_of(change.stokes), angle)
-    slopes, units = (np.asarray(each.full()) for each in via.slopes(reference))
-    in_theta = gradient.gradient @ slopes[: len(gradient.groups)]
-    if in_theta[-1] == 0:
-        return Moving(change, reason="it does not depend on the Stokes number")
-    along = -in_theta[:-1] / in_theta[-1]  # d ln St*/dtheta
-    steps = dict(zip(names, units.ravel().tolist(), strict=False))
-    if contradiction := _contradicted(scene, angle, change, steps, along, rtol):
-        return Moving(change, reason=contradiction)
-    speed = scene.speed_of(change.stokes)
+    speed, kind = scene.speed_of(change.stokes), kind_of(scene, "stokes")
     values = {"stokes": change.stokes, "speed": speed, "relative_speed": speed / math.cos(angle)}
     groups: tuple[str, ...] = ("speed",)
     if change.centrifugal is not None:
         values["centrifugal"], groups = change.centrifugal, ("speed", "centrifugal")
-    map_slopes = np.asarray(parameter_map(kind, everything, groups).slopes(reference)[0].full())
+    reference = references(scene, kind, speed, angle)
+    via = parameter_map(kind, (*names, "impact.stokes"), groups)
+    map_slopes, units = (np.asarray(each.full()) for each in via.slopes(reference))
+    in_theta = by_parameter * units[:-1, 0]
+    in_theta[np.abs(in_theta) < _ERROR * np.abs(in_theta).max(initial=0.0)] = 0.0
+    along = (speed * in_theta - map_slopes[0, :-1]) / map_slopes[0, -1]  # d ln St*/dtheta
+    steps = dict(zip(names, units.ravel().tolist(), strict=False))
+    if contradiction := _contradicted(scene, angle, change, steps, along, rtol):
+        return Moving(change, reason=contradiction)
     rows = dict(zip(groups, map_slopes[:, :-1] + map_slopes[:, -1:] * along)) | {"stokes": along * change.stokes}
     turned = np.array([units[k].item() if name == "impact.angle" else 0.0 for k, name in enumerate(names)])
     rows["relative_speed"] = (rows["speed"] + speed * math.tan(angle) * turned) / math.cos(angle)
@@ -279,6 +281,32 @@ def moving(scene: Scene, angle: float, change: Change, names: tuple[str, ...], r
             for of, value in values.items()
         },
     )
+
+
+def _of_logarithm(scene: Scene, angle: float, change: Change, names: tuple[str, ...], rtol: float) -> np.ndarray:
+    """Derivatives of ln v* of a change by the parameters, each alone; ComputationError where it has none."""
+    given, entries = DEFAULTS | dict(scene.entries), tuple(name for name in names if name not in MEETING)
+    rows = Rows(scene, entries, {}, 1, rtol)
+    experiment = rows.unchecked(np.array([float(given[name]) for name in entries]))
+    speed, row = scene.speed_of(change.stokes), np.zeros(1, int)
+    line = Lines(row, np.array([[speed, speed]]), np.array([[angle, 0.0]]), row - 0.5, row + 0.5, relative=False)
+    labels = outcomes_along(experiment, line)
+    before, after = labels(np.zeros(2, int), np.array([-_ASIDE, _ASIDE]))
+    sides = [OUTCOMES[int(k)] if k >= 0 else "nothing certain" for k in (before, after)]
+    if sides != [change.before, change.after]:
+        seen = " and ".join(sides)
+        raise ComputationError(f"collisions beside St {change.stokes:.10g} end in {seen}: not differentiated")
+    bracket = Brackets(row, row - _ASIDE, row + _ASIDE, row + int(before), row + int(after))
+    bracket = enclose(labels, bracket, _NARROW)
+    by_entry = dict(zip(entries, slopes(experiment, line, bracket)[0].tolist(), strict=True))
+    if "impact.angle" in names:
+        normal = normals(experiment, line, bracket, approximate=False)
+        by_entry["impact.angle"] = float(-normal.angle[0] / normal.along[0])
+    by_parameter = np.array([by_entry[name] for name in names])
+    if not np.isfinite(by_parameter).all():
+        lost = ", ".join(name for name in names if not math.isfinite(by_entry[name]))
+        raise ComputationError(f"no derivative of the change at St {change.stokes:.10g} by {lost} was found")
+    return by_parameter
 
 
 def _contradicted(

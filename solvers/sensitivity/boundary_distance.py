@@ -9,6 +9,7 @@ import math
 from collections.abc import Callable, Iterator
 
 import numpy as np
+from casadi import Function, densify, jtimes, vertcat
 
 from ...generated.automaton import CLOSING, KINDS, EventKind
 from ..boundaries.line import Line
@@ -17,12 +18,12 @@ from ..certificates import energy_proof
 from ..engines.casadi.integrators import IntegrationFailed, tolerance_for
 from ..engines.casadi.locate import EventLocator, EventSequence, PhaseRun
 from ..errors import ComputationError
+from ..host.thread_caches import own_cache
 from ..model.dimensionless import DimensionlessGroups, nondimensionalise
 from ..model.model import Model, load, select_model
 from ..scene.contact import ENTRIES, GAPS, TIE, contact_gap
 from ..scene.scene import Scene
 from ..scene.user_model import OwnEvent
-from .boundary_slope import guard_rates
 from .result import Near
 
 LIMIT, PER_RTOL, WIDEST = 1e-6, 1e4, 1e-3
@@ -163,7 +164,7 @@ def _suspects(finder: EventLocator, path: EventSequence, least: float) -> Iterat
 
 def _declared(model: Model, path: EventSequence, event: OwnEvent, step: PhaseRun, y: np.ndarray) -> Iterator[Near]:
     """Boundaries of a declared event: its guard just falls to zero, or is so where it begins to be watched."""
-    guard, first, second = guard_rates(model, event.name, *_region(step))(y, path.p).full()
+    guard, first, second = _guard_rates(model, event.name, *_region(step))(y, path.p).full()
     name, scale = f"{DECLARED} {event.word}", float(np.abs(guard).max())
     if step.duration == 0 or scale == 0:  # it happens where it begins to be watched, or may not
         if step.own == event.name:
@@ -180,7 +181,7 @@ def _criteria(
     model: Model, path: EventSequence, step: PhaseRun, y: np.ndarray, glass: float, contact: float
 ) -> Iterator[Near]:
     """Boundaries of a closing phase: grazing of its criterion, and margins of the others."""
-    guard, first, second = guard_rates(model, "glass", *_region(step))(y, path.p).full()
+    guard, first, second = _guard_rates(model, "glass", *_region(step))(y, path.p).full()
     pressure, first, second = glass - guard, -first, -second
     met = step.kinds[:1] and step.kinds[0]
     if met == "glass":
@@ -248,6 +249,16 @@ def _leaving(finder: EventLocator, step: PhaseRun, y: np.ndarray) -> Iterator[Ne
             float(orbital_momentum.min() / np.abs(orbital_momentum).max()),
             "angular momentum",
         )
+
+
+@own_cache(256)
+def _guard_rates(model: Model, name: str, film: int, shear: int) -> Function:
+    """Function (states, groups) -> guard of an event, its first and second time derivative: three rows."""
+    rates = model.function("right_hand_side", film, shear)(model.column, model.parameters)
+    guard = model("events")[name]
+    first = jtimes(guard, model.column, rates)
+    rows = densify(vertcat(guard, first, jtimes(first, model.column, rates)))
+    return Function("guard_rates", [model.column, model.parameters], [rows])
 
 
 def _region(step: PhaseRun) -> tuple[int, int]:

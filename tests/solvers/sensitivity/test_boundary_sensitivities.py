@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from wetdoublet.solvers import InputError, Scene, boundary, boundary_sensitivities, sensitivities
-from wetdoublet.solvers.paper.factors import DOUBLED
+from wetdoublet.solvers.paper.printed import DOUBLED
 from wetdoublet.solvers.sensitivity.boundaries import BoundarySensitivities, Moving, moving
 
 from ...helpers.command import run
@@ -117,7 +117,8 @@ def test_a_criterion_met_at_initial_contact() -> None:
     expected = 500.0 * liquid.film_thickness**2 * m / (18 * math.pi * liquid.viscosity**2 * a**3)
     found = only(moved(scene, 42.228, (0.5 * expected, 2 * expected), wrt=names))
     assert found.change.stokes == pytest.approx(expected, rel=1e-8)
-    assert list(found.elasticity["stokes"].values()) == pytest.approx([-2.0, 1.0, 0.0], abs=1e-9)
+    # no gradient grows there: the change is located to 1e-11 with entries moved by 1e-5
+    assert list(found.elasticity["stokes"].values()) == pytest.approx([-2.0, 1.0, 0.0], abs=1e-6)
 
 
 def test_a_change_that_is_none_has_no_slope() -> None:
@@ -129,10 +130,10 @@ def test_a_change_that_is_none_has_no_slope() -> None:
     assert "end in" in wrong.reason
 
 
-@pytest.mark.parametrize("key", ["factor_film", "factor_radius"])
-def test_elasticities_add_up_to_a_doubling(key: str) -> None:
+@pytest.mark.parametrize(("name", "expected"), [("liquid.film_thickness", 0.762), ("particles.reduced_radius", 1.136)])
+def test_elasticities_add_up_to_a_doubling(name: str, expected: float) -> None:
     """Ce*(2p)/Ce*(p) is 2 to the mean of the elasticity along the way: the doubling table out of derivatives alone."""
-    scene, name = Scene.load("granulation").with_entries(HARD), DOUBLED[key]
+    scene = Scene.load("granulation").with_entries(HARD)
     nodes, weights = np.polynomial.legendre.leggauss(4)
     elasticities = []
     for node in nodes:
@@ -140,15 +141,15 @@ def test_elasticities_add_up_to_a_doubling(key: str) -> None:
         one = only(moved(there, 45, (0.01, 0.2), wrt=[name]))
         elasticities.append(float(one.elasticity["centrifugal"][name] or 0.0))
     # an independent prototype's, midgap, three digits; four nodes of a smooth function are exact beyond that
-    expected = {"factor_film": 0.762, "factor_radius": 1.136}[key]
     assert 2 ** (weights @ elasticities / 2) == pytest.approx(expected, abs=6e-4)
 
 
 def test_direction_of_the_doubling_table() -> None:
     """Every elasticity of Ce* has the sign of its doubling, and predicts its size to within 40 % of the change."""
     scene = Scene.load("granulation").with_entries(HARD)
-    found = only(moved(scene, 45, (0.03, 0.09), wrt=list(DOUBLED.values())))
-    table = dict(zip(DOUBLED.values(), (1.038, 0.762, 0.983, 1.010, 1.010, 1.136), strict=True))  # the prototype's
+    entries = [entry for entry, _ in DOUBLED.values()]
+    found = only(moved(scene, 45, (0.03, 0.09), wrt=entries))
+    table = dict(zip(entries, (1.038, 0.762, 0.983, 1.010, 1.010, 1.136), strict=True))  # the prototype's
     for name, factor in table.items():
         predicted = float(found.elasticity["centrifugal"][name] or 0.0)
         assert predicted == pytest.approx(math.log2(factor), rel=0.4)
