@@ -293,12 +293,12 @@ def _block(request: _Request, where: np.ndarray) -> Columns:
         return columns
     experiment = experiment_of(list(scenes.values()), request.wrt, request.rtol)
     of_nodes = where.min() >= np.prod(request.shape)  # their errors leave room for that of the interpolation
-    result = means(experiment, rows.size, request.speeds, request.tolerance / (2 if of_nodes else 1))
-    columns["mean"][rows], columns["error"][rows] = result.mean, result.error
-    columns["reason"][rows[np.isnan(result.mean).any(axis=1)]] = "collisions that no engine completes"
+    mean, error, _ = means(experiment, rows.size, request.speeds, request.tolerance / (2 if of_nodes else 1))
+    columns["mean"][rows], columns["error"][rows] = mean, error
+    columns["reason"][rows[np.isnan(mean).any(axis=1)]] = "collisions that no engine completes"
     if request.wrt:
-        coarser = means(experiment, rows.size, request.speeds, _OF_GRADIENTS * request.tolerance, SHARP_CUT)
-        slopes, errors = gradients(experiment, coarser)
+        batches = means(experiment, rows.size, request.speeds, _OF_GRADIENTS * request.tolerance, SHARP_CUT)[2]
+        slopes, errors = gradients(experiment, rows.size, batches)
         columns["gradient"][rows] = slopes.reshape(rows.size, -1)
         columns["gradient_error"][rows] = errors.reshape(rows.size, -1)
     return columns

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from importlib.metadata import version
 from typing import TYPE_CHECKING, Any
 
@@ -17,34 +18,47 @@ if TYPE_CHECKING:
     import xarray
 
 Columns = dict[str, np.ndarray]
-_MEANS = {
-    "stick_probability": (STICKS, "share of collisions that stick"),
-    "rotate_probability": (ROTATES, "share of collisions that stick, rotate and separate"),
-    "bounce_probability": (BOUNCES, "share of collisions that bounce"),
-    "restitution_all": (NORMAL, "mean normal restitution of all collisions; a stick counts as 0"),
-    "tangential_restitution_all": (TANGENTIAL, "mean tangential restitution of all collisions; a stick counts as 0"),
-}
-_SEPARATED = {
-    "restitution_separated": (NORMAL, "mean normal restitution of the collisions that separate"),
-    "tangential_restitution_separated": (TANGENTIAL, "mean tangential restitution of the collisions that separate"),
-}
-QUANTITIES = (*_MEANS, *_SEPARATED)
-"""What is averaged and has derivatives, in this order."""
-_ENERGIES = {  # name: column, factor and constant, meaning
-    "normal_dissipation": (ENERGY, -2.0, 1.0, "part of the normal kinetic energy of all collisions that is dissipated"),
-    "energy_into_rotation": (
-        TURNING,
-        1.0,
-        0.0,
-        "gain of the energy of rotation over the kinetic energy of all collisions",
-    ),
-}
 
-_SHOWN = {  # name: head of its column in a table
-    "stick_probability": "stick", "rotate_probability": "rotate", "bounce_probability": "bounce",
-    "restitution_all": "e_n of all", "tangential_restitution_all": "e_t of all", "restitution_separated": "e_n apart",
-    "tangential_restitution_separated": "e_t apart", "normal_dissipation": "dissipated",
+
+@dataclass(frozen=True)
+class Quantity:
+    """What is averaged: constant + factor * column, and of `separated` ones over the share of the collisions that do.
+
+    Attributes:
+        head: of its column in a table for a person; "" leaves it out.
+    """
+
+    column: int
+    meaning: str
+    head: str = ""
+    separated: bool = False
+    factor: float = 1.0
+    constant: float = 0.0
+
+
+_NORMAL, _TANGENTIAL = "mean normal restitution", "mean tangential restitution"
+_TABLE = {
+    "stick_probability": Quantity(STICKS, "share of collisions that stick", "stick"),
+    "rotate_probability": Quantity(ROTATES, "share of collisions that stick, rotate and separate", "rotate"),
+    "bounce_probability": Quantity(BOUNCES, "share of collisions that bounce", "bounce"),
+    "restitution_all": Quantity(NORMAL, f"{_NORMAL} of all collisions; a stick counts as 0", "e_n of all"),
+    "tangential_restitution_all": Quantity(
+        TANGENTIAL, f"{_TANGENTIAL} of all collisions; a stick counts as 0", "e_t of all"
+    ),
+    "restitution_separated": Quantity(NORMAL, f"{_NORMAL} of the collisions that separate", "e_n apart", True),
+    "tangential_restitution_separated": Quantity(
+        TANGENTIAL, f"{_TANGENTIAL} of the collisions that separate", "e_t apart", True
+    ),
+    "normal_dissipation": Quantity(
+        ENERGY, "part of the normal kinetic energy of all collisions that is dissipated", "dissipated",
+        factor=-2.0, constant=1.0,
+    ),
+    "energy_into_rotation": Quantity(
+        TURNING, "gain of the energy of rotation over the kinetic energy of all collisions"
+    ),
 }  # fmt: skip
+QUANTITIES = tuple(name for name, each in _TABLE.items() if each.column < SLOPES)
+"""What has derivatives, in this order."""
 _SIZES = {"radius": "radius (um)", "partner_radius": "partner (um)"}
 _AXES = {"radius": "radius of the first sphere", "partner_radius": "radius of the second sphere"}
 
@@ -56,17 +70,12 @@ def dataset(
     import xarray as xr
 
     dims, shape = tuple(axes), tuple(axis.size for axis in axes.values())
-    mean, error, slope, slope_error = _quantities(columns, len(wrt))
+    found = {name: _averaged(each, columns) for name, each in _TABLE.items()}
     variables: dict[str, Any] = {}
-    for k, (name, (_, meaning)) in enumerate({**_MEANS, **_SEPARATED}.items()):
-        variables[name] = dims, mean[:, k].reshape(shape), {"units": "1", "long_name": meaning}
+    for name, (value, error, *_) in found.items():
+        variables[name] = dims, value.reshape(shape), {"units": "1", "long_name": _TABLE[name].meaning}
         meaning = f"estimated error of the quadrature of {name}"
-        variables[f"{name}_error"] = dims, error[:, k].reshape(shape), {"units": "1", "long_name": meaning}
-    for name, (column, factor, constant, meaning) in _ENERGIES.items():
-        value, its_error = constant + factor * columns["mean"][:, column], abs(factor) * columns["error"][:, column]
-        variables[name] = dims, value.reshape(shape), {"units": "1", "long_name": meaning}
-        meaning = f"estimated error of the quadrature of {name}"
-        variables[f"{name}_error"] = dims, its_error.reshape(shape), {"units": "1", "long_name": meaning}
+        variables[f"{name}_error"] = dims, error.reshape(shape), {"units": "1", "long_name": meaning}
     rate = {"units": "m s-1" if scene.wall else "m3 s-1", "long_name": "collisions per time and number densities"}
     variables["collision_rate"] = dims, columns["rate"].reshape(shape), rate
     coordinates: dict[str, Any] = {
@@ -74,6 +83,7 @@ def dataset(
     }
     if wrt:
         over, sizes = (*dims, "quantity", "parameter"), (*shape, len(QUANTITIES), len(wrt))
+        slope, slope_error = (np.stack([found[name][k] for name in QUANTITIES], axis=1) for k in (2, 3))
         variables["gradient"] = over, slope.reshape(sizes), {"long_name": "derivatives by entries of the scene, SI"}
         variables["gradient_error"] = over, slope_error.reshape(sizes), {"long_name": "estimated errors of gradient"}
         coordinates |= {"quantity": list(QUANTITIES), "parameter": list(wrt)}
@@ -90,24 +100,27 @@ def dataset(
     return xr.Dataset(variables, coordinates, all_attributes)
 
 
-def _quantities(columns: Columns, parameters: int) -> tuple[np.ndarray, ...]:
-    """Means and errors of `QUANTITIES`, (pairs, quantities), and their derivatives, (pairs, quantities, parameters).
+def _averaged(quantity: Quantity, columns: Columns) -> tuple[np.ndarray, ...]:
+    """A quantity and its error, (pairs,), and its derivatives and their errors, (pairs, parameters)."""
 
-    The means over the collisions that separate are those over all, divided by the share of the former, s = 1 - stick.
-    """
-    mean, error = columns["mean"][:, :SLOPES], columns["error"][:, :SLOPES]
-    slope, slope_error = (
-        columns[name].reshape(len(mean), SLOPES, parameters) for name in ("gradient", "gradient_error")
-    )
-    separate, of_share = mean[:, [ROTATES]] + mean[:, [BOUNCES]], error[:, [STICKS]]
+    def column(name: str, k: int) -> np.ndarray:
+        values = columns[name]
+        return values[:, k] if name in ("mean", "error") else values.reshape(len(values), SLOPES, -1)[:, k]
+
+    k = quantity.column
+    value = quantity.constant + quantity.factor * column("mean", k)
+    error = abs(quantity.factor) * column("error", k)
+    if k >= SLOPES:
+        return value, error
+    slope, slope_error = column("gradient", k), column("gradient_error", k)
+    if not quantity.separated:
+        return value, error, slope, slope_error
+    separate, of_share = column("mean", ROTATES) + column("mean", BOUNCES), column("error", STICKS)
     share = np.where(separate > np.maximum(of_share, 1e-12), separate, np.nan)
-    both = [place for place, _ in _SEPARATED.values()]
-    ratio = mean[:, both] / share
-    ratio_error = (error[:, both] + np.abs(ratio) * of_share) / share
-    ratio_slope = (slope[:, both] + ratio[..., None] * slope[:, [STICKS]]) / share[..., None]
-    ratio_slope_error = (slope_error[:, both] + np.abs(ratio)[..., None] * slope_error[:, [STICKS]]) / share[..., None]
-    pairs = (mean, ratio), (error, ratio_error), (slope, ratio_slope), (slope_error, ratio_slope_error)
-    return tuple(np.concatenate(each, axis=1) for each in pairs)
+    ratio = value / share
+    slope = (slope + ratio[:, None] * column("gradient", STICKS)) / share[:, None]
+    slope_error = (slope_error + np.abs(ratio)[:, None] * column("gradient_error", STICKS)) / share[:, None]
+    return ratio, (error + np.abs(ratio) * of_share) / share, slope, slope_error
 
 
 def to_csv(data: xarray.Dataset) -> str:
@@ -117,11 +130,8 @@ def to_csv(data: xarray.Dataset) -> str:
     defined.
     """
     dims = [str(name) for name in data["stick_probability"].dims]
-    shape = data["stick_probability"].shape
-    columns: dict[str, np.ndarray] = {}
-    for k, name in enumerate(dims):
-        axis = data[name].values.reshape([-1 if j == k else 1 for j in range(len(dims))])
-        columns[f"{name} [m]"] = np.broadcast_to(axis, shape).ravel()
+    sizes = np.meshgrid(*(data[name].values for name in dims), indexing="ij")
+    columns: dict[str, np.ndarray] = {f"{name} [m]": size.ravel() for name, size in zip(dims, sizes, strict=True)}
     columns["relative_speeds"] = np.full(data["stick_probability"].size, data.attrs["speeds"])
     plain = [str(name) for name in data.data_vars if data[name].dims == data["stick_probability"].dims]
     columns |= {name: data[name].values.ravel() for name in sorted(plain, key=lambda name: name == "reason")}
@@ -137,7 +147,7 @@ def table(data: xarray.Dataset) -> str:
     """The averages for a person: a line for each pair below names and units, and below them the derivatives (SI)."""
     sizes = {name: head for name, head in _SIZES.items() if name in data.dims}
     rate = data["collision_rate"].attrs["units"].replace("m s-1", "m/s").replace("m3 s-1", "m^3/s")
-    heads = {**_SHOWN, "collision_rate": f"rate ({rate})"}
+    heads = {name: each.head for name, each in _TABLE.items() if each.head} | {"collision_rate": f"rate ({rate})"}
     data = data.assign_coords({name: 1e6 * data[name] for name in sizes}).rename(sizes)
     blocks = [data[list(heads)].rename(heads).expand_dims([] if sizes else ["pair"])]
     blocks += [data["gradient"].to_dataset("parameter")] if "gradient" in data else []

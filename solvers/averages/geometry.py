@@ -80,28 +80,22 @@ def segments(labels: Labels, lines: int, width: float, hints: np.ndarray | None 
 
 
 @dataclass(frozen=True)
-class Nodes:
-    """Collisions of the quadrature of lines: where they are, and their weights by either rule."""
-
-    line: np.ndarray
-    angle: np.ndarray
-    kronrod: np.ndarray
-    gauss: np.ndarray
-
-
-@dataclass(frozen=True)
 class OverAngles:
     """Means along lines of constant relative speed, and their errors: (lines, COLUMNS); sticks count 0 in e_n and e_t.
 
     Attributes:
-        nodes: the collisions that separate, whose weighted sums the means are.
         segments: the parts of the lines.
+        line, angle: of the collisions that separate, whose weighted sums the means are.
+        kronrod, gauss: their weights by either rule.
     """
 
     mean: np.ndarray
     error: np.ndarray
-    nodes: Nodes
     segments: Segments
+    line: np.ndarray
+    angle: np.ndarray
+    kronrod: np.ndarray
+    gauss: np.ndarray
 
 
 def over_angles(
@@ -145,5 +139,4 @@ def over_angles(
         panels = panels.part(~done).halved()
         if not panels.size:
             break
-    nodes = Nodes(*(np.concatenate(each) for each in zip(*kept, strict=True)))
-    return OverAngles(mean, error, nodes, parts)
+    return OverAngles(mean, error, parts, *(np.concatenate(each) for each in zip(*kept, strict=True)))

@@ -1,5 +1,6 @@
 """Derivatives of means by entries of the scene, by Leibniz' rule: of the integrand, and of the angles of changes."""
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -9,7 +10,7 @@ from ..changes.experiment import STEEPEST, UNDECIDED, Experiment
 from ..changes.lines import Lines
 from ..changes.slopes import slopes, slopes_by_differences
 from .geometry import NORMAL, RIGHT_ANGLE, SLOPES
-from .over_speeds import Batch, Means
+from .over_speeds import Batch
 from .rule import summed
 from .sizes import Collided, collide, outcome_of
 
@@ -19,16 +20,20 @@ _SAME = 1e-6  # a smaller jump is none
 _BLOCK = 4096  # collisions in a call of the kernel
 
 
-def gradients(experiment: Experiment, means: Means) -> tuple[np.ndarray, np.ndarray]:
+def gradients(experiment: Experiment, pairs: int, batches: Sequence[Batch]) -> tuple[np.ndarray, np.ndarray]:
     """Derivatives of the means of pairs (pairs, SLOPES, free entries), SI, and their errors, with the speeds held.
+
+    Arguments:
+        batches: the lines that the means are made of.
 
     Raises:
         ComputationError: the kernel has no derivatives of this scene.
     """
-    pairs, entries = len(means.mean), len(experiment.rows.names)
-    total = np.zeros((3, pairs, SLOPES, entries))  # by Kronrod's rule, and with Gauss's along either variable
+    total = np.zeros(
+        (3, pairs, SLOPES, len(experiment.rows.names))
+    )  # by Kronrod's rule, and with Gauss's along either variable
     lost = np.zeros(total.shape[1:])
-    for batch in means.batches:
+    for batch in batches:
         _add_integrands(experiment, batch, total, lost)
         _add_limits(experiment, batch, total, lost)
     error: np.ndarray = lost + np.abs(total[0] - total[1]) + np.abs(total[0] - total[2])
@@ -37,7 +42,7 @@ def gradients(experiment: Experiment, means: Means) -> tuple[np.ndarray, np.ndar
 
 def _add_integrands(experiment: Experiment, batch: Batch, total: np.ndarray, lost: np.ndarray) -> None:
     """Add the means of the derivatives of e_n and e_t."""
-    nodes = batch.over_angles.nodes
+    nodes = batch.over_angles
     rules = (batch.kronrod, nodes.kronrod), (batch.gauss, nodes.kronrod), (batch.kronrod, nodes.gauss)
     weights = np.stack([of_line[nodes.line] * of_angle for of_line, of_angle in rules])
     used = np.flatnonzero(weights[0])
@@ -50,10 +55,9 @@ def _add_integrands(experiment: Experiment, batch: Batch, total: np.ndarray, los
         by_free = results.free * np.stack([np.cos(within) / np.cos(angle), np.ones(angle.size)])[:, :, None]
         known = results.outcome != UNDECIDED
         steepest = np.abs(by_free[:, known]).max(axis=1, initial=0.0)
-        for row in range(3):
-            for column in range(2):
-                each = weight[row, :, None] * np.where(known[:, None], by_free[column], 0.0)
-                total[row, :, NORMAL + column] += summed(pair, each, len(lost))
+        for row, column in np.ndindex(3, 2):
+            each = weight[row, :, None] * np.where(known[:, None], by_free[column], 0.0)
+            total[row, :, NORMAL + column] += summed(pair, each, len(lost))
         unknown = np.bincount(pair[~known], weight[0, ~known], len(lost))
         lost[:, NORMAL:] += unknown[:, None, None] * steepest
 
@@ -65,12 +69,8 @@ def _add_limits(experiment: Experiment, batch: Batch, total: np.ndarray, lost: n
     line, angle, width = parts.line[k], parts.low[k], parts.width[k]
     if not k.size:
         return
-    below, above = (
-        collide(
-            experiment, batch.pair[line], batch.speed[line], np.clip(angle + side * (_BESIDE + width), 0, RIGHT_ANGLE)
-        )
-        for side in (-1, 1)
-    )
+    sides = (np.clip(angle + side * (_BESIDE + width), 0, RIGHT_ANGLE) for side in (-1, 1))
+    below, above = (collide(experiment, batch.pair[line], batch.speed[line], at) for at in sides)
     jump = _integrands(below) - _integrands(above)
     use = np.abs(jump).max(axis=1) > _SAME
     line, jump = line[use], jump[use]

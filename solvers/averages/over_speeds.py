@@ -40,22 +40,19 @@ class Batch:
     over_angles: OverAngles
 
 
-@dataclass(frozen=True)
-class Means:
-    """Means of pairs and their errors, (pairs, COLUMNS), with the lines that they were made of."""
+def means(
+    experiment: Experiment, pairs: int, speeds: Speeds, tolerance: float, cut: float = CUT
+) -> tuple[np.ndarray, np.ndarray, list[Batch]]:
+    """Means of pairs, the rows of an experiment, over impact angles and relative speeds, to a tolerance.
 
-    mean: np.ndarray
-    error: np.ndarray
-    batches: list[Batch]
-
-
-def means(experiment: Experiment, pairs: int, speeds: Speeds, tolerance: float, cut: float = CUT) -> Means:
-    """The means of pairs, the rows of an experiment, over impact angles and relative speeds, to a tolerance."""
+    Returns:
+        Means and errors, (pairs, COLUMNS), and the lines that they are made of.
+    """
     inner = _INNER * tolerance / 4  # a line has some four panels
     if speeds.density is None:
         every, speed, one = np.arange(pairs), np.full(pairs, speeds.knots[0]), np.ones(pairs)
         along = over_angles(experiment, every, speed, None, inner)
-        return Means(along.mean, along.error, [Batch(every, speed, one, one, along)])
+        return along.mean, along.error, [Batch(every, speed, one, one, along)]
     sequences = _Sequences(replace(experiment, rtol=max(experiment.rtol, _LOOSE)), float(speeds.knots[-1]))
     panels, pair_of, hints = _panels(sequences, pairs, speeds, cut)
     mean_square = speeds.moment(2)
@@ -85,7 +82,7 @@ def means(experiment: Experiment, pairs: int, speeds: Speeds, tolerance: float, 
         kept = weight[:, :, 0] * done[:, None]
         batches.append(Batch(pair, speed.ravel(), (kept * KRONROD).ravel(), (kept * GAUSS).ravel(), along))
         panels = panels.part(~done).halved()
-    return Means(mean, error, batches)
+    return mean, error, batches
 
 
 def _panels(sequences: _Sequences, pairs: int, speeds: Speeds, cut: float) -> tuple[Panels, np.ndarray, np.ndarray]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
@@ -13,7 +12,9 @@ from typing import Any
 import numpy as np
 from scipy.integrate import fixed_quad
 
-from ..errors import InputError, shown
+from ..errors import InputError
+from ..scene import units
+from ..scene.columns import columns_of
 from ..scene.schema import FIELDS, Field, Range
 from ..scene.values import array
 
@@ -56,17 +57,14 @@ class Speeds:
             return float(self.knots[0] ** power)
         if power < 0 and self.knots[0] == 0 and self.density(self.knots[:1])[0] > 0:
             return np.inf
-        density = self.density
-
-        def by_logarithm(s: np.ndarray) -> np.ndarray:
-            values: np.ndarray = density(np.exp(s)) * np.exp((power + 1) * s)
-            return values
-
-        return float(sum(
-            fixed_quad(by_logarithm, np.log(low), np.log(high), n=_NODES)[0] if low > 0
-            else fixed_quad(lambda speed: density(speed) * speed**power, low, high, n=_NODES)[0]
-            for low, high in pairwise(self.knots.tolist())
-        ))  # fmt: skip
+        density, total = self.density, 0.0
+        for low, high in pairwise(self.knots.tolist()):
+            if low > 0:  # by the logarithm of the speed
+                ends = np.log(low), np.log(high)
+                total += fixed_quad(lambda s: density(np.exp(s)) * np.exp((power + 1) * s), *ends, n=_NODES)[0]
+            else:
+                total += fixed_quad(lambda speed: density(speed) * speed**power, low, high, n=_NODES)[0]
+        return float(total)
 
     @cached_property
     def mean(self) -> float:
@@ -136,18 +134,12 @@ def _table(speed: np.ndarray, density: np.ndarray, label: str) -> Speeds:
 
 def _columns(path: Path, label: str) -> tuple[np.ndarray, np.ndarray]:
     accepted = f"a CSV file with the header {','.join(_HEADER)} and a speed in m/s and its density in each row"
+    columns = columns_of(path, label)[0]
+    if [column.name for column in columns] != list(_HEADER):
+        raise InputError(label, str(path), accepted, f"has the header {','.join(column.name for column in columns)}")
     try:
-        with path.open(newline="", encoding="utf-8") as file:
-            header, *rows = list(csv.reader(file))
-        named = [name.partition("[")[0].strip() for name in header] == list(_HEADER)
-        numbers = [[float(cell) for cell in row] for row in rows if row] if named else []
-    except OSError as error:
-        raise InputError(label, str(path), accepted, f"cannot be read ({error.strerror or error})") from None
-    except (ValueError, csv.Error) as error:
+        speed, density = (np.array(column.cells, dtype=float) for column in columns)
+    except ValueError as error:
         raise InputError(label, str(path), accepted, f"is no such table ({error})") from None
-    if not named:
-        raise InputError(label, str(path), accepted, f"has the header {shown(','.join(header))}")
-    if {len(row) for row in numbers} != {2}:
-        raise InputError(label, str(path), accepted, "has rows of another length")
-    speed, density = np.array(numbers).T
-    return speed, density
+    unit = columns[0].unit or "m/s"
+    return speed * units.factor(unit, "m/s", label, "relative_speed in m/s", f"relative_speed [{unit}]"), density
