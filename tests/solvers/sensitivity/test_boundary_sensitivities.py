@@ -44,6 +44,13 @@ TURNS_TWICE = {  # it turns, falls back, turns again, and leaves the film with t
     "bridge": {"surface_tension": 0.000733545652, "volume": 0.000382948768},
     "model": {"tangential": "film"},
 }  # fmt: skip
+REBOUNDS_TO_THE_RIM = {  # the doublet that just leaves the film was reversed in it: no gradient grows there
+    "particles": {"reduced_radius": 3.1445e-05, "reduced_mass": 4.07395e-08, "roughness": 3.96947e-07,
+                  "dry_restitution": 0.62647, "youngs_modulus": 9.45574e9, "poisson_ratio": 0.026088},
+    "liquid": {"viscosity": 0.529452, "film_thickness": 1.50916e-06, "glass_transition_pressure": 1.85579e8},
+    "impact": {"angle": 1.0472},
+    "partner": {"wall": True},
+}  # fmt: skip
 NAMES = ("liquid.film_thickness", "liquid.viscosity", "particles.reduced_radius")
 _STEP = 2e-3
 
@@ -88,6 +95,7 @@ def test_boundaries_move_as_traced(line: str) -> None:
         (DRAWN_IN, (1.8, 2.1), "escape", "particles.roughness"),
         (DRAWN_IN, (4.0, 4.6), "escape reversed", "particles.dry_restitution"),
         (TURNS_TWICE, (0.115, 0.13), "escape", "liquid.film_thickness"),
+        (REBOUNDS_TO_THE_RIM, (0.7, 1.0), "escape reversed", "liquid.film_thickness"),
     ],
 )
 def test_what_parts_both_sides_is_differentiated(
