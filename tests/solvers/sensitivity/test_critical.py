@@ -26,8 +26,9 @@ def test_head_on_it_is_the_closed_form() -> None:
     assert one.speed == pytest.approx(film.speed_of(one.stokes), rel=1e-14)
     assert (one.relative_speed, one.bounces_above) == pytest.approx((one.speed, one.speed), rel=1e-15)
     assert one.to == "bounce"
-    assert one.elasticity["liquid.viscosity"] == pytest.approx(1.0, abs=1e-9)
-    assert one.gradient["liquid.viscosity"] == pytest.approx(one.speed / 0.02, rel=1e-9)
+    # gradients are taken at 1e-8 and 4e-8 of the speed beside it
+    assert one.elasticity["liquid.viscosity"] == pytest.approx(1.0, abs=1e-7)
+    assert one.gradient["liquid.viscosity"] == pytest.approx(one.speed / 0.02, rel=1e-7)
 
 
 @pytest.mark.parametrize("name", ["granulation", "pendulum", "lactose-pvp", "pellet-coating"])
