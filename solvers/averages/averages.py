@@ -293,8 +293,8 @@ def _block(request: _Request, where: np.ndarray) -> Columns:
         return columns
     experiment = experiment_of(list(scenes.values()), request.wrt, request.rtol)
     of_nodes = where.min() >= np.prod(request.shape)  # their errors leave room for that of the interpolation
-    mean, error, _ = means(experiment, rows.size, request.speeds, request.tolerance / (2 if of_nodes else 1))
-    columns["mean"][rows], columns["error"][rows] = mean, error
+    mean, uncertain, _ = means(experiment, rows.size, request.speeds, request.tolerance / (2 if of_nodes else 1))
+    columns["mean"][rows], columns["error"][rows] = mean, uncertain
     columns["reason"][rows[np.isnan(mean).any(axis=1)]] = "collisions that no engine completes"
     if request.wrt:
         batches = means(experiment, rows.size, request.speeds, _OF_GRADIENTS * request.tolerance, SHARP_CUT)[2]

@@ -304,8 +304,8 @@ def _of_logarithm(scene: Scene, angle: float, change: Change, names: tuple[str, 
         by_entry["impact.angle"] = float(-normal.angle[0] / normal.along[0])
         if not math.isfinite(by_entry["impact.angle"]):  # no gradient grows there, as where a criterion is met at once
             step = _STEPS[1]
-            ends = (_moved(scene, angle, change, {"impact.angle": side}, 0.0, rtol) for side in (-step, step))
-            by_entry["impact.angle"] = -np.subtract(*ends) / (2 * step)
+            low, high = (_moved(scene, angle, change, {"impact.angle": side}, 0.0, rtol) for side in (-step, step))
+            by_entry["impact.angle"] = (high - low) / (2 * step)
     by_parameter = np.array([by_entry[name] for name in names])
     if not np.isfinite(by_parameter).all():
         lost = ", ".join(name for name in names if not math.isfinite(by_entry[name]))
