@@ -264,6 +264,7 @@ def moving(scene: Scene, angle: float, change: Change, names: tuple[str, ...], r
     in_theta = by_parameter * units[:-1, 0]
     in_theta[np.abs(in_theta) < _ERROR * np.abs(in_theta).max(initial=0.0)] = 0.0
     along = (speed * in_theta - map_slopes[0, :-1]) / map_slopes[0, -1]  # d ln St*/dtheta
+    along[np.abs(along) < _ERROR * np.abs(along).max(initial=0.0)] = 0.0
     steps = dict(zip(names, units.ravel().tolist(), strict=False))
     if contradiction := _contradicted(scene, angle, change, steps, along, rtol):
         return Moving(change, reason=contradiction)
@@ -302,9 +303,11 @@ def _of_logarithm(scene: Scene, angle: float, change: Change, names: tuple[str, 
     if "impact.angle" in names:
         normal = normals(experiment, line, bracket, approximate=False)
         by_entry["impact.angle"] = float(-normal.angle[0] / normal.along[0])
-        if not math.isfinite(by_entry["impact.angle"]):  # no gradient grows there, as where a criterion is met at once
-            step = _STEPS[1]
-            low, high = (_moved(scene, angle, change, {"impact.angle": side}, 0.0, rtol) for side in (-step, step))
+        step = _STEPS[1]
+        is_even = angle < step and not scene.turns(0.0)  # beside head-on: the mirror image
+        if not math.isfinite(by_entry["impact.angle"]) and (is_even or angle >= step):  # no gradient grows there
+            moves = ({"impact.angle": abs(angle + side) - angle} for side in (-step, step))
+            low, high = (_moved(scene, angle, change, each, 0.0, rtol) for each in moves)
             by_entry["impact.angle"] = (high - low) / (2 * step)
     by_parameter = np.array([by_entry[name] for name in names])
     if not np.isfinite(by_parameter).all():
