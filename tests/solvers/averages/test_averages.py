@@ -373,3 +373,11 @@ def test_speeds_have_moments() -> None:
     assert table.moment(2) == pytest.approx(13 / 3, rel=1e-12)
     assert np.isnan(Speeds.of(([0.0, 1.0], [1.0, 0.0])).mean)
     assert Speeds.of(2.0).mean == 2.0
+
+
+def test_a_table_of_speeds_has_their_unit(tmp_path: Path) -> None:
+    """In mm/s they are a thousandth of what they are in m/s, which is taken where no unit is written."""
+    table = tmp_path / "speeds.csv"
+    for head, unit in (("relative_speed", 1.0), ("relative_speed [mm/s]", 1e-3)):
+        table.write_text(f"{head},density\n1,0\n2,1\n")
+        assert Speeds.of(table).knots == pytest.approx([unit, 2 * unit])
