@@ -56,8 +56,8 @@ def command(
     Its first line says that all hold, or what failed and why. The symbolic verdicts are kept in the cache for as long
     as the equations, and what they depend on otherwise, are the same.
 
-    With --stress, engines of this package and scipy's LSODA compute the same scenes: each difference between them is
-    explained by a boundary within their error, or makes the exit status 1.
+    With --stress, all engines compute the same scenes: each difference between them is explained by a boundary within
+    their error, or makes the exit status 1.
 
     Options:
         -o FILE.md (output): Write the report as Markdown to FILE.md as well.
