@@ -21,7 +21,7 @@ from ..formatting.style import EDGES, FILLS, HATCHES, INK, LONGEST, halo, patch,
 from ..scene.scene import Scene
 from .atlas_curves import curves_of
 from .plane import ANGLE, check_plane
-from .result import LINES, Curve, Curves, Lines, Point
+from .result import LINES, Atlas, Boundaries, Curve, Point
 
 _ROOM = 1.8  # factor of the Stokes number shown beyond the outermost curves
 _MARKS = {
@@ -36,7 +36,7 @@ _NAMES = ((OUTCOMES[0], "S"), (OUTCOMES[1], "stick-rotate-\nseparate", "SRS"), (
 _FONT = 9.0
 
 
-def plot(lines: Lines) -> Figure:
+def plot(lines: Boundaries) -> Figure:
     """The picture of boundaries; InputError if they have no scene."""
     if lines.scene is None:
         raise InputError("scene", None, "boundaries of a scene, as `boundary` and `atlas` return them")
@@ -44,7 +44,7 @@ def plot(lines: Lines) -> Figure:
 
 
 @picture
-def draw(scene: Scene, lines: Lines) -> Figure:
+def draw(scene: Scene, lines: Boundaries) -> Figure:
     """A figure of the regions of each outcome, the curves between them, and their meeting points.
 
     Lines of constant angle are drawn on the atlas of their angles; a single line as a strip of its outcomes.
@@ -52,8 +52,8 @@ def draw(scene: Scene, lines: Lines) -> Figure:
     Arguments:
         lines: result of `boundary` or `atlas`.
     """
-    dots = not isinstance(lines, Curves) and len(set(lines.angles)) > 1 and len(lines.angles) <= _MOST_DOTS
-    whole = lines if isinstance(lines, Curves) else _filled(scene, lines)
+    dots = not isinstance(lines, Atlas) and len(set(lines.angles)) > 1 and len(lines.angles) <= _MOST_DOTS
+    whole = lines if isinstance(lines, Atlas) else _filled(scene, lines)
     single = whole.span[0] == whole.span[1]
     figure = Figure(figsize=(6.4, 4.9), layout="constrained")
     axes = figure.add_subplot()
@@ -77,7 +77,7 @@ def draw(scene: Scene, lines: Lines) -> Figure:
     return figure
 
 
-def _filled(scene: Scene, lines: Lines) -> Curves:
+def _filled(scene: Scene, lines: Boundaries) -> Atlas:
     """The atlas over the angles of lines; for a single line, its changes across the figure."""
     low, high = min(lines.angles), max(lines.angles)
     if low < high:
@@ -87,17 +87,17 @@ def _filled(scene: Scene, lines: Lines) -> Curves:
     background = OUTCOMES[0]
     if not changes:
         background = _curves(scene, (max(low - 1e-6, 0.0), low + 1e-6), lines.window, 2).background
-    return Curves(
+    return Atlas(
         lines.angles, lines.changes, lines.collisions, lines.failures, lines.resolution, scene, lines.window,
         span=(low, low), curves=tuple(curves), background=background,
     )  # fmt: skip
 
 
-def _curves(scene: Scene, angles: tuple[float, float], window: tuple[float, float], lines: int) -> Curves:
+def _curves(scene: Scene, angles: tuple[float, float], window: tuple[float, float], lines: int) -> Atlas:
     return curves_of(check_plane(scene, ANGLE, angles, window, RTOL), lines, lambda *_: None)
 
 
-def _shown(whole: Curves) -> tuple[float, float]:
+def _shown(whole: Atlas) -> tuple[float, float]:
     """Range of Stokes numbers of the figure: the curves and a margin, within the window."""
     stokes = [value for one in whole.curves for value in one.stokes]
     if not stokes:
@@ -105,7 +105,7 @@ def _shown(whole: Curves) -> tuple[float, float]:
     return max(min(stokes) / _ROOM, whole.window[0]), min(max(stokes) * _ROOM, whole.window[1])
 
 
-def _frame(axes: Axes, scene: Scene, whole: Curves, low: float, high: float, single: bool) -> float:
+def _frame(axes: Axes, scene: Scene, whole: Atlas, low: float, high: float, single: bool) -> float:
     """Set scales and labels; returns the divisor of x."""
     factor, text = _across(scene, whole.over, whole.span)
     axes.set_yscale("log")
@@ -137,7 +137,7 @@ def _across(scene: Scene, over: str, span: tuple[float, float]) -> tuple[float, 
     return factor, f"{name} ({letter.replace('u', 'µ')}{unit})"
 
 
-def _fill(axes: Axes, whole: Curves, factor: float) -> None:
+def _fill(axes: Axes, whole: Atlas, factor: float) -> None:
     """Fill each region with its colour, slab by slab between neighbouring curves."""
     log_height = math.log(whole.window[1] / whole.window[0])
     across = whole.span[1] - whole.span[0]
@@ -179,13 +179,13 @@ def _mark(axes: Axes, points: Sequence[Point], factor: float, low: float, high: 
     return list(handles.values())
 
 
-def _doubts(axes: Axes, lines: Lines, whole: Curves, factor: float) -> list[Any]:
+def _doubts(axes: Axes, lines: Boundaries, whole: Atlas, factor: float) -> list[Any]:
     """Note on lines and places that could not be traced or verified."""
     style: Any = {"linestyle": "", "marker": "x", "color": "#C00000", "markersize": 6}
     places = [(x / factor, stokes) for x, stokes, _ in whole.unsettled]
     if places:
         axes.plot(*zip(*places), zorder=6, clip_on=False, **style)
-    failed = [] if isinstance(lines, Curves) else [math.degrees(angle) for angle, _ in lines.failed]
+    failed = [] if isinstance(lines, Atlas) else [math.degrees(angle) for angle, _ in lines.failed]
     if failed:
         axes.plot(failed, [0.02] * len(failed), transform=axes.get_xaxis_transform(), clip_on=False, **style)
     return [Line2D([], [], label="not settled", **style)] if places or failed else []

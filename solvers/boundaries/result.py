@@ -15,6 +15,7 @@ from ...generated.automaton import OUTCOMES
 from ..collision.text import name_of
 from ..engines.settings import RTOL
 from ..formatting.notebook import frame, view
+from ..host.pictures import Drawn
 from ..many.results import outcome_attributes
 from ..scene.origin import origin
 from ..scene.quantities import quantities
@@ -37,8 +38,10 @@ LATTICE = (65, 193)  # columns and rows of the search lattice, with a kernel
 
 
 @dataclass(frozen=True)
-class Lines:
-    """Changes of outcome for each angle (rad), ascending in St.
+class Boundaries(Drawn):
+    """Changes of outcome for each angle (rad), ascending in St, as `boundary` returns them.
+
+    `plot` draws the regions of each outcome, the curves and where they meet.
 
     Attributes:
         collisions: number of integrated collisions.
@@ -47,8 +50,15 @@ class Lines:
             narrower ones only where a margin (of a rebound criterion, of the escape) shows them.
         scene, window: the scene, and the range of Stokes numbers of the search.
         rtol: relative tolerance of the integrations.
+
+    Example:
+        >>> from wetdoublet.solvers import boundary
+        >>> found = boundary("granulation", angle=0.7, stokes=(0.05, 0.2))
+        >>> found.to_dataset().stokes.sizes
+        Frozen({'line': 1, 'change': 2})
     """
 
+    _picture = "boundaries.plot.plot"
     angles: tuple[float, ...]
     changes: tuple[tuple[Change, ...], ...]
     collisions: int
@@ -232,8 +242,8 @@ class Point:
 
 
 @dataclass(frozen=True)
-class Curves(Lines):
-    """Boundaries in a plane: the seed lines, the curves and their meeting points.
+class Atlas(Boundaries):
+    """All boundaries in a plane, as `atlas` returns them: the seed lines, the curves and their meeting points.
 
     Attributes:
         over: dotted name of the entry x.
@@ -243,6 +253,12 @@ class Curves(Lines):
         unsettled: places (x, St) where collisions and curves disagree, with the reason.
         sought: resolution of the search by lattice and lines.
         lattice: columns and rows of the lattice; fewer without a kernel for the scene.
+
+    Example:
+        >>> from wetdoublet.solvers import atlas
+        >>> found = atlas("granulation", span=("15 deg", "60 deg"), stokes=(0.01, 0.5), lines=5)
+        >>> found.region([0.5, 0.5], [0.02, 0.4])  # points of the plane: a stick and a bounce
+        array([0, 2], dtype=int8)
     """
 
     over: str = ANGLE

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from ...generated.automaton import ROTATE
-from ..boundaries.boundary import Atlas
+from ..boundaries.result import Atlas
 from ..formatting.document import Picture, Table
 from ..formatting.style import halo
 from ..scene.scene import Scene

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 
-from ..boundaries.boundary import Atlas
+from ..boundaries.result import Atlas
 from ..formatting.document import Picture, Table
 from ..formatting.style import INK, halo
 from ..scene.scene import Scene

@@ -8,9 +8,10 @@ from typing import Any
 import numpy as np
 from scipy.optimize import bisect, root_scalar
 
-from ..boundaries.boundary import Atlas, atlas, boundary
+from ..boundaries.boundary import atlas, boundary
 from ..boundaries.changes import Change
 from ..boundaries.line import ready
+from ..boundaries.result import Atlas
 from ..boundaries.scene_sampler import SceneSampler
 from ..engines.settings import RTOL
 from ..errors import ComputationError

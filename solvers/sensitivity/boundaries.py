@@ -10,9 +10,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..boundaries.boundary import Boundaries, boundary
+from ..boundaries.boundary import boundary
 from ..boundaries.changes import Change, changes_along
 from ..boundaries.line import Line
+from ..boundaries.result import Boundaries
 from ..boundaries.scene_sampler import SceneSampler
 from ..engines.settings import RTOL, check_rtol
 from ..errors import ComputationError, InputError
