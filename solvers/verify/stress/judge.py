@@ -3,14 +3,11 @@
 import math
 import re
 import warnings
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import replace
 from functools import cache
 
-import numpy as np
-
 from ....generated.automaton import OUTCOMES
-from ...certificates import Certainty, NoCertificate
 from ...collision.by_casadi import by_casadi
 from ...engines.casadi.locate import CHATTERS, EventLocator, EventSequence
 from ...engines.taylor.call import variant_for_many
@@ -20,9 +17,9 @@ from ...many.collide_many import collide_many
 from ...model.dimensionless import DimensionlessGroups, nondimensionalise
 from ...model.key import ModelKey
 from ...model.model import Model, load, select_model
-from ...model.phases import Phase
 from ...model.validity import remarks
 from ...scene.scene import Scene
+from ..audit import LONG, WithoutCertificate
 from .lines import judge_lines
 from .verdict import FAST, RTOL, Case, Issue, Result, Verdict, physical_reason
 
@@ -31,7 +28,6 @@ FLOOR = 1e-12  # assumed bound of rounding errors, times the conditioning
 OPEN = 1e-5  # largest residual, relative to the ledger's largest term
 DRIFT = 1e-6  # largest relative drift of the angular momentum
 _STEP = 1e-6  # relative step in St for the conditioning
-_AUDIT = 100  # phases and intervals for which a certified stick is continued
 _PARTICULAR = re.compile(r" = .* is (?=above|below)| \(.*")  # value and source of a remark
 
 
@@ -234,32 +230,17 @@ def _each(name: str, each: Result, case: Case) -> list[Issue]:
     return issues
 
 
-class Audit(NoCertificate):
-    """In place of a certificate: decides only when no event is left, or after a long time."""
-
-    def __init__(self) -> None:
-        self._phase: Phase | None = None
-        self._quiet = self._calls = 0
-
-    def decided(self, y: np.ndarray, phase: Phase, maxima: Sequence[np.ndarray] = ()) -> Certainty:
-        self._quiet, self._phase = (self._quiet + 1 if phase == self._phase else 0), phase
-        self._calls += 1
-        return Certainty.of(self._quiet >= 4 or self._calls > _AUDIT)
-
-
 def _audited(case: Case, engines: dict[str, Run], first: str) -> list[Issue]:
-    """Issues of a certified stick that separates when continued without certificate from the certified state.
+    """Issues of a certified stick that separates without its certificate.
 
-    A trajectory that does not reach that state has another outcome, which its error near a boundary may explain.
+    A trajectory that is not certified has another outcome, which its error near a boundary may explain.
     """
     n = _dimensionless(case.scene)
     try:
-        locator = _locator(load(select_model(case.scene, n.oblique, fold=True)), n.groups, RTOL)
-        _located.cache_clear()  # it is continued here
-        proved = locator.path.certified
-        locator.proof = Audit()
-        locator.watch = replace(locator.watch, certificate=None)
-        path = locator.run() if proved else locator.path
+        model = load(select_model(case.scene, n.oblique, fold=True))
+        path = _locator(model, n.groups, RTOL).path
+        if proved := path.certified:
+            path = WithoutCertificate(model, n.groups, RTOL).on(path.time + LONG)
     except ComputationError:
         return []  # it continued until the integrator failed
     if not path.separated:
