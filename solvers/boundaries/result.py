@@ -14,7 +14,7 @@ from ...generated import scaling
 from ...generated.automaton import OUTCOMES
 from ..collision.text import name_of
 from ..engines.settings import RTOL
-from ..formatting.notebook import frame, view
+from ..formatting.notebook import view
 from ..host.pictures import Drawn
 from ..many.results import outcome_attributes
 from ..scene.origin import origin
@@ -28,7 +28,6 @@ from .regions import Slab, labelled, slabs
 from .window import STOKES
 
 if TYPE_CHECKING:
-    import pandas as pd
     import xarray
 
 NONE = -1  # outcome code of padding, where there is no change
@@ -154,15 +153,6 @@ class Boundaries(Drawn):
         if self.scene is not None:
             attributes["scene"] = self.scene.to_toml()
         return xr.Dataset(variables, {"angle": angle}, attributes)
-
-    def to_pandas(self) -> pd.DataFrame:
-        """A row for each change: angle (rad), stokes, centrifugal, normal and relative speed (m/s), outcomes, kind."""
-        pairs = [(angle, one) for angle, line in zip(self.angles, self.changes, strict=True) for one in line]
-        rows = [self.change_dict(one, angle) for angle, one in pairs]
-        names = ("stokes", "centrifugal", "speed", "relative_speed")
-        columns = {name: [row.get(name) for row in rows] for name in names}
-        columns |= {name: [getattr(one, name) for _, one in pairs] for name in ("before", "after", "kind")}
-        return frame({"angle": [angle for angle, _ in pairs], **columns})
 
     def _repr_html_(self) -> str:
         rows = []
@@ -388,13 +378,6 @@ class Atlas(Boundaries):
         data["point_stokes"] = "point", np.array([one.stokes for one in self.points], dtype=float), stokes
         more = {"over": self.over} | {f"sought_{name}": value for name, value in self.sought.items()}
         return data.assign_coords(x=("line", np.array(self.at), x)).assign_attrs(more)
-
-    def to_pandas(self) -> pd.DataFrame:
-        """A row for each point of each curve: curve (a number), before, after, kind, x (rad or SI) and stokes."""
-        rows = [(k, one, x, stokes) for k, one in enumerate(self.curves) for x, stokes in zip(one.x, one.stokes)]
-        columns = {name: [getattr(one, name) for _, one, *_ in rows] for name in ("before", "after", "kind")}
-        ends = {"x": [x for *_, x, _ in rows], "stokes": [stokes for *_, stokes in rows]}
-        return frame({"curve": [k for k, *_ in rows], **columns, **ends})
 
     def _repr_html_(self) -> str:
         scale, x = (math.degrees(1.0), "angle (deg)") if self.over == ANGLE else (1.0, self.over)

@@ -9,10 +9,9 @@ from typing import TYPE_CHECKING, Any
 
 from ..errors import InputError
 from ..formatting.markdown import unpadded
-from ..formatting.notebook import frame, view
+from ..formatting.notebook import view
 
 if TYPE_CHECKING:
-    import pandas as pd
     import xarray
 
 WIDTH = 100
@@ -83,10 +82,6 @@ class Report:
     def to_dict(self) -> dict[str, Any]:
         """Whether all checks hold, and every finding by its attributes."""
         return {"ok": self.ok, "summary": self.headline, "findings": [asdict(one) for one in self.findings]}
-
-    def to_pandas(self) -> pd.DataFrame:
-        """A row for each finding: group, name, statement, figure, bound, ok, where."""
-        return frame({name: [getattr(one, name) for one in self.findings] for name in _COLUMNS})
 
     def to_dataset(self) -> xarray.Dataset:
         """The findings over `check`; `ok` is 1, 0, or -1 for a note."""
