@@ -45,7 +45,7 @@ class _Counted(click.Command):
 )
 def command(
     request: options.OptionalRequest,
-    output: Annotated[Path | None, partial(check_file, label="")],
+    output: Annotated[Path | None, partial(check_file, label="", suffixes=(".md", ".txt"))],
     plot: options.Picture,
     stress: Annotated[int | None, _count],
     out: str | None,
