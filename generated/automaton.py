@@ -218,7 +218,7 @@ def tumbles_for_good(rest: Any, rigid: Any, work: Any, height: Any, margin: Any,
 
 
 class Event(NamedTuple):
-    """An event: its guard and its effect; `generated/automaton.md` explains them."""
+    """An event: its guard and its effect; docs/reference/events.md explains them."""
 
     name: str
     functions: tuple[str, ...]

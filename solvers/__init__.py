@@ -12,7 +12,8 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from .averages.averages import collision_averages
-    from .boundaries.boundary import Atlas, Boundaries, atlas, boundary
+    from .boundaries.boundary import atlas, boundary
+    from .boundaries.result import Atlas, Boundaries
     from .collision.collide import collide
     from .collision.result import Collision
     from .engines.interval.prove import Proof, prove
@@ -43,7 +44,8 @@ if TYPE_CHECKING:
 
 _NAMES = {
     "averages.averages": "collision_averages",
-    "boundaries.boundary": "Atlas Boundaries atlas boundary",
+    "boundaries.boundary": "atlas boundary",
+    "boundaries.result": "Atlas Boundaries",
     "collision.collide": "collide",
     "collision.result": "Collision",
     "engines.kernels": "compile_kernels",

@@ -13,7 +13,7 @@ from ..physics.laws.base import filled
 from ..physics.scaling import DISTANCE
 from ..physics.structure import Structure, structures
 from ..vocabulary import quantities as q
-from .base import Check, Evidence, check, checks
+from .base import MIDGAP, Check, Evidence, check, checks
 
 _COSINE = sp.Symbol("cosine", nonnegative=True)  # for a contact angle up to 90 deg
 
@@ -71,7 +71,7 @@ def momentum_is_bounded() -> Check:
     here = 4 + q.aspect * q.gap
     momentum = q.orbital_momentum + sp.Rational(32, 5) * q.spin
     share = here**2 / (here**2 + sp.Rational(32, 5))
-    rate = filled(model.by_state("right_hand_side")[q.orbital_momentum], {"arm": LAWS["arm"]["midgap"]})
+    rate = filled(model.by_state("right_hand_side")[q.orbital_momentum], MIDGAP)
     log_factor = sp.Function("shear.log_factor", real=True)(q.gap, q.aspect)
     relaxation = sp.factor(-rate / (q.orbital_momentum - share * momentum))
     grows = sp.factor(sp.together((DISTANCE**2 / (DISTANCE**2 + sp.Rational(32, 5))).diff(DISTANCE)))

@@ -10,7 +10,7 @@ from typing import ParamSpec, TypeVar
 import sympy as sp
 
 from ..equations.model import Model
-from ..physics.laws import slot_call
+from ..physics.laws import LAWS, slot_call
 from ..physics.laws.base import slot_calls
 from ..vocabulary import quantities as q
 
@@ -102,6 +102,9 @@ def readable(expression: sp.Expr) -> str:
     without = str.maketrans("", "", "\\_{},")
     return str(expression.xreplace({symbol: sp.Symbol(text.translate(without)) for symbol, text in latex.items()}))
 
+
+MIDGAP = {"arm": LAWS["arm"]["midgap"]}
+"""The law that conserves the angular momentum."""
 
 SIZES = ("centres", "radius", "partner_radius", "spin_inertia", "partner_inertia")
 """Intermediates of an unequal pair that are kept as symbols, so that results hold for any sizes."""

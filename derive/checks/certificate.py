@@ -4,10 +4,9 @@ import sympy as sp
 
 from ..equations.invariants import conserved_momentum
 from ..equations.model import derive
-from ..physics.laws import LAWS
 from ..physics.structure import structures
 from ..vocabulary import quantities as q
-from .base import Evidence, check, slope_along
+from .base import MIDGAP, Evidence, check, slope_along
 
 
 @check("stick certificate", "slope = d/dx [L^2/(2 I(x)) + U_s(x) + W_c(x)] at fixed L")
@@ -59,7 +58,7 @@ def least_energy_is_a_minimum() -> Evidence:
         velocities = [q.normal_velocity]
         if structure.oblique:
             velocities.append(q.orbital_momentum)
-            left_over = {q.spin: conserved_momentum(model, {"arm": LAWS["arm"]["midgap"]}).solved(q.spin, momentum)}
+            left_over = {q.spin: conserved_momentum(model, MIDGAP).solved(q.spin, momentum)}
             kinetic, least = kinetic.subs(left_over), sp.factor(least.subs(left_over))
             at_least = {s: sp.factor(value.subs(left_over)) for s, value in at_least.items() if s != q.spin}
         gradient = [kinetic.diff(velocity).subs(at_least) for velocity in velocities]

@@ -13,9 +13,9 @@ from ..physics.mechanics import F_t, equations_of_motion, sphere_inertia
 from ..physics.scaling import group_definitions, nondimensional
 from ..physics.structure import FREE, Structure, structures
 from ..vocabulary import quantities as q
-from .base import Evidence, check
+from .base import MIDGAP, Evidence, check
 
-_MIDGAP = {"arm": LAWS["arm"]["midgap"], "shear": LAWS["shear"]["immersed"]}
+_IMMERSED = MIDGAP | {"shear": LAWS["shear"]["immersed"]}
 
 
 def _value(model: Model, function: str, name: str) -> sp.Expr:
@@ -118,10 +118,10 @@ def events_are_the_definitions(chosen: Iterable[Structure] | None = None) -> Evi
 def tangential_force_is_the_published() -> Evidence:
     """F_t = 8 pi mu a^2 (omega - xi) ln(2a/x), in SI and as the torque on a sphere in the emitted equations."""
     published = 8 * sp.pi * q.mu * q.a**2 * (q.omega - q.xi) * sp.log(2 * q.a / q.x)
-    force = filled(force_laws()[F_t], _MIDGAP).subs(SHEAR, 1)
+    force = filled(force_laws()[F_t], _IMMERSED).subs(SHEAR, 1)
     spun = published * q.r / 2 / sphere_inertia() * q.x0 / (q.v0 * q.rate_scale)
     model = derive(FREE)
-    emitted = filled(model.by_state("right_hand_side")[q.spin], _MIDGAP).subs(SHEAR, 1)
+    emitted = filled(model.by_state("right_hand_side")[q.spin], _IMMERSED).subs(SHEAR, 1)
     slip = nondimensional((q.omega - q.xi) / q.rate_scale)
     factor = nondimensional(spun / ((q.omega - q.xi) / q.rate_scale) / sp.log(2 * q.a / q.x))
     logarithm = sp.log(2 * q.a / q.x).subs(q.x, q.gap * q.x0).subs(q.x0, q.a * q.aspect)

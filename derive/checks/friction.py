@@ -9,7 +9,6 @@ from ..equations.intermediates import MOMENTUM
 from ..equations.model import Model, derive
 from ..physics.contact_friction import beside_wall, equal_spheres, unequal_spheres
 from ..physics.forces import SHEAR
-from ..physics.laws import LAWS
 from ..physics.laws.base import filled
 from ..physics.mechanics import arm
 from ..physics.partners.bodies import CENTRES
@@ -18,7 +17,7 @@ from ..physics.partners.space import PARTNER_SLIPS, PARTNER_TWIST, SLIPS, TWIST
 from ..physics.partners.vectors import dot, on_the_sphere
 from ..physics.structure import Partner, Structure
 from ..vocabulary import quantities as q
-from .base import Check, Evidence, check, checks, nonnegative, vanishing
+from .base import MIDGAP, Check, Evidence, check, checks, nonnegative, vanishing
 
 _PARTNERS: tuple[Partner, ...] = ("", "pair", "wall")
 _TURNING: tuple[Partner, ...] = ("", "pair", "space")  # partners beside which the line of centres turns
@@ -78,7 +77,7 @@ def angular_momentum() -> Evidence:
     """L is kept with the lever arm at mid-gap."""
     for structure in _FREE[:2]:
         model = derive(structure)
-        yield filled(_after(model, MOMENTUM) - model.expanded(MOMENTUM), {"arm": LAWS["arm"]["midgap"]})
+        yield filled(_after(model, MOMENTUM) - model.expanded(MOMENTUM), MIDGAP)
 
 
 @checks

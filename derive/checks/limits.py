@@ -7,17 +7,15 @@ import sympy as sp
 
 from ..equations.model import derive
 from ..physics.forces import FILM, SHEAR
-from ..physics.laws import LAWS
 from ..physics.laws.base import filled
 from ..physics.structure import BRIDGED, Structure, structures
 from ..vocabulary import quantities as q
-from .base import SIZES, Evidence, check, special_case
+from .base import MIDGAP, SIZES, Evidence, check, special_case
 
 
 @check("reduced form", "full equations with xi = (L - m r^2 omega)/((32/5) m a^2) are the reduced ones")
 def reduced_is_full() -> Evidence:
     """With the spin eliminated by conserved L, the full equations and the spin's rate are the reduced ones."""
-    midgap = {"arm": LAWS["arm"]["midgap"]}
     for structure in structures():
         if not structure.reduced:
             continue
@@ -28,10 +26,10 @@ def reduced_is_full() -> Evidence:
         eliminated = {q.spin: (initial - q.orbital_momentum) * sp.Rational(5, 32)}
         rates, full_rates = (each.by_state("right_hand_side") for each in (reduced, full))
 
-        yield from (filled(full_rates[s], midgap).subs(eliminated) - rate for s, rate in rates.items())
+        yield from (filled(full_rates[s], MIDGAP).subs(eliminated) - rate for s, rate in rates.items())
         # the eliminated spin has the rate of the full equations
         turned = eliminated[q.spin].diff(q.orbital_momentum) * rates[q.orbital_momentum]
-        yield turned - filled(full_rates[q.spin], midgap).subs(eliminated)
+        yield turned - filled(full_rates[q.spin], MIDGAP).subs(eliminated)
         names = ("events", "energies", "outputs", "effective_potential", "inward_force", "turning_rate", "start")
         yield from special_case(reduced, names, full, methodcaller("subs", eliminated))
 

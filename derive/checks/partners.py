@@ -10,10 +10,9 @@ from ..physics.laws.base import filled
 from ..physics.partners import bodies, rolling, wall
 from ..physics.structure import Partner, Structure
 from ..vocabulary import quantities as q
-from .base import SIZES, Check, Evidence, check, checks, special_case
+from .base import MIDGAP, SIZES, Check, Evidence, check, checks, special_case
 
 _PARTNERS: tuple[Partner, ...] = ("pair", "wall")
-_MIDGAP = {"arm": LAWS["arm"]["midgap"]}
 _PAIR, _WALL = (Structure(True, True, False, attraction=True, partner=partner) for partner in _PARTNERS)
 
 
@@ -51,7 +50,7 @@ def angular_momentum_is_kept() -> Evidence:
     momentum = model.expanded(model["angular_momentum"]["angular_momentum"], SIZES)
     rates = model.by_state("right_hand_side", SIZES)
     change = sp.Add(*(momentum.diff(state) * rates[state] for state in (q.orbital_momentum, q.spin, q.partner_spin)))
-    yield filled(change, _MIDGAP)
+    yield filled(change, MIDGAP)
 
 
 @check("pair, wall: energy", "d(kinetic)/dt = -(film + shear + bridge + attraction power)")

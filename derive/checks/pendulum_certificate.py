@@ -18,7 +18,7 @@ from ..physics.laws.base import filled, slot_call, slot_calls
 from ..physics.laws.strings import offset_squared
 from ..physics.scaling import DISTANCE
 from ..vocabulary import quantities as q
-from .base import Check, Evidence, check, checks, checks_of, positive, readable, run, vanishing
+from .base import MIDGAP, Check, Evidence, check, checks, checks_of, positive, readable, run, vanishing
 
 _HERE = 4 + q.aspect * q.gap
 _HALF = sp.Symbol("half_angle_sine", nonnegative=True)  # sin(beta/2), which grows with beta up to half a turn
@@ -27,10 +27,6 @@ _BEYOND = sp.Symbol("beyond", nonnegative=True)  # a quantity minus its least va
 
 def _model() -> Model:
     return derive(PENDULUM)
-
-
-def _midgap(expression: sp.Expr) -> sp.Expr:
-    return filled(expression, {"arm": LAWS["arm"]["midgap"]})
 
 
 def _by_shear() -> tuple[sp.Expr, dict[sp.Symbol, sp.Expr]]:
@@ -45,7 +41,7 @@ def _by_shear() -> tuple[sp.Expr, dict[sp.Symbol, sp.Expr]]:
 def momentum_falls() -> Check:
     """dL/dt = -r S_t, and S_t has the sign of sin(beta); only the strings exert a torque on the doublet."""
     result = _model().by_state("right_hand_side")
-    total = _midgap(result[q.orbital_momentum] + sp.Rational(32, 5) * result[q.spin])
+    total = filled(result[q.orbital_momentum] + sp.Rational(32, 5) * result[q.spin], MIDGAP)
     swing = dict(_model().definitions)[offset_squared].subs(DISTANCE, _HERE)
     lever = sp.sin(q.beta) * slot_call("strings", "stiffness", q.string_ratio, swing)
     share = sp.simplify(total / lever)

@@ -7,17 +7,15 @@ import sympy as sp
 
 from ..equations.invariants import NoInvariantError, conserved_components, quadratic_invariants
 from ..equations.model import derive
-from ..physics.laws import LAWS
 from ..physics.laws.base import filled
 from ..physics.partners import space, vectors
 from ..physics.partners.pair import INERTIA_RATIO, PARTNER_INERTIA, SPIN_INERTIA
 from ..physics.scaling import DISTANCE
 from ..physics.structure import Structure
 from ..vocabulary import quantities as q
-from .base import SIZES, Check, Evidence, check, checks, special_case, vanishing
+from .base import MIDGAP, SIZES, Check, Evidence, check, checks, special_case, vanishing
 
 _SPACE = Structure(True, True, False, attraction=True, partner="space")
-_MIDGAP = {"arm": LAWS["arm"]["midgap"]}
 _OPEN = ("strength", "distance", "film_force", "bridge_force", "attraction_force", *SIZES)
 _UNIT = vectors.dot(q.normal, q.normal) - 1
 _ORTHOGONAL = vectors.dot(q.orbital_momenta, q.normal)
@@ -202,7 +200,7 @@ def plane_in_space() -> Evidence:
     planar = _components((q.normal, line), (q.orbital_momenta, upright(q.orbital_momentum)))
     planar |= _components((q.spins, upright(q.spin)), (q.partner_spins, upright(q.partner_spin)))
     turning = pair.expanded(pair["turning_rate"][q.beta.name], SIZES)
-    expected = {state: filled(rate, _MIDGAP) for state, rate in pair.by_state("right_hand_side", SIZES).items()}
+    expected = {state: filled(rate, MIDGAP) for state, rate in pair.by_state("right_hand_side", SIZES).items()}
     moved = _components((q.normal, tuple(each.diff(q.beta) * turning for each in line)))
     turning_states = (q.orbital_momentum, q.spin, q.partner_spin)
     for vector, state in zip((q.orbital_momenta, q.spins, q.partner_spins), turning_states, strict=True):
@@ -213,7 +211,7 @@ def plane_in_space() -> Evidence:
     for name in ("energies", "energy_rates", "inward_force", "effective_potential"):
         of_pair = pair.results(name, SIZES)
         for key, expression in model.results(name, SIZES).items():
-            yield expression.subs(planar, simultaneous=True) - filled(of_pair[key], _MIDGAP)
+            yield expression.subs(planar, simultaneous=True) - filled(of_pair[key], MIDGAP)
 
 
 def _components(*pairs: tuple[q.Vector, tuple[sp.Expr, ...]]) -> dict[sp.Symbol, sp.Expr]:

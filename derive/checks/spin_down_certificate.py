@@ -14,16 +14,15 @@ from ..physics.partners.rolling import R_1, R_2, torque_matrix
 from ..physics.scaling import DISTANCE
 from ..physics.structure import FREE, Structure
 from ..vocabulary import quantities as q
-from .base import SIZES, Check, Evidence, check, checks, vanishing
+from .base import MIDGAP, SIZES, Check, Evidence, check, checks, vanishing
 
 _STRUCTURES = (FREE, replace(FREE, partner="pair"))
-_MIDGAP = {"arm": LAWS["arm"]["midgap"]}
 _LOG = sp.Symbol("log_factor", positive=True)
 
 
 def _sheared_at_midgap(expression: sp.Expr) -> sp.Expr:
     """The expression with the lever arm at mid-gap, the shear acting (flag 1), and `_LOG` for its logarithm."""
-    result = filled(expression, _MIDGAP).subs(SHEAR, 1)
+    result = filled(expression, MIDGAP).subs(SHEAR, 1)
     calls = {n: _LOG for n in result.atoms(sp.Function) if is_slot_call(n) and n.func.__name__.startswith("shear")}
     return result.xreplace(calls)
 

@@ -9,7 +9,6 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from ..user.own_events import MARK
-from .document.latex import NAMES
 from .read import Read, functions
 
 Equations = dict[str, sp.Expr]
@@ -117,20 +116,5 @@ def _symbols(term: sp.Expr) -> frozenset[str]:
 
 def plain(expression: sp.Expr) -> str:
     """An expression as text, with decimals as decimals."""
-    return str(sp.sstr(_decimal(expression), full_prec=False))
-
-
-def typeset(expression: sp.Expr) -> str:
-    """An expression in LaTeX, in the symbols of the vocabulary where it has them."""
-    shown = _decimal(expression)
-    names = {symbol: NAMES.get(symbol.name, _upright(symbol.name)) for symbol in shown.free_symbols}
-    return str(sp.latex(shown, symbol_names=names))
-
-
-def _decimal(expression: sp.Expr) -> sp.Expr:
     fitted = {n: sp.Float(str(float(n))) for n in expression.atoms(sp.Rational) if n.q > 2 and n.q % 5 == 0}
-    return expression.xreplace(fitted)
-
-
-def _upright(name: str) -> str:
-    return r"\mathrm{" + name.replace("_", r"\ ") + "}"
+    return str(sp.sstr(expression.xreplace(fitted), full_prec=False))

@@ -18,8 +18,6 @@ from .casadi.automaton import automaton_digest, automaton_module, provenance
 from .casadi.modules import function_lines
 from .casadi.printer import Printer
 from .casadi.references import references_module
-from .document.automaton import DIAGRAM, automaton_page
-from .document.diagram import diagram
 from .interval import header as interval
 from .provenance import PROVENANCE, law_digest, model_digest
 from .taylor.automaton import automaton_header, criteria_header, effects_header, proofs_header
@@ -56,8 +54,6 @@ def emitted(chosen: tuple[Structure, ...] | None = None) -> Mapping[str, str]:
         "scaling.py": modules.scaling_module(),
         "automaton.py": automaton_module(),
         "references.py": references_module(),
-        "automaton.md": automaton_page(provenance()),
-        DIAGRAM: diagram(provenance()),
         "taylor/automaton.h": automaton_header(provenance()),
         "taylor/criteria.h": criteria_header(provenance()),
         "taylor/proofs.h": proofs_header(provenance()),

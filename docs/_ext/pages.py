@@ -6,6 +6,8 @@ from pathlib import Path
 from typing import Any
 
 import api
+import automaton_drawing
+import automaton_page
 import drawings
 import laws
 import scene_entries
@@ -34,15 +36,8 @@ def write(_app: Any = None) -> None:
         DOCS / "_emitted" / "site" / "explorer.html",
         explore(*PRESETS, mikami.with_entries({"bridge.law": "willett"})).html,
     )
-    generated = DOCS.parent / "generated"
-    put(DOCS / "_emitted" / "automaton.svg", (generated / "automaton.svg").read_text(encoding="utf-8"))
-    put(DOCS / "_emitted" / "automaton.md", _events((generated / "automaton.md").read_text(encoding="utf-8")))
-
-
-def _events(text: str) -> str:
-    """The emitted table of events without its title and picture, which the page has."""
-    body = text.partition("# The events of a collision")[2]
-    return "\n".join(line for line in body.splitlines() if "automaton.svg" not in line)
+    put(DOCS / "_emitted" / "automaton.svg", automaton_drawing.drawing())
+    put(DOCS / "_emitted" / "automaton.md", automaton_page.page())
 
 
 def required_arguments(_app: Any, context: Any, lines: list[str]) -> None:

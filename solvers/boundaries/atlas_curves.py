@@ -17,7 +17,7 @@ from .changes import Change
 from .continuation import crossings
 from .plane import ANGLE, Plane
 from .regions import Slab, apart, labelled, slabs
-from .result import LATTICE, Curve, Curves, Point
+from .result import LATTICE, Atlas, Curve, Point
 from .survey import Survey, lattice, passes, surveyed
 from .trace import Traced, trace
 
@@ -31,7 +31,7 @@ _ROUGHLY = 50 * CHORD  # the same near a vertical tangent, relative to the windo
 _NEAR = 2 * CHORD  # collisions closer to a curve are not compared, relative to the window
 
 
-def curves_of(plane: Plane, lines: int, tell: Callable[[int, int], None]) -> Curves:
+def curves_of(plane: Plane, lines: int, tell: Callable[[int, int], None]) -> Atlas:
     """The boundaries of a plane, found from a lattice of collisions and `lines` seed lines."""
     at, labels = lattice(plane, *(BY_KERNEL if plane.kernel else BY_ROSENBROCK)[:2])
     x = np.linspace(*plane.span, lines)
@@ -60,7 +60,7 @@ def _changes(plane: Plane, x: np.ndarray, traced: Traced) -> list[tuple[np.ndarr
     ]
 
 
-def _settled(plane: Plane, survey: Survey, x: np.ndarray, traced: Traced, at: np.ndarray, labels: np.ndarray) -> Curves:
+def _settled(plane: Plane, survey: Survey, x: np.ndarray, traced: Traced, at: np.ndarray, labels: np.ndarray) -> Atlas:
     """The verified boundaries of a survey, after refinement where collisions disagree with it."""
     random = np.random.default_rng(20121).random(((BY_KERNEL if plane.kernel else BY_ROSENBROCK)[2], 2))
     points = np.vstack([at.reshape(-1, 2), random])
@@ -181,7 +181,7 @@ def _made(
     traced: Traced,
     background: int,
     size: tuple[int, ...],
-) -> Curves:
+) -> Atlas:
     curves = [
         Curve(
             OUTCOMES[one.arc.right], OUTCOMES[one.arc.left], one.kind,
@@ -193,7 +193,7 @@ def _made(
     points = [Point(name, float(plane.shown(place)), float(plane.stokes_at(place))) for name, place in places]
     points.sort(key=lambda one: (one.x, one.stokes))
     angles = x if plane.over == ANGLE else np.full(x.size, plane.scene.angle)
-    return Curves(
+    return Atlas(
         angles=tuple(angles.tolist()),
         changes=tuple(traced.changes),
         collisions=plane.collisions + traced.collisions,

@@ -1,7 +1,6 @@
 """Boundaries between outcomes: along lines of constant angle, and as the atlas of a plane."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from pathlib import Path as FilePath
 from typing import Any
 
@@ -12,46 +11,17 @@ from ..engines.settings import RTOL, check_rtol
 from ..errors import InputError
 from ..host.arguments import check_function, check_whole
 from ..host.cores import usable_cores
-from ..host.pictures import Drawn
 from ..many.batch import checked_numbers, checked_span
 from ..model.validity import warn
 from ..scene.scene import Scene
 from .plane import ANGLE, check_plane
-from .result import LINES, Curves, Lines
+from .result import LINES, Atlas, Boundaries
 from .trace import Traced, traces
 from .window import stokes_range
 
 _LARGEST = 1e30  # largest Stokes number; its inverse is the smallest
 _WORTH, _WORTH_BY_KERNEL = 4, 100  # fewest angles for which starting a process pays
 _MOST = 10_000  # most lines
-
-
-@dataclass(frozen=True)
-class Boundaries(Lines, Drawn):
-    """Changes of outcome for each angle, as `boundary` returns them; its attributes are those of `Lines`.
-
-    `plot` draws the regions of each outcome, the curves and where they meet.
-
-    Example:
-        >>> from wetdoublet.solvers import boundary
-        >>> found = boundary("granulation", angle=0.7, stokes=(0.05, 0.2))
-        >>> found.to_dataset().stokes.sizes
-        Frozen({'line': 1, 'change': 2})
-    """
-
-    _picture = "boundaries.plot.plot"
-
-
-@dataclass(frozen=True)
-class Atlas(Curves, Boundaries):
-    """All boundaries in a plane, as `atlas` returns them; its attributes are those of `Curves`.
-
-    Example:
-        >>> from wetdoublet.solvers import atlas
-        >>> found = atlas("granulation", span=("15 deg", "60 deg"), stokes=(0.01, 0.5), lines=5)
-        >>> found.region([0.5, 0.5], [0.02, 0.4])  # points of the plane: a stick and a bounce
-        array([0, 2], dtype=int8)
-    """
 
 
 def boundary(
@@ -154,4 +124,4 @@ def atlas(
     lines = check_whole(lines, "lines", 2, _MOST)
     tell = check_function(progress, "progress") or (lambda *_: None)
     warn(loaded)
-    return Atlas(**vars(curves_of(plane, lines, tell)))
+    return curves_of(plane, lines, tell)

@@ -1,27 +1,25 @@
 """Boundaries as a figure: filled regions of each outcome, the curves between them, and their meeting points."""
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
-from scipy import ndimage
 
 from ...generated.automaton import OUTCOMES
 from ..collision.text import against, degrees, name_of, prefix
 from ..engines.settings import RTOL
 from ..errors import InputError
 from ..formatting import ticks
-from ..formatting.style import EDGES, FILLS, HATCHES, INK, LONGEST, halo, patch, picture, plain_text, title
+from ..formatting.style import EDGES, FILLS, HATCHES, INK, LONGEST, letters, patch, picture, plain_text, title
 from ..scene.scene import Scene
 from .atlas_curves import curves_of
 from .plane import ANGLE, check_plane
-from .result import LINES, Curve, Curves, Lines, Point
+from .result import LINES, Atlas, Boundaries, Curve, Point
 
 _ROOM = 1.8  # factor of the Stokes number shown beyond the outermost curves
 _MARKS = {
@@ -29,14 +27,10 @@ _MARKS = {
     "graze meets escape": "s", "saddle meets rim": "v",
 }  # fmt: skip
 _MOST_DOTS = 60  # most lines whose changes are marked
-_CELL = 3.0  # margin, pixels
-_CLEAR = 2  # cells between a name and the edge of its region
-# Possible names of a region, the preferred first
-_NAMES = ((OUTCOMES[0], "S"), (OUTCOMES[1], "stick-rotate-\nseparate", "SRS"), (OUTCOMES[2], "B"))
-_FONT = 9.0
+_PLACES, _ROOM_OF_LETTERS = 200, 10  # along each axis; between letters and the edge of their region
 
 
-def plot(lines: Lines) -> Figure:
+def plot(lines: Boundaries) -> Figure:
     """The picture of boundaries; InputError if they have no scene."""
     if lines.scene is None:
         raise InputError("scene", None, "boundaries of a scene, as `boundary` and `atlas` return them")
@@ -44,7 +38,7 @@ def plot(lines: Lines) -> Figure:
 
 
 @picture
-def draw(scene: Scene, lines: Lines) -> Figure:
+def draw(scene: Scene, lines: Boundaries) -> Figure:
     """A figure of the regions of each outcome, the curves between them, and their meeting points.
 
     Lines of constant angle are drawn on the atlas of their angles; a single line as a strip of its outcomes.
@@ -52,8 +46,8 @@ def draw(scene: Scene, lines: Lines) -> Figure:
     Arguments:
         lines: result of `boundary` or `atlas`.
     """
-    dots = not isinstance(lines, Curves) and len(set(lines.angles)) > 1 and len(lines.angles) <= _MOST_DOTS
-    whole = lines if isinstance(lines, Curves) else _filled(scene, lines)
+    dots = not isinstance(lines, Atlas) and len(set(lines.angles)) > 1 and len(lines.angles) <= _MOST_DOTS
+    whole = lines if isinstance(lines, Atlas) else _filled(scene, lines)
     single = whole.span[0] == whole.span[1]
     figure = Figure(figsize=(6.4, 4.9), layout="constrained")
     axes = figure.add_subplot()
@@ -73,11 +67,13 @@ def draw(scene: Scene, lines: Lines) -> Figure:
     handles += _mark(axes, whole.points, factor, low, high)
     handles += _doubts(axes, lines, whole, factor)
     figure.legend(handles=handles, loc="outside lower center", ncols=min(3, len(handles)), handleheight=1.1)
-    _place_names(figure, axes, lambda x, stokes: regions.region(np.clip(x * factor, *regions.span), stokes))
+    across, up = np.linspace(*axes.get_xlim(), _PLACES), np.geomspace(*axes.get_ylim(), _PLACES)
+    outcome = regions.region(*np.meshgrid(np.clip(across * factor, *regions.span), up))
+    letters(axes, outcome, across, up, least=_ROOM_OF_LETTERS)
     return figure
 
 
-def _filled(scene: Scene, lines: Lines) -> Curves:
+def _filled(scene: Scene, lines: Boundaries) -> Atlas:
     """The atlas over the angles of lines; for a single line, its changes across the figure."""
     low, high = min(lines.angles), max(lines.angles)
     if low < high:
@@ -87,17 +83,17 @@ def _filled(scene: Scene, lines: Lines) -> Curves:
     background = OUTCOMES[0]
     if not changes:
         background = _curves(scene, (max(low - 1e-6, 0.0), low + 1e-6), lines.window, 2).background
-    return Curves(
+    return Atlas(
         lines.angles, lines.changes, lines.collisions, lines.failures, lines.resolution, scene, lines.window,
         span=(low, low), curves=tuple(curves), background=background,
     )  # fmt: skip
 
 
-def _curves(scene: Scene, angles: tuple[float, float], window: tuple[float, float], lines: int) -> Curves:
+def _curves(scene: Scene, angles: tuple[float, float], window: tuple[float, float], lines: int) -> Atlas:
     return curves_of(check_plane(scene, ANGLE, angles, window, RTOL), lines, lambda *_: None)
 
 
-def _shown(whole: Curves) -> tuple[float, float]:
+def _shown(whole: Atlas) -> tuple[float, float]:
     """Range of Stokes numbers of the figure: the curves and a margin, within the window."""
     stokes = [value for one in whole.curves for value in one.stokes]
     if not stokes:
@@ -105,7 +101,7 @@ def _shown(whole: Curves) -> tuple[float, float]:
     return max(min(stokes) / _ROOM, whole.window[0]), min(max(stokes) * _ROOM, whole.window[1])
 
 
-def _frame(axes: Axes, scene: Scene, whole: Curves, low: float, high: float, single: bool) -> float:
+def _frame(axes: Axes, scene: Scene, whole: Atlas, low: float, high: float, single: bool) -> float:
     """Set scales and labels; returns the divisor of x."""
     factor, text = _across(scene, whole.over, whole.span)
     axes.set_yscale("log")
@@ -137,7 +133,7 @@ def _across(scene: Scene, over: str, span: tuple[float, float]) -> tuple[float, 
     return factor, f"{name} ({letter.replace('u', 'µ')}{unit})"
 
 
-def _fill(axes: Axes, whole: Curves, factor: float) -> None:
+def _fill(axes: Axes, whole: Atlas, factor: float) -> None:
     """Fill each region with its colour, slab by slab between neighbouring curves."""
     log_height = math.log(whole.window[1] / whole.window[0])
     across = whole.span[1] - whole.span[0]
@@ -179,99 +175,13 @@ def _mark(axes: Axes, points: Sequence[Point], factor: float, low: float, high: 
     return list(handles.values())
 
 
-def _doubts(axes: Axes, lines: Lines, whole: Curves, factor: float) -> list[Any]:
+def _doubts(axes: Axes, lines: Boundaries, whole: Atlas, factor: float) -> list[Any]:
     """Note on lines and places that could not be traced or verified."""
     style: Any = {"linestyle": "", "marker": "x", "color": "#C00000", "markersize": 6}
     places = [(x / factor, stokes) for x, stokes, _ in whole.unsettled]
     if places:
         axes.plot(*zip(*places), zorder=6, clip_on=False, **style)
-    failed = [] if isinstance(lines, Curves) else [math.degrees(angle) for angle, _ in lines.failed]
+    failed = [] if isinstance(lines, Atlas) else [math.degrees(angle) for angle, _ in lines.failed]
     if failed:
         axes.plot(failed, [0.02] * len(failed), transform=axes.get_xaxis_transform(), clip_on=False, **style)
     return [Line2D([], [], label="not settled", **style)] if places or failed else []
-
-
-def _place_names(figure: Figure, axes: Axes, outcome: Callable[[np.ndarray, np.ndarray], np.ndarray]) -> None:
-    """Write each region's name in it, or its letters if there is no room, or nothing if these do not fit either.
-
-    Arguments:
-        outcome: function of arrays of places, in the coordinates of the axes.
-    """
-    canvas = FigureCanvasAgg(figure)
-    figure.draw_without_rendering()
-    box = axes.get_window_extent()
-    columns, rows = int(box.width / _CELL), int(box.height / _CELL)
-    pixels = np.stack(
-        np.meshgrid(box.x0 + (np.arange(columns) + 0.5) * _CELL, box.y0 + (np.arange(rows) + 0.5) * _CELL), axis=-1
-    )
-    places = axes.transData.inverted().transform(pixels.reshape(-1, 2))
-    labels = outcome(places[:, 0], places[:, 1]).reshape(rows, columns)
-    labels = _without_marks(axes, labels, pixels)
-    renderer = canvas.get_renderer()  # type: ignore[no-untyped-call]  # matplotlib's
-    for label, region in _regions(labels):
-        for name in _NAMES[label]:
-            text = axes.text(
-                0, 0, name, fontsize=_FONT, ha="center", va="center", color=INK, linespacing=1.1, zorder=7,
-                path_effects=[halo()],
-            )  # fmt: skip
-            size = text.get_window_extent(renderer)
-            at = _room(region, int(size.width / _CELL) + 2, int(size.height / _CELL) + 2)
-            if at is None:
-                text.remove()
-                continue
-            text.set_transform(axes.transAxes)
-            text.set_position(((at[1] * _CELL) / box.width, (at[0] * _CELL) / box.height))
-            break
-
-
-def _without_marks(axes: Axes, labels: np.ndarray, pixels: np.ndarray) -> np.ndarray:
-    """Labels with -1 under the marks of points."""
-    kept = labels.copy()
-    for line in axes.get_lines():
-        if line.get_marker() in ("None", "", None) or line.get_transform() != axes.transData:
-            continue
-        reach = 0.5 * line.get_markersize() * axes.figure.dpi / 72 + _CELL
-        for x, y in axes.transData.transform(np.column_stack(line.get_data())):
-            kept[np.hypot(pixels[..., 0] - x, pixels[..., 1] - y) < reach] = -1
-    return kept
-
-
-def _regions(labels: np.ndarray) -> Iterator[tuple[int, np.ndarray]]:
-    """The connected parts of each label, as masks, in the order of their first places."""
-    parts, kinds = np.zeros(labels.shape, int), np.unique(labels[labels >= 0]).tolist()
-    for kind in kinds:
-        connected = ndimage.label(labels == kind)[0]
-        parts = np.where(connected > 0, connected + parts.max(), parts)
-    numbers, first = np.unique(parts, return_index=True)
-    for place in np.sort(first[numbers > 0]).tolist():
-        yield int(labels.flat[place]), parts == parts.flat[place]
-
-
-def _room(region: np.ndarray, width: int, height: int) -> tuple[float, float] | None:
-    """Row and column of the middle of a box of this size inside the region, as far from its edges as possible."""
-    best, low, high = None, 0, max(region.shape)
-    while low <= high:
-        margin = (low + high) // 2
-        fits = _fitting(region, width + 2 * (margin + _CLEAR), height + 2 * (margin + _CLEAR))
-        if fits is None:
-            high = margin - 1
-        else:
-            best, low = fits, margin + 1
-    return best
-
-
-def _fitting(region: np.ndarray, width: int, height: int) -> tuple[float, float] | None:
-    """The middle of a box inside the region, the nearest to the region's middle."""
-    rows, columns = region.shape
-    if width > columns or height > rows:
-        return None
-    sums = np.pad(np.cumsum(np.cumsum(region, axis=0), axis=1), ((1, 0), (1, 0)))
-    inside = (
-        sums[height:, width:] - sums[:-height, width:] - sums[height:, :-width] + sums[:-height, :-width]
-    ) == width * height
-    if not inside.any():
-        return None
-    middle = np.argwhere(region).mean(axis=0)
-    at = np.argwhere(inside) + np.array([height / 2, width / 2])
-    row, column = at[int(np.argmin(((at - middle) ** 2).sum(axis=1)))]
-    return float(row), float(column)

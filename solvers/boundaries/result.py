@@ -14,7 +14,8 @@ from ...generated import scaling
 from ...generated.automaton import OUTCOMES
 from ..collision.text import name_of
 from ..engines.settings import RTOL
-from ..formatting.notebook import frame, view
+from ..formatting.notebook import view
+from ..host.pictures import Drawn
 from ..many.results import outcome_attributes
 from ..scene.origin import origin
 from ..scene.quantities import quantities
@@ -27,7 +28,6 @@ from .regions import Slab, labelled, slabs
 from .window import STOKES
 
 if TYPE_CHECKING:
-    import pandas as pd
     import xarray
 
 NONE = -1  # outcome code of padding, where there is no change
@@ -37,8 +37,10 @@ LATTICE = (65, 193)  # columns and rows of the search lattice, with a kernel
 
 
 @dataclass(frozen=True)
-class Lines:
-    """Changes of outcome for each angle (rad), ascending in St.
+class Boundaries(Drawn):
+    """Changes of outcome for each angle (rad), ascending in St, as `boundary` returns them.
+
+    `plot` draws the regions of each outcome, the curves and where they meet.
 
     Attributes:
         collisions: number of integrated collisions.
@@ -47,8 +49,15 @@ class Lines:
             narrower ones only where a margin (of a rebound criterion, of the escape) shows them.
         scene, window: the scene, and the range of Stokes numbers of the search.
         rtol: relative tolerance of the integrations.
+
+    Example:
+        >>> from wetdoublet.solvers import boundary
+        >>> found = boundary("granulation", angle=0.7, stokes=(0.05, 0.2))
+        >>> found.to_dataset().stokes.sizes
+        Frozen({'line': 1, 'change': 2})
     """
 
+    _picture = "boundaries.plot.plot"
     angles: tuple[float, ...]
     changes: tuple[tuple[Change, ...], ...]
     collisions: int
@@ -145,15 +154,6 @@ class Lines:
             attributes["scene"] = self.scene.to_toml()
         return xr.Dataset(variables, {"angle": angle}, attributes)
 
-    def to_pandas(self) -> pd.DataFrame:
-        """A row for each change: angle (rad), stokes, centrifugal, normal and relative speed (m/s), outcomes, kind."""
-        pairs = [(angle, one) for angle, line in zip(self.angles, self.changes, strict=True) for one in line]
-        rows = [self.change_dict(one, angle) for angle, one in pairs]
-        names = ("stokes", "centrifugal", "speed", "relative_speed")
-        columns = {name: [row.get(name) for row in rows] for name in names}
-        columns |= {name: [getattr(one, name) for _, one in pairs] for name in ("before", "after", "kind")}
-        return frame({"angle": [angle for angle, _ in pairs], **columns})
-
     def _repr_html_(self) -> str:
         rows = []
         failures = self.failures or ("",) * len(self.angles)
@@ -232,8 +232,8 @@ class Point:
 
 
 @dataclass(frozen=True)
-class Curves(Lines):
-    """Boundaries in a plane: the seed lines, the curves and their meeting points.
+class Atlas(Boundaries):
+    """All boundaries in a plane, as `atlas` returns them: the seed lines, the curves and their meeting points.
 
     Attributes:
         over: dotted name of the entry x.
@@ -243,6 +243,12 @@ class Curves(Lines):
         unsettled: places (x, St) where collisions and curves disagree, with the reason.
         sought: resolution of the search by lattice and lines.
         lattice: columns and rows of the lattice; fewer without a kernel for the scene.
+
+    Example:
+        >>> from wetdoublet.solvers import atlas
+        >>> found = atlas("granulation", span=("15 deg", "60 deg"), stokes=(0.01, 0.5), lines=5)
+        >>> found.region([0.5, 0.5], [0.02, 0.4])  # points of the plane: a stick and a bounce
+        array([0, 2], dtype=int8)
     """
 
     over: str = ANGLE
@@ -372,13 +378,6 @@ class Curves(Lines):
         data["point_stokes"] = "point", np.array([one.stokes for one in self.points], dtype=float), stokes
         more = {"over": self.over} | {f"sought_{name}": value for name, value in self.sought.items()}
         return data.assign_coords(x=("line", np.array(self.at), x)).assign_attrs(more)
-
-    def to_pandas(self) -> pd.DataFrame:
-        """A row for each point of each curve: curve (a number), before, after, kind, x (rad or SI) and stokes."""
-        rows = [(k, one, x, stokes) for k, one in enumerate(self.curves) for x, stokes in zip(one.x, one.stokes)]
-        columns = {name: [getattr(one, name) for _, one, *_ in rows] for name in ("before", "after", "kind")}
-        ends = {"x": [x for *_, x, _ in rows], "stokes": [stokes for *_, stokes in rows]}
-        return frame({"curve": [k for k, *_ in rows], **columns, **ends})
 
     def _repr_html_(self) -> str:
         scale, x = (math.degrees(1.0), "angle (deg)") if self.over == ANGLE else (1.0, self.over)

@@ -7,13 +7,7 @@ from .signature import as_command
 
 @as_command("The terms in which two models differ, and their effect.", probe={"default": "granulation"})
 def command(
-    one: str | None,
-    other: str | None,
-    probe: str,
-    changes: options.Changes,
-    latex: bool,
-    markdown: bool,
-    output: options.WrittenText,
+    one: str | None, other: str | None, probe: str, changes: options.Changes, output: options.WrittenText
 ) -> None:
     """Compare A and B: `library`, presets, scene files, models, or two folders of `generate`.
 
@@ -28,17 +22,12 @@ def command(
         A (one):
         B (other):
         --scene SCENE (probe): Scene of the comparison [granulation].
-        --latex: A LaTeX document.
-        --markdown: Markdown.
     """  # noqa: D301 # click wants the character itself
-    if latex and markdown:
-        raise InputError("--markdown", None, "only one of --latex, --markdown", "is given together with --latex")
     if one is None or other is None:
         accepted = "library, a preset or scene file, a folder of `generate`, or MODEL.py"
         raise InputError("A" if one is None else "B", None, accepted)
 
     from ..export.differences import differences
-    from ..export.text import as_latex, as_markdown, as_text
+    from ..export.text import as_text
 
-    form = as_latex if latex else as_markdown if markdown else as_text
-    output.put(form(differences(one, other, probe, changes)))
+    output.put(as_text(differences(one, other, probe, changes)))

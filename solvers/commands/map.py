@@ -93,8 +93,7 @@ def command(
     ):
         data = regime_map(
             scene, **axes, vary=varied, **passed(rtol=rtol, engine=engine), progress=progress,
-            slow=lambda left: progress.note(f"the last {left} are slow ones"), client=client,
-            store=output if stored else None, resume=None if stored else output,
+            client=client, store=output if stored else None, resume=None if stored else output,
         )  # fmt: skip
     if output is not None and not stored:
         (write_csv if output.suffix.lower() == ".csv" else write)(data, output)

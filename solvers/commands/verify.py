@@ -45,7 +45,7 @@ class _Counted(click.Command):
 )
 def command(
     request: options.OptionalRequest,
-    output: Annotated[Path | None, partial(check_file, label="", suffixes=(".md",))],
+    output: Annotated[Path | None, partial(check_file, label="", suffixes=(".md", ".txt"))],
     plot: options.Picture,
     stress: Annotated[int | None, _count],
     out: str | None,
@@ -56,11 +56,11 @@ def command(
     Its first line says that all hold, or what failed and why. The symbolic verdicts are kept in the cache for as long
     as the equations, and what they depend on otherwise, are the same.
 
-    With --stress, engines of this package and scipy's LSODA compute the same scenes: each difference between them is
-    explained by a boundary within their error, or makes the exit status 1.
+    With --stress, all engines compute the same scenes: each difference between them is explained by a boundary within
+    their error, or makes the exit status 1.
 
     Options:
-        -o FILE.md (output): Write the report as Markdown to FILE.md as well.
+        -o FILE (output): Write the report to FILE as well.
         --plot FILE.png: Draw the region e_n > 1 and its energy budget: .png, .pdf or .svg.
         --stress N: Instead: compare all engines on N scenes, drawn and beside boundaries [500].
         --out DIR: Folder for records, tables and plots of --stress [stress].
@@ -100,9 +100,10 @@ def command(
             click.echo(str(Report(tuple(findings))))
         last = f"after {len(findings)} checks, the last of them {findings[-1].name}" if findings else "before any check"
         raise KeyboardInterrupt(f"interrupted {last}; what follows is not checked") from None
-    click.echo(str(report).rstrip("\n"))
+    text = str(report).rstrip("\n")
+    click.echo(text)
     if output is not None:
-        write(output, report.to_markdown().rstrip("\n") + "\n")
+        write(output, text + "\n")
     if plot is not None and report.budget is not None:
         report.plot(plot)
     if not report.ok:

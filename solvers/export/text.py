@@ -1,12 +1,13 @@
-"""Differences of two models as text, Markdown or LaTeX."""
+"""Differences of two models as text."""
 
 from __future__ import annotations
 
 import math
 from itertools import groupby
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from ...generated.automaton import OUTCOMES
+from ..formatting.markdown import aligned
 from .differences import Differences
 
 if TYPE_CHECKING:
@@ -14,13 +15,6 @@ if TYPE_CHECKING:
 
 _SHORT = dict(zip(OUTCOMES, ("S", "SRS", "B"), strict=True))
 _HEADS = ("angle (deg)", "St", "A", "e_n A", "B", "e_n B", "B - A")
-
-
-def _typeset(expression: Any) -> str:
-    """An expression in LaTeX."""
-    from ...derive.emit.compare import typeset  # imports sympy
-
-    return typeset(expression)
 
 
 def as_text(differences: Differences) -> str:
@@ -37,43 +31,8 @@ def as_text(differences: Differences) -> str:
             else:
                 lines.append(f"  {change.kind:<8} {plain(_one(change))}")
     if differences.probes:
-        rows = [_HEADS, *_rows(differences)]
-        widths = [max(len(row[k]) for row in rows) for k in range(len(_HEADS))]
-        lines += ["", *("  ".join(f"{cell:<{width}}" for cell, width in zip(row, widths)).rstrip() for row in rows)]
-        lines += ["", *_lines(differences)]
+        lines += ["", *aligned([_HEADS, *_rows(differences)]), "", *_lines(differences)]
     return "\n".join(lines)
-
-
-def as_markdown(differences: Differences) -> str:
-    """The differences as Markdown, formulas between dollar signs."""
-    lines = [f"# {differences.names[0]} and {differences.names[1]}", "", f"{_count(differences)}.", ""]
-    if differences.changes:
-        lines += ["| equation | term | A | B |", "|---|---|---|---|"]
-    lines += [
-        f"| {change.equation} | {change.kind} | {_math(change.before)} | {_math(change.after)} |"
-        for change in differences.changes
-    ]
-    if differences.probes:
-        lines += ["", f"| {' | '.join(_HEADS)} |", "|" + "---|" * len(_HEADS)]
-        lines += [f"| {' | '.join(row)} |" for row in _rows(differences)]
-        lines += ["", *(f"* {line}" for line in _lines(differences))]
-    return "\n".join(lines)
-
-
-def as_latex(differences: Differences) -> str:
-    """The differences as a LaTeX document."""
-    body = []
-    for equation, of_equation in groupby(differences.changes, key=lambda change: change.equation):
-        body += [rf"\paragraph{{{_tex(equation)}}}", r"\begin{align*}"]
-        body.append(" \\\\\n".join(_aligned(change) for change in of_equation))
-        body.append(r"\end{align*}")
-    if differences.probes:
-        body += [r"\begin{tabular}{rrlrlrr}", " & ".join(map(_tex, _HEADS)) + r" \\ \hline"]
-        body += [" & ".join(map(_tex, row)) + r" \\" for row in _rows(differences)]
-        body += [r"\end{tabular}", "", *(rf"{_tex(line)}\\" for line in _lines(differences))]
-    head = [r"\documentclass[a4paper,10pt]{article}", r"\usepackage{amsmath}", r"\usepackage[margin=2cm]{geometry}"]
-    title = rf"\section*{{{_tex(differences.names[0])} and {_tex(differences.names[1])}}}"
-    return "\n".join([*head, r"\begin{document}", title, *body, r"\end{document}"])
 
 
 def _count(differences: Differences) -> str:
@@ -83,16 +42,6 @@ def _count(differences: Differences) -> str:
 
 def _one(change: Change) -> object:
     return change.after if change.before is None else change.before
-
-
-def _math(expression: object) -> str:
-    return "" if expression is None else f"${_typeset(expression)}$".replace("|", r"\vert ")
-
-
-def _aligned(change: Change) -> str:
-    if change.kind == "changed":
-        return rf"  &\text{{changed}} & {_typeset(change.before)} &\;\to\; {_typeset(change.after)}"
-    return rf"  &\text{{{change.kind}}} & {_typeset(_one(change))} &"
 
 
 def _rows(differences: Differences) -> list[tuple[str, ...]]:
@@ -119,9 +68,3 @@ def _lines(differences: Differences) -> list[str]:
             parts.append(f"{label} {known}")
         rows.append(f"at 45 deg, {name}: {'; '.join(parts)}")
     return rows
-
-
-def _tex(text: str) -> str:
-    for sign, instead in (("_", r"\_"), ("&", r"\&"), ("%", r"\%"), ("->", r"$\to$")):
-        text = text.replace(sign, instead)
-    return text

@@ -13,7 +13,7 @@ import numpy as np
 from ...generated.automaton import OUTCOMES
 from ..errors import InputError
 from ..formatting.markdown import aligned
-from ..formatting.notebook import frame, view
+from ..formatting.notebook import view
 from ..host import files
 from ..host.arguments import check_whole
 from ..host.outputs import check_file, check_folder
@@ -29,7 +29,6 @@ from .measurements import Measurements
 from .optimise import Objective
 
 if TYPE_CHECKING:
-    import pandas as pd
     import xarray
 
     from ..formatting.document import Block
@@ -207,19 +206,6 @@ class Fit:
                 for scene, entry in (home(self.parts, name),)
             },
         }
-
-    def to_pandas(self) -> pd.DataFrame:
-        """A row for each impact: what was observed, and what the fitted scene predicts of it."""
-        data = self.data
-        cells: dict[str, Any] = {
-            "row": [data.label(k) for k in range(data.size)], data.speed_name: data.speed, "angle": data.angle,
-            "outcome": [OUTCOMES[code] if code >= 0 else "" for code in data.outcome],
-            "probability": self.rows.probability,
-        }  # fmt: skip
-        for name, expected in self.rows.expected.items():
-            cells |= {name: data.observed[name][0], f"{name}_expected": expected}
-            cells[f"{name}_residual"] = self.rows.residual[name]
-        return frame(cells | {"log_likelihood": self.rows.log_likelihood, "pull": self.rows.pull})
 
     def __str__(self) -> str:
         head, rows = self.table()

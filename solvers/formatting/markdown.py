@@ -1,4 +1,4 @@
-"""Tables as Markdown, plain text and CSV, and formats of times in them."""
+"""Tables as Markdown, plain text and CSV."""
 
 import csv
 import io
@@ -23,11 +23,6 @@ def unpadded(head: Sequence[str], rows: Sequence[Sequence[str]]) -> list[str]:
     """Lines of a Markdown table of long texts, whose columns do not line up; bars are escaped."""
     lines = [head, ["---"] * len(head), *rows]
     return ["| " + " | ".join(cell.replace("|", r"\|") for cell in row) + " |" for row in lines]
-
-
-def ms(seconds: float) -> str:
-    """A time in milliseconds with three digits."""
-    return f"{seconds * 1e3:#.3g}".removesuffix(".")
 
 
 def aligned(rows: Sequence[Sequence[str]]) -> list[str]:

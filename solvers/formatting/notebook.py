@@ -1,15 +1,9 @@
-"""Tables for notebooks: small ones in HTML, everything escaped, in the colours of the page; and pandas DataFrames."""
+"""Tables for notebooks: small ones in HTML, everything escaped, in the colours of the page."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from html import escape
-from typing import TYPE_CHECKING, Any
-
-from ..errors import ComputationError
-
-if TYPE_CHECKING:
-    import pandas as pd
 
 MOST = 24  # rows; the rest is counted
 _RULE = "border-bottom:1px solid rgba(128,128,128,.35)"
@@ -37,15 +31,6 @@ def view(title: str, rows: Sequence[Row], head: Row = (), notes: Sequence[str] =
     lines.append("</tbody></table>")
     lines += [f'<div style="{_FAINT};font-size:.9em">{escape(note)}</div>' for note in (*more, *notes)]
     return "\n".join([*lines, "</div>"])
-
-
-def frame(columns: Mapping[str, Sequence[Any]]) -> pd.DataFrame:
-    """A DataFrame of named columns; ComputationError if pandas, which is optional, is not installed."""
-    try:
-        import pandas as pd
-    except ImportError:
-        raise ComputationError("a DataFrame needs pandas", advice="pip install pandas") from None
-    return pd.DataFrame({name: list(values) for name, values in columns.items()})
 
 
 def _row(row: Row) -> str:

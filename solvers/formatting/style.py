@@ -10,6 +10,7 @@ from typing import Any, ParamSpec
 
 import matplotlib as mpl
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 from matplotlib.patheffects import withStroke
@@ -69,6 +70,23 @@ def patch(outcome: str, label: str = "") -> Patch:
 def halo(width: float = 2.4) -> withStroke:
     """White around a line or a label, so that it is legible on any colour; its width in points."""
     return withStroke(linewidth=width, foreground="white", alpha=0.85)
+
+
+def letters(axes: Axes, outcome: np.ndarray, x: np.ndarray, y: np.ndarray, least: int = 3) -> None:
+    """Write the letters of each outcome where its region is widest.
+
+    Arguments:
+        outcome: outcomes by index, a row for each y; -1 for none.
+        least: distance of the letters from the region's edge, in places; a smaller region has none.
+    """
+    from scipy.ndimage import distance_transform_cdt  # slow import
+
+    for k, name in enumerate(OUTCOMES):
+        depth = distance_transform_cdt(np.pad(outcome == k, 1), "taxicab")[1:-1, 1:-1]
+        if depth.max() >= least:
+            row, column = np.unravel_index(np.argmax(depth), outcome.shape)
+            style: Any = {"ha": "center", "va": "center", "color": INK, "fontsize": 12, "zorder": 7}
+            axes.annotate(LETTERS[name], (x[column], y[row]), path_effects=[halo(4)], **style)
 
 
 def plain_text(text: str) -> str:

@@ -37,7 +37,7 @@ from ..host.outputs import check_file
 from ..host.progress import Progress
 from ..host.remarks import say, silence_workers
 from ..host.workers import undisturbed
-from .compute import Slow, complete
+from .compute import complete
 from .results import Block, empty, fill
 from .scan import Place, Scan
 
@@ -117,17 +117,12 @@ def _computing(scan: Scan, client: Any, cut: Sequence[Place]) -> Iterator[tuple[
 
 
 def into_memory(
-    scan: Scan,
-    client: Any = None,
-    progress: Progress | None = None,
-    slow: Slow | None = None,
-    resume: Path | None = None,
+    scan: Scan, client: Any = None, progress: Progress | None = None, resume: Path | None = None
 ) -> xarray.Dataset:
     """Compute a scan here or on a cluster.
 
     Arguments:
         progress: called with (collisions done, collisions in all) at the start and after every block.
-        slow: called with the number of collisions left to slower engines, once the kernel has done all others.
         resume: as of `kept`.
     """
     request = scan.batch()
@@ -143,7 +138,7 @@ def into_memory(
         finished(np.zeros(0, int), {})
         if client is None:
             order = scan.order()
-            complete(request, results, order[~done[order]], finished, slow)
+            complete(request, results, order[~done[order]], finished)
         else:
             cut, flat = blocks(scan.shape, scan.answered_by), np.arange(scan.size).reshape(scan.shape)
             with _computing(scan, client, cut) as (_, computed):

@@ -24,7 +24,6 @@ _BLOCK = 50  # collisions in a block for a worker
 _SLOW_ALONE = 20  # as `FEW`, for collisions that the kernel did not complete; they take up to seconds each
 
 Finished = Callable[[np.ndarray, Block], None]
-Slow = Callable[[int], None]
 
 
 def complete(
@@ -32,7 +31,6 @@ def complete(
     results: Block,
     which: np.ndarray | None = None,
     finished: Finished | None = None,
-    slow: Slow | None = None,
     cores: int | None = None,
 ) -> None:
     """Fill the columns of a request, on all cores if its collisions are many.
@@ -41,7 +39,6 @@ def complete(
         which: the collisions that are missing; None for all.
         finished: called with indices and results of every block, in place of filling the columns with them; finished
             blocks are kept if a later one is interrupted.
-        slow: called with the number of collisions left to slower engines, before those start.
         cores: how many it may use; None for all of this process.
     """
     for where, part in request.by_text() if request.texts else ():
@@ -54,13 +51,13 @@ def complete(
     if request.texts:
         return
     keep = finished or (lambda where, block: fill(results, where, block))
-    _compute(request, np.arange(request.size) if which is None else which, keep, slow, cores or usable_cores())
+    _compute(request, np.arange(request.size) if which is None else which, keep, cores or usable_cores())
     results |= impact_columns(request)
     if VALIDITY in request.of:
         results[VALIDITY] = validity(request, results)
 
 
-def _compute(request: Batch, which: np.ndarray, finished: Finished, slow: Slow | None, cores: int) -> None:
+def _compute(request: Batch, which: np.ndarray, finished: Finished, cores: int) -> None:
     size, alone = _BLOCK, FEW
     if request.engine == "taylor":
         left, spent = collide_by_kernel(request, which, cores if which.size > FEW else 1, finished)
@@ -69,8 +66,6 @@ def _compute(request: Batch, which: np.ndarray, finished: Finished, slow: Slow |
             steps[left] = spent
             request = replace(request, spent=steps)
         if 0 < left.size < which.size:
-            if slow is not None:
-                slow(left.size)
             size, alone = max(1, min(_BLOCK, left.size // (4 * cores))), _SLOW_ALONE
         which = left
     blocks = [which[k : k + size] for k in range(0, which.size, size)]

@@ -29,6 +29,7 @@ from ..formatting.style import (
     NOTE,
     NOTHING,
     halo,
+    letters,
     patch,
     picture,
     plain_text,
@@ -134,7 +135,8 @@ def _pair(data: xarray.Dataset, curves: Curves) -> Figure:
     left = figure.add_subplot(grid[1, 0])
     right = figure.add_subplot(grid[1, 1], sharey=left)
     _outcomes(left, data)
-    _letters(left, data)
+    angles, values = np.degrees(data["angle"].values), data[_vertical(data)].values
+    letters(left, _upright(data, "outcome"), angles, values)
     separated = _upright(data, "outcome") > 0
     values = np.ma.masked_invalid(np.where(separated, _upright(data, "restitution"), np.nan))
     right.set_facecolor(NOTHING)
@@ -256,21 +258,6 @@ def _failed(axes: Axes, data: xarray.Dataset) -> None:
     if rows.size:
         x, y = np.degrees(data["angle"].values)[columns], data[_vertical(data)].values[rows]
         axes.plot(x, y, clip_on=False, zorder=5, **_CROSS | {"markersize": max(2.0, min(6.0, 90 / max(outcome.shape)))})
-
-
-def _letters(axes: Axes, data: xarray.Dataset) -> None:
-    """Draw the name of each region where it is widest."""
-    from scipy.ndimage import distance_transform_cdt
-
-    outcome = _upright(data, "outcome")
-    angles, values = np.degrees(data["angle"].values), data[_vertical(data)].values
-    for k, name in enumerate(OUTCOMES):
-        depth = distance_transform_cdt(np.pad(outcome == k, 1), "taxicab")[1:-1, 1:-1]
-        if depth.max() < 3:  # too small for a label
-            continue
-        row, column = np.unravel_index(np.argmax(depth), outcome.shape)
-        style: Any = {"ha": "center", "va": "center", "color": INK, "fontsize": 12, "zorder": 6}
-        axes.annotate(LETTERS[name], (angles[column], values[row]), path_effects=[halo(4)], **style)
 
 
 def draw_contours(axes: Axes, data: xarray.Dataset, levels: Sequence[float]) -> None:

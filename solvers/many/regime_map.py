@@ -26,7 +26,6 @@ from ..scene.user_model import Package
 from .batch import Batch, check_outputs, checked_columns
 from .blocks import check_scheduler, check_store, into_memory, into_store
 from .columns import quantities_and_impacts
-from .compute import Slow
 from .results import QUANTITIES, VALIDITY
 from .scan import LABELS, Scan
 
@@ -94,7 +93,6 @@ def regime_map(
     engine: str | None = None,
     of: Sequence[str] = (*QUANTITIES, VALIDITY),
     progress: Progress | None = None,
-    slow: Slow | None = None,
     client: Any = None,
     store: str | Path | None = None,
     resume: str | Path | None = None,
@@ -113,7 +111,6 @@ def regime_map(
         of: results as for `collide_many`; by default restitution, tangential_restitution, rotation, contact_time,
             smallest_gap and validity (flags of where the model leaves its range).
         progress: called with (collisions done, collisions in all) after every block.
-        slow: called with the number of collisions left to slower engines, once the kernel has done all others.
         client: a `dask.distributed.Client` whose workers compute the map, or as text a scheduler's address, its file,
             "local" or "local:N" (N processes here, started and ended by this call). The result is the same.
         store: a Zarr store to write block by block (`map.zarr`); memory does not grow with the map. Whatever ends this
@@ -137,7 +134,6 @@ def regime_map(
                [0, 1, 2]], dtype=int8)
     """
     check_function(progress, "progress")
-    check_function(slow, "slow")
     impact = {"stokes": stokes, "speed": speed, "relative_speed": relative_speed, "angle": angle}
     if client is not None:
         check_scheduler(client, "client")
@@ -152,7 +148,7 @@ def regime_map(
     grid.check()
     if file is not None:
         return into_store(grid, file, client, progress)
-    return into_memory(grid, client, progress, slow, beside)
+    return into_memory(grid, client, progress, beside)
 
 
 def _axes(columns: Mapping[str, np.ndarray], most: int) -> dict[str, np.ndarray]:

@@ -9,7 +9,8 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from ...generated.automaton import STICK
-from ..boundaries.boundary import Atlas, atlas
+from ..boundaries.boundary import atlas
+from ..boundaries.result import Atlas
 from ..formatting.document import Picture, Table
 from ..formatting.style import INK, LETTERS, NOTE, halo
 from ..scene.scene import Scene

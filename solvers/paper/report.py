@@ -11,7 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ...generated.automaton import OUTCOMES
-from ..boundaries.boundary import Atlas
+from ..boundaries.result import Atlas
 from ..formatting.document import Block, Formulas, Picture, Table
 from ..formatting.style import EDGES, FILLS, HATCHES, INK, styled
 from ..host.files import save

@@ -11,9 +11,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...generated.automaton import OUTCOMES
-from ..boundaries.boundary import Boundaries, boundary
+from ..boundaries.boundary import boundary
 from ..boundaries.changes import Change, changes_along
 from ..boundaries.line import Line
+from ..boundaries.result import Boundaries
 from ..boundaries.scene_sampler import SceneSampler
 from ..changes.brackets import Brackets, enclose
 from ..changes.experiment import Rows
@@ -22,7 +23,7 @@ from ..changes.slopes import normals, outcomes_along, slopes
 from ..engines.settings import RTOL, check_rtol
 from ..errors import ComputationError, InputError
 from ..formatting.markdown import numbers_aligned
-from ..formatting.notebook import frame, view
+from ..formatting.notebook import view
 from ..host.arguments import check_function
 from ..host.pictures import Drawn
 from ..scene.scene import Scene
@@ -31,7 +32,6 @@ from .parameters import check_wrt, kind_of, parameter_map, references
 from .results import Row
 
 if TYPE_CHECKING:
-    import pandas as pd
     import xarray
 
 _OF = ("stokes", "speed", "relative_speed", "centrifugal")
@@ -126,21 +126,6 @@ class BoundarySensitivities(Drawn):
             "angle": ("change", angles, {"units": "rad"}), **columns, "parameter": list(self.parameters)
         }  # fmt: skip
         return xr.Dataset(data, coordinates)
-
-    def to_pandas(self) -> pd.DataFrame:
-        """A row for each change and parameter: angle (rad), stokes, before, after, gradients and elasticities."""
-        rows = [(angle, one, name) for angle, one in self._pairs for name in self.parameters]
-        columns: dict[str, list[Any]] = {
-            "angle": [angle for angle, *_ in rows],
-            "stokes": [one.change.stokes for _, one, _ in rows],
-            "before": [one.change.before for _, one, _ in rows],
-            "after": [one.change.after for _, one, _ in rows],
-            "parameter": [name for *_, name in rows],
-        }
-        for of in _OF:
-            for kind in ("gradient", "elasticity"):
-                columns[f"{of}_{kind}"] = [getattr(one, kind).get(of, {}).get(name) for _, one, name in rows]
-        return frame(columns)
 
     def _repr_html_(self) -> str:
         head = ["parameter", *(f"{np.degrees(angle):.6g}°, {one.change.before} → {one.change.after}"

@@ -5,16 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from ..formatting.markdown import aligned, csv_text
-from ..formatting.notebook import frame, view
+from ..formatting.notebook import view
 from ..host.pictures import Drawn
 from ..scene.origin import origin
 from ..scene.scene import Scene
-
-if TYPE_CHECKING:
-    import pandas as pd
 
 _SPEEDS = ("relative_speed", "speed", "interval", "bounces_above", "sticks")
 _UNITS = dict.fromkeys(_SPEEDS, "m/s") | {"angle": "rad", "stokes": "1"}
@@ -113,10 +110,6 @@ class Critical(Drawn):
         names = ("material", "angle", "relative_speed", "low", "high", "speed", "stokes", "to", "bounces_above")
         records = [vars(one) | dict(zip(("low", "high"), one.interval or (None, None))) for one in self.rows]
         return {name: [each[name] for each in records] for name in names}
-
-    def to_pandas(self) -> pd.DataFrame:
-        """The columns as a DataFrame."""
-        return frame(self.columns())
 
     def to_csv(self) -> str:
         """A row for each material and angle: speeds in m/s, angles in rad; empty where there is none."""

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from ...generated.automaton import STICK
 from ..formatting.markdown import numbers_aligned
-from ..formatting.notebook import frame, view
+from ..formatting.notebook import view
 from ..host.pictures import Drawn
 from ..scene.held import NAMES
 from ..scene.origin import origin
@@ -16,7 +16,6 @@ from ..scene.schema import SPEEDS
 from .results import DIFFERENTIATED, Row
 
 if TYPE_CHECKING:
-    import pandas as pd
     import xarray
 
     from ..scene.scene import Scene
@@ -146,20 +145,6 @@ class Sensitivities(Drawn):
         }
         attributes = {"outcome": self.outcome, "method": self.method, "engine": self.engine, "hold": self.hold}
         return xr.Dataset(variables, coordinates, attributes)
-
-    def to_pandas(self) -> pd.DataFrame:
-        """A row for each result and parameter: value, gradient, elasticity and the parameter's own value."""
-        pairs = [(name, p) for name in self.value for p in self.parameters]
-        return frame(
-            {
-                "quantity": [name for name, _ in pairs],
-                "parameter": [p for _, p in pairs],
-                "value": [self.value[name] for name, _ in pairs],
-                "gradient": [self.gradient[name][p] for name, p in pairs],
-                "elasticity": [self.elasticity[name][p] for name, p in pairs],
-                "reference": [self.reference[p] for _, p in pairs],
-            }
-        )
 
     def __str__(self) -> str:
         names = list(self.value)

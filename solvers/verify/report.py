@@ -1,4 +1,4 @@
-"""Findings of `wetdoublet verify`, and the report of them as text and as Markdown."""
+"""Findings of `wetdoublet verify`, and the report of them."""
 
 from __future__ import annotations
 
@@ -8,11 +8,9 @@ from textwrap import wrap
 from typing import TYPE_CHECKING, Any
 
 from ..errors import InputError
-from ..formatting.markdown import unpadded
-from ..formatting.notebook import frame, view
+from ..formatting.notebook import view
 
 if TYPE_CHECKING:
-    import pandas as pd
     import xarray
 
 WIDTH = 100
@@ -63,7 +61,7 @@ def note(name: str, statement: str, figure: str, where: str = "", about: tuple[s
 
 @dataclass(frozen=True)
 class Report:
-    """All findings. `str` for a terminal, `to_markdown` for a page.
+    """All findings; `str` is the report.
 
     Arguments:
         budget: budget of e_n^2 - 1 (`restitution_budget`), if a single scene was requested.
@@ -83,10 +81,6 @@ class Report:
     def to_dict(self) -> dict[str, Any]:
         """Whether all checks hold, and every finding by its attributes."""
         return {"ok": self.ok, "summary": self.headline, "findings": [asdict(one) for one in self.findings]}
-
-    def to_pandas(self) -> pd.DataFrame:
-        """A row for each finding: group, name, statement, figure, bound, ok, where."""
-        return frame({name: [getattr(one, name) for one in self.findings] for name in _COLUMNS})
 
     def to_dataset(self) -> xarray.Dataset:
         """The findings over `check`; `ok` is 1, 0, or -1 for a note."""
@@ -126,18 +120,6 @@ class Report:
         for group, members in self._groups().items():
             lines += _section(group, members)
         return "\n".join([*lines, *wrap(self.summary, WIDTH)])
-
-    def to_markdown(self) -> str:
-        """The report as a Markdown page, failures first."""
-        lines = ["# wetdoublet verify", "", self.headline, ""]
-        sections = {"Failed": self.failed} if self.failed else {}
-        for group, members in (sections | self._groups()).items():
-            rows = [(_MARKS[one.ok], one.name, one.statement, one.figure, one.bound, one.where) for one in members]
-            lines += [f"## {group}", "", *unpadded(("", "check", "statement", "figure", "bound", "where"), rows), ""]
-            for one in members:
-                if one.about and group != "Failed":
-                    lines += [f"{one.name}:", "", "```text", *one.about, "```", ""]
-        return "\n".join(lines).rstrip("\n")
 
     @property
     def headline(self) -> str:

@@ -12,7 +12,6 @@ import numpy as np
 from ..collision.collide import collide
 from ..collision.result import Collision
 from ..engines.choice import available_engines
-from ..engines.interval.prove import prove
 from ..errors import ComputationError
 from ..host.environment import one_core
 from ..host.progress import Progress
@@ -92,8 +91,6 @@ class WorkPrecision:
         uncertainty: largest difference in e_n between the references; smaller errors cannot be distinguished from
             theirs.
         time_uncertainty: the same for the contact time, relative.
-        proof: mean CPU time (s) of a proof of the outcome of one of `impacts`.
-        proved: number of these that are proved.
     """
 
     scene: Scene
@@ -106,8 +103,6 @@ class WorkPrecision:
     uncertainty: float
     time_uncertainty: float
     rows: tuple[Row, ...]
-    proof: float
-    proved: int
 
     def recommend(self, error: float) -> tuple[Recommendation, Recommendation]:
         """Return the settings for an absolute error of e_n: for one collision, and for a batch."""
@@ -191,14 +186,12 @@ def work_precision(
                 expensive = expensive or (each is not None and each * batch > _DEAR)
                 rows.append(_row(scene, known, expected, engine, rtol, each))
                 progress(1 + len(rows), total)
-        prove(scene, stokes=known[0].stokes, angle=known[0].angle)  # builds
-        taken, proofs = _cheapest(lambda: [prove(scene, stokes=each.stokes, angle=each.angle) for each in known])
     differences = _errors(pairs)
     separate = sum(one.outcome != "stick" for one, _ in pairs)
     uncertainty, time_uncertainty = (max((each[k] for each in differences), default=0.0) for k in (0, 1))
     return WorkPrecision(
         scene, sample, batch, tuple(known), separate, len(some) - len(known), tuple(tight.items()), uncertainty,
-        time_uncertainty, tuple(rows), taken / len(known), sum(map(bool, proofs)),
+        time_uncertainty, tuple(rows),
     )  # fmt: skip
 
 

@@ -42,7 +42,6 @@ def to_dict(bench: WorkPrecision, error: float) -> dict[str, Any]:
         "references": [{"engine": engine, "rtol": rtol} for engine, rtol in bench.references],
         "uncertainty": {"restitution": bench.uncertainty, "contact_time": bench.time_uncertainty},
         "rows": rows,
-        "proof": {"cpu": bench.proof, "proved": bench.proved},
         "error": error,
         "recommended": [asdict(each) for each in bench.recommend(error)],
     }
@@ -72,7 +71,6 @@ def text(bench: WorkPrecision, error: float) -> str:
         lines.append("-: no batch, as one at a looser tolerance took more than a second, or a collision in it failed.")
     if handed := sum(row.handed_over for row in bench.rows):
         lines.append(f"{handed} collisions were handed over to another engine, whose time and error they have.")
-    lines.append(f"Outcomes proved by enclosure: {bench.proved} of {len(bench.impacts)}, {shown(bench.proof)} each.")
     lines += ["", f"Recommended for an error of {error:.1e} in e_n:"]
     for each in bench.recommend(error):
         setting = f"{each.engine}, rtol {each.rtol:.0e}" if each.engine else "none"

@@ -89,7 +89,7 @@ def _tests() -> list[str]:
 
 
 def _events() -> list[str]:
-    doc = "An event: its guard and its effect; `generated/automaton.md` explains them."
+    doc = "An event: its guard and its effect; docs/reference/events.md explains them."
     lines = ["", *_named_tuple("Event", doc, EVENT_FIELDS)]
     void = {each.name: each.void_without for each in automaton.COMPONENTS if each.void_without}
     ignored = "# Component of the mode -> event; conditions on it are ignored in structures without that event."

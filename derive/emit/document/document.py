@@ -5,13 +5,13 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import groupby
 
+from ...equations.automaton import COMPONENTS, Event
 from ...physics.laws import LAWS, Law
 from ...physics.mechanics import F_c, S_n, S_t
 from ...user.declarations import latex_names, unfolded
 from ...user.own_events import OwnEvent
 from ...user.structures import UserModel
 from ...vocabulary.quantities import p_gt
-from .automaton import watched
 from .latex import latex, naming
 from .theory import Equation, theory
 
@@ -117,6 +117,12 @@ def _events(user: UserModel | None) -> tuple[tuple[str, ...], ...]:
     effects = [_EFFECTS[one.ends] + ("; the motion jumps" if one.jump else "") for one in events]
     each = zip(events, effects, strict=True)
     return tuple((one.word, watched(one.row), effect, one.meaning, one.source) for one, effect in each)
+
+
+def watched(event: Event) -> str:
+    """Where an event is watched, in words."""
+    names = {(each.name, value): name for each in COMPONENTS for value, name in each.values}
+    return ", ".join(names[condition] for condition in event.where) or "always"
 
 
 def law_of(slot: str, name: str, user: UserModel | None) -> Law:

@@ -2,16 +2,12 @@
 
 import math
 import re
-import time
 import warnings
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import replace
-from typing import Any
-
-import numpy as np
+from functools import cache
 
 from ....generated.automaton import OUTCOMES
-from ...certificates import Certainty, NoCertificate
 from ...collision.by_casadi import by_casadi
 from ...engines.casadi.locate import CHATTERS, EventLocator, EventSequence
 from ...engines.taylor.call import variant_for_many
@@ -19,61 +15,44 @@ from ...engines.taylor.source import Variant
 from ...errors import ComputationError, ModelWarning
 from ...many.collide_many import collide_many
 from ...model.dimensionless import DimensionlessGroups, nondimensionalise
+from ...model.key import ModelKey
 from ...model.model import Model, load, select_model
-from ...model.phases import Phase
 from ...model.validity import remarks
 from ...scene.scene import Scene
+from ..audit import LONG, WithoutCertificate
 from .lines import judge_lines
-from .scipy_engine import ScipyLocator
 from .verdict import FAST, RTOL, Case, Issue, Result, Verdict, physical_reason
 
 SHARE = 1e3  # assumed bound of an engine's error in units of rtol, times the conditioning
 FLOOR = 1e-12  # assumed bound of rounding errors, times the conditioning
 OPEN = 1e-5  # largest residual, relative to the ledger's largest term
 DRIFT = 1e-6  # largest relative drift of the angular momentum
-PATIENCE = 0.5  # s of CPU time for a scipy method
 _STEP = 1e-6  # relative step in St for the conditioning
-_AUDIT = 100  # phases and intervals for which a certified stick is continued
-PEER = "LSODA"  # scipy's failures do not count as ours
 _PARTICULAR = re.compile(r" = .* is (?=above|below)| \(.*")  # value and source of a remark
 
 
-class LocatedTrajectories:
-    """Trajectories of one case, located once for the engines and the audit that use them: location is deterministic."""
-
-    def __init__(self) -> None:
-        self._known: dict[Any, tuple[EventLocator, ComputationError | None, float]] = {}
-        self.spared = 0.0  # s of CPU time saved so far
-
-    def forget(self) -> None:
-        self._known.clear()
-
-    def find(
-        self, model: Model, groups: dict[str, float], rtol: float, extras: tuple[str, ...], **_: object
-    ) -> EventSequence:
-        return self.locator(model, groups, rtol, extras).path
-
-    def locator(
-        self, model: Model, groups: dict[str, float], rtol: float, extras: tuple[str, ...] = ()
-    ) -> EventLocator:
-        """The locator that has located a trajectory. ComputationError if it could not."""
-        key = model.choice, tuple(groups.items()), rtol, extras
-        if key in self._known:
-            self.spared += self._known[key][2]
-        else:
-            start, locator, failure = time.process_time(), EventLocator(model, groups, rtol, extras), None
-            try:
-                locator.run()
-            except ComputationError as error:
-                failure = error
-            self._known[key] = locator, failure, time.process_time() - start
-        locator, failure, _ = self._known[key]
-        if failure is not None:
-            raise failure
-        return locator
+@cache
+def _located(
+    choice: ModelKey, groups: tuple[tuple[str, float], ...], rtol: float, extras: tuple[str, ...]
+) -> tuple[EventLocator, ComputationError | None]:
+    """A trajectory of the case, located once for the engines and the audit that use it, or why it could not be."""
+    locator = EventLocator(load(choice), dict(groups), rtol, extras)
+    try:
+        locator.run()
+    except ComputationError as error:
+        return locator, error
+    return locator, None
 
 
-_LOCATED = LocatedTrajectories()
+def _locator(model: Model, groups: dict[str, float], rtol: float, extras: tuple[str, ...] = ()) -> EventLocator:
+    locator, failure = _located(model.choice, tuple(groups.items()), rtol, extras)
+    if failure is not None:
+        raise failure
+    return locator
+
+
+def _find(model: Model, groups: dict[str, float], rtol: float, extras: tuple[str, ...], **_: object) -> EventSequence:
+    return _locator(model, groups, rtol, extras).path
 
 
 def _dimensionless(scene: Scene) -> DimensionlessGroups:
@@ -115,9 +94,8 @@ def fast_kernel(scene: Scene) -> Variant:
 
 
 def chained(scene: Scene, rtol: float, plugin: str = "cvodes") -> Result:
-    """Result as by `collide` with its ledger. Events are located once for both engines, which are both charged."""
-    spared = _LOCATED.spared
-    one = by_casadi(scene, _dimensionless(scene), rtol, plugin, True, False, _LOCATED.find)
+    """Result as by `collide` with its ledger."""
+    one = by_casadi(scene, _dimensionless(scene), rtol, plugin, True, False, _find)
     more: dict[str, float] = {}
     if one.energy is not None:
         terms = one.energy.to_dict()
@@ -125,19 +103,7 @@ def chained(scene: Scene, rtol: float, plugin: str = "cvodes") -> Result:
     if one.angular_momentum_drift is not None:
         more["drift"] = one.angular_momentum_drift
     spins = _surface_speeds(scene, *(getattr(one, name) for name in _spins_of(scene)))
-    return Result(one.outcome, one.restitution, one.certified, cpu=_LOCATED.spared - spared, more=more, spins=spins)
-
-
-def by_scipy(scene: Scene, rtol: float, method: str = PEER) -> Result:
-    """Result by a scipy method, with scipy's event location."""
-    n = _dimensionless(scene)
-    path = ScipyLocator(load(select_model(scene, n.oblique)), n.groups, rtol, method, PATIENCE).run()
-    outputs = path.model.values("outputs", path.y, path.p) if path.separated else {}
-    restitution = outputs.get("restitution", 0.0)
-    if restitution < 0:
-        raise ComputationError(f"{method} takes the start for its end")  # a step smaller than the rounding of x0
-    spins = (outputs[name] * n.rate for name in _spins_of(scene) if name in outputs)
-    return Result(path.outcome, restitution, path.certified, spins=_surface_speeds(scene, *spins))
+    return Result(one.outcome, one.restitution, one.certified, more=more, spins=spins)
 
 
 Run = Callable[[Scene, float], Result]
@@ -145,11 +111,7 @@ Run = Callable[[Scene, float], Result]
 
 def runs() -> dict[str, Run]:
     """The compared engines; the first is the one under test."""
-    reference: dict[str, Run] = {
-        "rosenbrock": lambda scene, rtol: chained(scene, rtol, "rosenbrock"),
-        "cvodes": chained,
-    }
-    return {FAST: fast} | reference | {PEER: lambda scene, rtol: by_scipy(scene, rtol / 10)}
+    return {FAST: fast, "rosenbrock": lambda scene, rtol: chained(scene, rtol, "rosenbrock"), "cvodes": chained}
 
 
 def judge(case: Case, engines: dict[str, Run] | None = None) -> Verdict:
@@ -158,7 +120,7 @@ def judge(case: Case, engines: dict[str, Run] | None = None) -> Verdict:
     Arguments:
         engines: engines by name, the one under test first; `runs()` if None.
     """
-    _LOCATED.forget()
+    _located.cache_clear()
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", ModelWarning)  # counted, and reported once for all cases
         verdict = judge_lines(case) if case.angles else _judged(case, runs() if engines is None else engines)
@@ -168,11 +130,11 @@ def judge(case: Case, engines: dict[str, Run] | None = None) -> Verdict:
 def _judged(case: Case, engines: dict[str, Run]) -> Verdict:
     results: dict[str, Result] = {}
     for name, run in engines.items():
-        results[name] = _timed(run, case.scene, RTOL)
+        results[name] = _result(run, case.scene, RTOL)
         if CHATTERS in results[name].failure:
             break  # the others share the rules of the event location and would chatter too
     issues: list[Issue] = [
-        Issue("peer" if name == PEER else "failure", (name,), each.failure, _physical(each.failure, name, case))
+        Issue("failure", (name,), each.failure, _physical(each.failure, name, case))
         for name, each in results.items()
         if each.failure
     ]
@@ -201,15 +163,13 @@ def _judged(case: Case, engines: dict[str, Run]) -> Verdict:
     return Verdict(case, results, tuple(issues), error, slope)
 
 
-def _timed(run: Run, scene: Scene, rtol: float) -> Result:
-    start = time.process_time()
+def _result(run: Run, scene: Scene, rtol: float) -> Result:
     try:
-        result = run(scene, rtol)
+        return run(scene, rtol)
     except ComputationError as error:
-        result = Result(failure=str(error))
+        return Result(failure=str(error))
     except Exception as error:  # noqa: BLE001 # a defect is what this is looking for
-        result = Result(failure=f"internal error: {type(error).__name__}: {error}")
-    return replace(result, cpu=result.cpu + time.process_time() - start)
+        return Result(failure=f"internal error: {type(error).__name__}: {error}")
 
 
 def _physical(failure: str, engine: str, case: Case) -> str:
@@ -227,7 +187,7 @@ def _conditioning(run: Run, scene: Scene, here: Result) -> float:
     """|d/d ln St| of e_n and spins over a small step, the largest of both sides; at least 1. inf at a change."""
     largest = 1.0
     for factor in (1 - _STEP, 1 + _STEP):
-        there = _timed(run, _at(scene, factor), RTOL)
+        there = _result(run, _at(scene, factor), RTOL)
         if there.failure:
             continue
         if there.outcome != here.outcome:
@@ -243,7 +203,7 @@ def _change_nearby(case: Case, engines: dict[str, Run], first: str, name: str) -
     """
     reach = SHARE * RTOL
     for who in dict.fromkeys((first, name)):
-        values = [_timed(engines[who], _at(case.scene, factor), RTOL) for factor in (1 - reach, 1.0, 1 + reach)]
+        values = [_result(engines[who], _at(case.scene, factor), RTOL) for factor in (1 - reach, 1.0, 1 + reach)]
         outcomes = {each.outcome for each in values if not each.failure}
         if len(outcomes) > 1:
             return f"a change of outcome lies within {reach:.0e} of St (seen by {who})"
@@ -270,32 +230,17 @@ def _each(name: str, each: Result, case: Case) -> list[Issue]:
     return issues
 
 
-class Audit(NoCertificate):
-    """In place of a certificate: decides only when no event is left, or after a long time."""
-
-    def __init__(self) -> None:
-        self._phase: Phase | None = None
-        self._quiet = self._calls = 0
-
-    def decided(self, y: np.ndarray, phase: Phase, maxima: Sequence[np.ndarray] = ()) -> Certainty:
-        self._quiet, self._phase = (self._quiet + 1 if phase == self._phase else 0), phase
-        self._calls += 1
-        return Certainty.of(self._quiet >= 4 or self._calls > _AUDIT)
-
-
 def _audited(case: Case, engines: dict[str, Run], first: str) -> list[Issue]:
-    """Issues of a certified stick that separates when continued without certificate from the certified state.
+    """Issues of a certified stick that separates without its certificate.
 
-    A trajectory that does not reach that state has another outcome, which its error near a boundary may explain.
+    A trajectory that is not certified has another outcome, which its error near a boundary may explain.
     """
     n = _dimensionless(case.scene)
     try:
-        locator = _LOCATED.locator(load(select_model(case.scene, n.oblique, fold=True)), n.groups, RTOL)
-        _LOCATED.forget()  # it is continued here
-        proved = locator.path.certified
-        locator.proof = Audit()
-        locator.watch = replace(locator.watch, certificate=None)
-        path = locator.run() if proved else locator.path
+        model = load(select_model(case.scene, n.oblique, fold=True))
+        path = _locator(model, n.groups, RTOL).path
+        if proved := path.certified:
+            path = WithoutCertificate(model, n.groups, RTOL).on(path.time + LONG)
     except ComputationError:
         return []  # it continued until the integrator failed
     if not path.separated:

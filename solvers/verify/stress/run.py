@@ -1,24 +1,17 @@
 """The stress test: every engine on a quasi-random sample of the space of scenes, on all cores."""
 
-import os
-import re
-import sys
 import time
 from collections import Counter
 from collections.abc import Iterator, Sequence
-from contextlib import ExitStack, contextmanager, suppress
 from dataclasses import dataclass
 from typing import Any
 
 from ...engines.taylor.build import compile_all
 from ...engines.taylor.call import variant
 from ...engines.taylor.source import Variant
-from ...host.compiled import FLAGS
-from ...host.compiler import CannotCompile, compiler, key, library
 from ...host.cores import usable_cores
 from ...host.environment import environment
 from ...host.progress import Progress
-from ...host.user_cache import kept, room
 from ...host.workers import undisturbed, workers
 from ...model.model import select_model
 from .judge import fast_kernel, judge
@@ -27,7 +20,6 @@ from .verdict import DISAGREEMENTS, RTOL, Case, Issue, Verdict
 
 _LAST, _SMALL = 0.2, 4  # share of the cases that comes last, in blocks so small that the workers end together
 _COSTS = {"sampled": 1, "lines": 3, "beside": 3}  # of a case, about
-_CLOCK = "#include <time.h>\nclock_t clock(void) { return 0; }\n"
 _ALONE = 40  # fewest cases for which starting workers pays
 
 
@@ -79,7 +71,7 @@ class Stress:
 
 
 def stress(count: int, seed: int = SEED, tell: Progress = lambda _done, _total: None) -> Stress:
-    """Run `count` cases on all cores; InputError without scipy.
+    """Run `count` cases on all cores.
 
     Arguments:
         tell: called with (done, total).
@@ -118,30 +110,11 @@ def _judged(cases: Sequence[Case]) -> Iterator[tuple[list[int], list[Verdict]]]:
     from concurrent.futures import as_completed
 
     alone = {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}  # numpy's threads would compete with the workers
-    with _without_clock() as preloaded, workers(cores, alone | preloaded) as pool:
+    with workers(cores, alone) as pool:
         with undisturbed():
             waiting = {pool.submit(_block, [cases[k] for k in block]): block for block in blocks}
         for future in as_completed(waiting):
             yield waiting.pop(future), future.result()
-
-
-@contextmanager
-def _without_clock() -> Iterator[dict[str, str]]:
-    """Environment of processes in which C's `clock` returns 0 at once; empty where that cannot be had.
-
-    CasADi reads this clock before and after every evaluation of an integrator's rates, for statistics that are not used
-    here. It is a system call, which takes as long as the rates. Times in the report are read from other clocks.
-    """
-    with ExitStack() as stack:
-        variables = {}
-        with suppress(CannotCompile, OSError):
-            if sys.platform == "linux" and compiler() is not None:
-                content = kept(f"clock-{key(_CLOCK, FLAGS)}.so", lambda: library(_CLOCK, FLAGS))
-                file = stack.enter_context(room()) / "clock.so"
-                file.write_bytes(content)
-                if not re.search(r"[\s:]", str(file)):  # these separate libraries
-                    variables["LD_PRELOAD"] = f"{file} {os.environ.get('LD_PRELOAD', '')}".strip()
-        yield variables
 
 
 def _blocks(cases: Sequence[Case]) -> list[list[int]]:

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from itertools import islice, product
 from typing import Any
 
@@ -13,7 +14,6 @@ from ...errors import InputError
 from ...scene.entry_rules import OWN_RUPTURE
 from ...scene.scene import Scene
 from ...scene.schema import BRIDGE_LAWS, FILM_LAWS
-from . import lines
 from .verdict import Case
 
 SEED = 20121
@@ -21,7 +21,8 @@ DISTANCES = tuple(10.0**-k for k in range(3, 13))  # relative distances in St of
 PER_CHANGE = 2 * len(DISTANCES)
 _BESIDE = 0.15  # part of a sample that lies beside boundaries
 _LINES = 0.05  # part of a sample whose boundaries are traced
-_PER_LINE_MODEL = 400  # sample size per combination of laws of traced scenes; each combination compiles its own kernels
+_PER_LINE_MODEL = 400  # sample size per model of traced scenes, each of which compiles kernels of its own
+_ANGLES = 3  # lines of a traced scene
 _PER_MODEL, _MODELS = 36, (8, 120)  # scenes per structure and laws; fewest and most such models
 NUMBERS = 26  # dimensions of a point
 _CHOICES = 11  # dimensions of a model
@@ -42,19 +43,32 @@ _MODERATE = _WIDE | {  # what an independent integrator follows in a second
 def sample(count: int, seed: int = SEED) -> list[Case]:
     """`count` cases, deterministic for a count and seed."""
     beside, traced = max(1, int(_BESIDE * count)) if count else 0, int(_LINES * count)
-    cases = [*lines.drawn(traced, count // _PER_LINE_MODEL, seed), *islice(_beside_boundaries(beside), beside)]
+    cases = [*_lines(traced, count // _PER_LINE_MODEL, seed + 2), *islice(_beside_boundaries(beside), beside)]
     cases += _drawn(count - beside - traced, seed)
     return [*cases, *islice(_drawn(count, seed + 1), count - len(cases))]  # fill up if there are too few boundaries
 
 
-def _drawn(count: int, seed: int) -> Iterator[Case]:
-    """Valid scenes along a Halton sequence; invalid ones are skipped."""
-    drawn = list(models(min(max(count // _PER_MODEL, _MODELS[0]), _MODELS[1]), seed))
+def _lines(count: int, models: int, seed: int) -> Iterator[Case]:
+    """Scenes with the angles of lines along which their boundaries are traced, some head-on."""
+    random = np.random.default_rng(seed)
+    for case in _drawn(count, seed, max(1, models), moderate=True):
+        steepest = random.choice([0.0, 1.5, 1.55], _ANGLES)
+        yield replace(case, kind="lines", angles=tuple((steepest * random.random(_ANGLES)).tolist()))
+
+
+def _drawn(count: int, seed: int, kinds: int | None = None, moderate: bool = False) -> Iterator[Case]:
+    """Valid scenes along a Halton sequence; invalid ones are skipped.
+
+    Arguments:
+        kinds: number of models; None for what the count is worth.
+        moderate: as for `scene_of`.
+    """
+    drawn = list(models(kinds or min(max(count // _PER_MODEL, _MODELS[0]), _MODELS[1]), seed))
     points, taken = qmc.Halton(NUMBERS, seed=seed), 0
     while taken < count:
         for point in points.random(64):
             try:
-                scene = scene_of(f"stress-{seed}-{taken}", drawn[taken % len(drawn)], point)
+                scene = scene_of(f"stress-{seed}-{taken}", drawn[taken % len(drawn)], point, moderate)
             except InputError:
                 continue  # an impossible scene, such as a film thicker than its bridge
             yield Case(scene.name, scene)
@@ -63,7 +77,10 @@ def _drawn(count: int, seed: int) -> Iterator[Case]:
                 return
 
 
-def models(count: int, seed: int) -> Iterator[lines.Model]:
+Model = dict[str, str]
+
+
+def models(count: int, seed: int) -> Iterator[Model]:
     """Combinations of structure and laws, few enough that several scenes share what an engine builds."""
     for k, point in enumerate(qmc.Halton(_CHOICES, seed=seed + 1).random(count)):
         bridge = "" if point[0] < 0.25 else BRIDGE_LAWS[int((point[0] - 0.25) / 0.75 * len(BRIDGE_LAWS))]
@@ -86,7 +103,7 @@ def models(count: int, seed: int) -> Iterator[lines.Model]:
         }
 
 
-def scene_of(name: str, model: lines.Model, point: Sequence[float], moderate: bool = False) -> Scene:
+def scene_of(name: str, model: Model, point: Sequence[float], moderate: bool = False) -> Scene:
     """The scene of a model and a point in the unit cube of NUMBERS dimensions.
 
     Arguments:

@@ -41,13 +41,12 @@ class Case:
 
 @dataclass
 class Result:
-    """Result of an engine: outcome or failure, e_n, CPU seconds, and the final spins over the initial motion."""
+    """Result of an engine: outcome or failure, e_n, and the final spins over the initial motion."""
 
     outcome: str = ""
     restitution: float = 0.0
     certified: bool = False
     failure: str = ""
-    cpu: float = 0.0
     more: dict[str, float] = field(default_factory=dict)
     spins: tuple[float, ...] = ()
 
@@ -66,7 +65,7 @@ class Issue:
     """A disagreement or failure.
 
     Arguments:
-        kind: one of DISAGREEMENTS, "failure", or "peer" for a failure of a peer.
+        kind: one of DISAGREEMENTS, or "failure".
         between: the engines concerned.
         said: description.
         explained: the explanation; empty if there is none.

@@ -9,7 +9,6 @@ all the same; the page is then made from the older record of that part.
 
 import argparse
 import json
-import shutil
 import subprocess
 import sys
 import tempfile
@@ -39,8 +38,6 @@ def stress(folder: Path, scenes: str) -> None:
         found = json.loads((Path(work) / "stress.json").read_text())
         del found["cases"]  # some megabytes
         (folder / "stress.json").write_text(as_json(found) + "\n", encoding="utf-8")
-        for picture in Path(work).glob("stress-*.png"):
-            shutil.copyfile(picture, folder / picture.name)
 
 
 def main() -> None:

@@ -11,7 +11,7 @@ from typing import Any
 from wetdoublet.solvers.engines.casadi import integrators
 from wetdoublet.solvers.engines.casadi.locate import locate
 from wetdoublet.solvers.errors import ComputationError
-from wetdoublet.solvers.formatting.markdown import ms, table
+from wetdoublet.solvers.formatting.markdown import table
 from wetdoublet.solvers.host import compiled
 from wetdoublet.solvers.model.model import load, select_model
 from wetdoublet.solvers.scene.scene import Scene
@@ -205,4 +205,4 @@ def near_text(rows: Sequence[Record]) -> str:
 def _cell(row: Record) -> str:
     notes = [f"{row['failed']} failed"] if row["failed"] else []
     notes += [f"{row['wrong']} wrong"] if row["wrong"] and row["resolved"] else []
-    return ms(row["cpu"]) + (f" ({', '.join(notes)})" if notes else "")
+    return f"{row['cpu'] * 1e3:#.3g}".removesuffix(".") + (f" ({', '.join(notes)})" if notes else "")

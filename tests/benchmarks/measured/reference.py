@@ -9,9 +9,9 @@ from wetdoublet.solvers.engines.casadi.locate import locate
 from wetdoublet.solvers.errors import ComputationError
 from wetdoublet.solvers.model.model import load, select_model
 from wetdoublet.solvers.scene.scene import Scene
-from wetdoublet.solvers.verify.stress.scipy_engine import ScipyLocator
 
 from .answers import Answer, Impact, answer, dimensionless
+from .peers.scipy_engine import ScipyLocator
 
 RTOL = 1e-13
 _CVODES_RTOLS = (1e-13, 1e-12, 1e-11)  # the tightest that it completes

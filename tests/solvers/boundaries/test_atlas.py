@@ -11,6 +11,7 @@ import pytest
 from wetdoublet.solvers import Atlas, InputError, Scene, atlas, boundary, boundary_sensitivities, collide_many
 from wetdoublet.solvers.boundaries.line import approach
 from wetdoublet.solvers.boundaries.plot import draw
+from wetdoublet.solvers.formatting.style import LETTERS
 from wetdoublet.solvers.model.dimensionless import nondimensionalise
 from wetdoublet.solvers.model.model import load, select_model
 
@@ -233,17 +234,15 @@ def test_bad_arguments(options: dict[str, Any]) -> None:
 
 
 def test_the_picture_names_its_regions() -> None:
-    """Each outcome's name once, inside its region; as many curves as the atlas has."""
+    """Each outcome's letters once, inside its region; as many curves as the atlas has."""
     found = whole("pendulum")
     assert found.scene is not None
     figure = draw(found.scene, found)
     (axes,) = figure.axes
-    places = {text.get_text().replace("\n", ""): text.get_position() for text in axes.texts}
-    assert set(places) == set(OUTCOMES)
-    figure.draw_without_rendering()
-    for name, (across, up) in places.items():
-        degrees, stokes = axes.transData.inverted().transform(axes.transAxes.transform((across, up)))
-        assert OUTCOMES[int(found.region(math.radians(degrees), stokes))] == name
+    places = {text.get_text(): text.xy for text in axes.texts}
+    assert set(places) == {*LETTERS.values()}
+    for letters, (degrees, stokes) in places.items():
+        assert LETTERS[OUTCOMES[int(found.region(math.radians(degrees), stokes))]] == letters
     drawn = [line for line in axes.get_lines() if line.get_linestyle() == "-"]
     assert len(drawn) == len(found.curves)
 

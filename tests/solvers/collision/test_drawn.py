@@ -1,8 +1,6 @@
-"""Every result draws itself and, where it is tabular, is a DataFrame and a Dataset."""
+"""Every result draws itself and, where it is tabular, is a Dataset."""
 
 import json
-import subprocess
-import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -67,42 +65,26 @@ def test_a_map_read_from_a_file_is_drawn(tmp_path: Path) -> None:
 
 @pytest.mark.slow
 def test_tables() -> None:
-    """DataFrame and Dataset say what the result says, a row or an element each."""
+    """A Dataset says what the result says."""
     found = sensitivities("granulation", ["restitution", "rotation"], WRT, **IMPACT)
-    table = found.to_pandas()
-    assert len(table) == 4
-    row = table[(table.quantity == "rotation") & (table.parameter == "impact.speed")].iloc[0]
-    assert row.gradient == found.gradient["rotation"]["impact.speed"]
+    gradient = found.to_dataset().gradient.sel(quantity="rotation", parameter="impact.speed")
+    assert float(gradient) == found.gradient["rotation"]["impact.speed"]
 
     moved = boundary_sensitivities("granulation", angle=[0.5, 1.0], wrt=WRT[0])
     changes = [one for line in moved.changes for one in line]
-    assert moved.to_pandas().stokes.tolist() == [one.change.stokes for one in changes]
     slopes = [one.gradient["stokes"][WRT[0]] for one in changes]
     assert moved.to_dataset().stokes_gradient.sel(parameter=WRT[0]).values.tolist() == slopes
-    lines = moved.boundaries.to_pandas()
-    assert lines.kind.tolist() == [one.change.kind for one in changes]
-    assert sorted(set(lines.angle)) == [0.5, 1.0]
+    kinds = moved.boundaries.to_dataset().kind.values.ravel()
+    assert [kind for kind in kinds if kind] == [one.change.kind for one in changes]
 
 
 def test_a_verification_is_a_table() -> None:
     """One row a finding; a note is neither true nor false."""
     report = Report(FINDINGS)
-    assert report.to_pandas().ok.tolist() == [True, None]
     assert report.to_dataset().ok.values.tolist() == [1, -1]
     assert json.loads(json.dumps(report.to_dict()))["findings"][0]["bound"] == "1e-8"
     with pytest.raises(InputError, match="no one budget"):
         report.plot()
-
-
-def test_without_pandas_it_says_what_to_install() -> None:
-    """A DataFrame without pandas is an error in one line, and nothing else needs it."""
-    code = (
-        "import sys\nsys.modules['pandas'] = None\n"
-        "from wetdoublet.solvers import sensitivities\n"
-        "sensitivities('granulation', wrt='liquid.viscosity', stokes=0.01).to_pandas()"
-    )
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
-    assert "ComputationError: a DataFrame needs pandas; pip install pandas" in done.stderr
 
 
 @pytest.mark.slow

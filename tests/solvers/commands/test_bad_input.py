@@ -286,16 +286,13 @@ def test_generate_and_verify(module, tmp_path):
         def __str__(self):
             return "L is not conserved"
 
-        def to_markdown(self):
-            return "# L"
-
     module(
         "wetdoublet.solvers.verify", verify=lambda scene, progress, recompute: Report(), Finding=object, Report=Report
     )
     result = run("verify", "-o", str(tmp_path / "report.md"))
     assert (result.exit_code, result.stdout) == (1, "L is not conserved\n") and len(result.stderr.splitlines()) == 1
     assert "angular momentum (granulation): 1e-3, bound 1e-9, at St 1" in result.stderr
-    assert (tmp_path / "report.md").read_text() == "# L\n"
+    assert (tmp_path / "report.md").read_text() == "L is not conserved\n"
 
 
 def test_version_and_module():

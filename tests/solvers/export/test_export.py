@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 import sympy as sp
 from matplotlib.mathtext import MathTextParser
-from wetdoublet.derive.emit.compare import compare, equations, plain, same, typeset
+from wetdoublet.derive.emit.compare import compare, equations, plain, same
 from wetdoublet.derive.emit.read import ReadError, functions
 from wetdoublet.solvers import InputError, Scene
 from wetdoublet.solvers.export import differences
@@ -48,7 +48,6 @@ def test_a_changed_coefficient_is_that_term():
     [(kind, equation, before, after)] = edited("laws/bridge_mikami.py", "0.0042*log_volume", "0.0018*log_volume")
     assert (kind, equation) == ("changed", "here: tail")
     assert (plain(before), plain(after)) == ("0.0042*log_volume", "0.0018*log_volume")
-    assert typeset(after) == r"0.0018 \Lambda"
 
 
 def test_an_added_and_a_removed_term():
@@ -104,10 +103,10 @@ def test_folders_of_other_versions_are_compared(tmp_path: Path):
         shutil.copytree(GENERATED, tmp_path / name, ignore=shutil.ignore_patterns("__pycache__"))
     law = tmp_path / "new" / "laws" / "shear_film.py"
     law.write_text(law.read_text().replace("-log(gap)", "-log(gap) + aspect"))
-    done = run("diff", str(tmp_path / "old"), str(tmp_path / "new"), "--markdown")
+    done = run("diff", str(tmp_path / "old"), str(tmp_path / "new"))
     assert done.exit_code == 0, done.output
     assert "1 equation differs" in done.output
-    assert r"| laws/shear_film: log_factor | added |  | $\varepsilon$ |" in done.output
+    assert re.search(r"laws/shear_film: log_factor\n +added +aspect", done.output)
 
 
 @pytest.mark.parametrize(
@@ -115,7 +114,6 @@ def test_folders_of_other_versions_are_compared(tmp_path: Path):
     [
         (("diff", "library"), "B: missing; accepted: library"),
         (("diff", "library", "granulatio"), "did you mean granulation?"),
-        (("diff", "library", "library", "--latex", "--markdown"), "only one of --latex, --markdown"),
         (("export", "granulation", "--to", "latx"), "did you mean latex?"),
         (("export", "granulation", "--to", "c"), "--out: missing"),
     ],

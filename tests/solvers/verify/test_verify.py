@@ -181,15 +181,6 @@ def test_the_report_on_a_terminal() -> None:
     assert "Failed" not in str(good) and lines[0] == lines[-1] == "1 checks hold"
 
 
-def test_the_report_as_markdown() -> None:
-    """A table a group with as many cells in each row, bars escaped, tables of a finding as text."""
-    text = report().to_markdown()
-    rows = [line for line in text.splitlines() if line.startswith("|")]
-    assert {row.replace("\\|", "").count("|") for row in rows} == {7}
-    assert "```text\n  a table\n```" in text
-    assert text.index("## Failed") < text.index("## Symbolic")
-
-
 def test_the_command_names_the_law_the_figure_and_the_place(monkeypatch) -> None:
     """Exit 1; one line on standard error: which law, by how much, where."""
     monkeypatch.setattr("wetdoublet.solvers.verify.verify", lambda scene, progress, recompute: report())

@@ -50,8 +50,6 @@ def page(bench: Record, stress: Record | None, folder: str, law: Record | None =
     if stress is not None:
         parts += ["## Engines against each other", STRESS, f"**{stress['summary']}**"]
         parts += [stress["tables"]["disagreements"], stress["tables"]["engines"], stress["tables"]["ledgers"]]
-        parts += [f"![Error and cost]({folder}/stress-map.png)"]
-        parts += [f"![Points beside boundaries]({folder}/stress-near.png)"]
     parts += ["## The machine", tables.surroundings(bench)]
     return "\n\n".join(parts) + "\n"
 

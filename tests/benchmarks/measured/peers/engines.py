@@ -14,10 +14,10 @@ from wetdoublet.solvers.host.compiler import compiler
 from wetdoublet.solvers.many.collide_many import collide_many
 from wetdoublet.solvers.model.model import load, select_model
 from wetdoublet.solvers.scene.scene import Scene
-from wetdoublet.solvers.verify.stress.scipy_engine import ScipyLocator
 
 from ..answers import Answer, Impact, answer, dimensionless
 from .bulk import Bulk, Collide, Partly
+from .scipy_engine import ScipyLocator
 
 
 @dataclass(frozen=True)

@@ -3,8 +3,8 @@
 from collections.abc import Sequence
 from html import escape
 
-from ...equations import automaton
-from ...equations.automaton import CLOSING, OPENING, Event
+from wetdoublet.derive.equations import automaton
+from wetdoublet.derive.equations.automaton import CLOSING, OPENING, Event
 
 _WIDTH, _HEIGHT = 980, 600
 _BOX = 150, 52
@@ -26,10 +26,9 @@ _PLACES: dict[Mode | str, tuple[int, int]] = {
 }  # fmt: skip
 
 
-def diagram(provenance: str) -> str:
-    """Text of `generated/automaton.svg`."""
+def drawing() -> str:
+    """The diagram as the text of an SVG file."""
     lines = [
-        *(f"<!-- {line} -->" for line in provenance.splitlines()),
         (
             f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {_WIDTH} {_HEIGHT}"'
             f' width="{_WIDTH}" height="{_HEIGHT}" font-family="sans-serif" font-size="13">'

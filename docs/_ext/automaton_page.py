@@ -2,10 +2,10 @@
 
 from collections.abc import Iterable, Sequence
 
-from ...equations import automaton
-from ...equations.automaton import Event
+from wetdoublet.derive.emit.document.document import watched
+from wetdoublet.derive.equations import automaton
+from wetdoublet.derive.equations.automaton import Event
 
-DIAGRAM = "automaton.svg"
 _INTRODUCTION = """A collision is integrated mode by mode. In each mode the equations are smooth. The first event ends
 the mode, is reported by its word, and has its effect; of events at the same time, the one further up in the table
 counts. A guard is a function of the state that reaches a target, zero or a gap. Both engines use these tables, which
@@ -22,10 +22,9 @@ criterion with the largest positive gap is reported, or the last one if none is 
 vanishes, whether friction holds the surfaces."""
 
 
-def automaton_page(provenance: str) -> str:
-    """Text of `generated/automaton.md`."""
-    lines = [*(f"<!-- {line} -->" for line in provenance.splitlines()), "", "# The events of a collision", ""]
-    lines += [_INTRODUCTION, "", f"![Modes and the events between them]({DIAGRAM})", "", "## Modes", ""]
+def page() -> str:
+    """What follows the title and the drawing of the page on events."""
+    lines = [_INTRODUCTION, "", "## Modes", ""]
     lines += _table(
         ("component", "values", "meaning"),
         [(each.name, ", ".join(name for _, name in each.values), each.meaning) for each in automaton.COMPONENTS],
@@ -87,12 +86,6 @@ def _guard(event: Event) -> str:
     guard = f"{series} {falls} to {f'`{event.target}`' if event.target else 'zero'}{value[event.follows]}"
     guard += ", if that lies within reach" if event.within_reach else ""
     return f"{guard}, if a tangential force acts besides dry friction" if event.driven else guard
-
-
-def watched(event: Event) -> str:
-    """Where an event is watched, in words."""
-    names = {(each.name, value): name for each in automaton.COMPONENTS for value, name in each.values}
-    return ", ".join(names[condition] for condition in event.where) or "always"
 
 
 def _either(words: Iterable[str]) -> str:

@@ -7,7 +7,6 @@ step in one call, one call of `solve_ivp` from event to event, and grazing minim
 """
 
 import math
-import time
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
@@ -15,18 +14,16 @@ from typing import Any
 
 import numpy as np
 from casadi import SX, Function, densify, jacobian, jtimes, vertcat
-
-from ...engines.casadi.integrators import EventHit, tolerance_for
-from ...engines.casadi.locate import EventLocator
-from ...host.buffered import Buffered
-from ...model.model import Model
-from ...model.phases import Flow, WatchedEvents, event_table, expressions
+from wetdoublet.solvers.engines.casadi.integrators import EventHit, tolerance_for
+from wetdoublet.solvers.engines.casadi.locate import EventLocator
+from wetdoublet.solvers.host.buffered import Buffered
+from wetdoublet.solvers.model.model import Model
+from wetdoublet.solvers.model.phases import Flow, WatchedEvents, event_table, expressions
 
 IMPLICIT = ("LSODA", "Radau")  # methods that take a Jacobian
 _SPANS = (1e4, 1e8, 1e16)  # x0/v0; a trajectory fails after their sum
 _TIGHTEST = 2.3e-14  # smallest relative tolerance that scipy accepts without a warning
 _UNREACHABLE = -1e30  # a certificate's level
-_LOOK = 32  # evaluations of the rates between two looks at the clock
 Rates = Callable[[float, np.ndarray], np.ndarray]
 
 
@@ -70,14 +67,11 @@ class ScipyLocator(EventLocator):
 
     Arguments:
         method: a method of `solve_ivp`.
-        patience: s of CPU time after which the collision is given up.
     """
 
-    def __init__(
-        self, model: Model, groups: dict[str, float], rtol: float, method: str, patience: float = math.inf
-    ) -> None:
+    def __init__(self, model: Model, groups: dict[str, float], rtol: float, method: str) -> None:
         super().__init__(model, groups, rtol)
-        self.method, self._patience, self._until = method, patience, time.process_time() + patience
+        self.method = method
         tolerance = tolerance_for(rtol, "rosenbrock", groups)
         relative = max(tolerance.relative, _TIGHTEST)
         self.options: dict[str, Any] = {"method": method, "rtol": relative, "atol": tolerance.absolute}
@@ -102,13 +96,9 @@ class ScipyLocator(EventLocator):
         """Integrate to the first event, or to the end of the span."""
         parameters = np.append(self.p, [self.phase.motion, level])
         rates, table, jacobian = (Buffered(each, (0, 1)) for each in (flow.rates, flow.table, flow.jacobian))
-        evaluations, size = 0, self.y.size
+        size = self.y.size
 
-        def limited(_: float, y: np.ndarray) -> np.ndarray:
-            nonlocal evaluations
-            if evaluations % _LOOK == 0 and time.process_time() > self._until:  # the first of a phase looks, too
-                raise self._error(f"given up after {self._patience:g} s of {self.method}", "")
-            evaluations += 1
+        def changes(_: float, y: np.ndarray) -> np.ndarray:
             return rates(y, parameters)
 
         def guards(y: np.ndarray) -> np.ndarray:
@@ -117,8 +107,8 @@ class ScipyLocator(EventLocator):
         options: dict[str, Any] = {"events": _events(guards, len(flow.events))}
         if self.method in IMPLICIT:
             options["jac"] = lambda _, y: jacobian(y, parameters).reshape(size, size, order="F")
-        solution = self._integrated(limited, 0.0, span, self.y, options)
-        grazed = self._grazed(flow, solution, limited, guards)
+        solution = self._integrated(changes, 0.0, span, self.y, options)
+        grazed = self._grazed(flow, solution, changes, guards)
         if grazed is not None:
             return grazed
         for name, times, states in zip(flow.events, solution.t_events, solution.y_events):
