@@ -11,7 +11,7 @@ import numpy as np
 from ..formatting.markdown import csv_text
 from ..many.csv_map import cells_of
 from ..scene.scene import Scene
-from .geometry import BOUNCES, ENERGY, NORMAL, ROTATES, SLOPES, STICKS, TANGENTIAL, TURNING
+from .geometry import BOUNCES, ENERGY, LOST, NORMAL, ROTATES, SLOPES, STICKS, TANGENTIAL, TURNING
 
 if TYPE_CHECKING:
     import xarray
@@ -31,7 +31,18 @@ _SEPARATED = {
 QUANTITIES = (*_MEANS, *_SEPARATED)
 """What is averaged and has derivatives, in this order."""
 _ENERGIES = {  # name: column, factor and constant, meaning
-    "normal_dissipation": (ENERGY, -2.0, 1.0, "part of the normal kinetic energy of all collisions that is dissipated"),
+    "normal_dissipation": (
+        ENERGY,
+        -2.0,
+        1.0,
+        "1 - normal kinetic energy after over before, of all collisions; negative where others feed it",
+    ),
+    "kinetic_energy_loss": (
+        LOST,
+        1.0,
+        0.0,
+        "loss of kinetic energy, rotation included, over the kinetic energy of the relative motion",
+    ),
     "energy_into_rotation": (
         TURNING,
         1.0,
@@ -43,7 +54,7 @@ _ENERGIES = {  # name: column, factor and constant, meaning
 _SHOWN = {  # name: head of its column in a table
     "stick_probability": "stick", "rotate_probability": "rotate", "bounce_probability": "bounce",
     "restitution_all": "e_n of all", "tangential_restitution_all": "e_t of all", "restitution_separated": "e_n apart",
-    "tangential_restitution_separated": "e_t apart", "normal_dissipation": "dissipated",
+    "tangential_restitution_separated": "e_t apart", "kinetic_energy_loss": "energy lost",
 }  # fmt: skip
 _SIZES = {"radius": "radius (um)", "partner_radius": "partner (um)"}
 _AXES = {"radius": "radius of the first sphere", "partner_radius": "radius of the second sphere"}
