@@ -229,7 +229,7 @@ def _turns(scene: Scene, row: CriticalSpeed, name: str, rtol: float) -> list[str
         return []
     for word, sign in (("maximum", 1), ("minimum", -1)):
         k = int(np.nanargmax(sign * speeds))
-        if not (speeds[k] > 0 and np.isfinite(speeds[k - 1 : k + 2]).all()):
+        if not (0 < k < grid.size - 1 and speeds[k] > 0 and np.isfinite(speeds[k - 1 : k + 2]).all()):
             continue
         if (sign * (speeds[k] - 10 * sign * _WIDTH * speeds[k]) > sign * valid[[0, -1]]).all():  # not at an end
             near = np.linspace(grid[k - 1], grid[k + 1], 2 * _PLACES)
