@@ -72,5 +72,5 @@ class Collision(Outcome, Drawn):
         return view(
             name_of(self.scene),
             rows,
-            notes=[*self.validity, *filter(None, [self.lasting]), *assumed(self.scene), engine],
+            notes=[*self.validity, *filter(None, [self.long_contact]), *assumed(self.scene), engine],
         )

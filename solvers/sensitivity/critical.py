@@ -116,7 +116,7 @@ def _of_material(
             found = moving(scene, at, changes[0], names, rtol)
             gradient, elasticity = (each.get("relative_speed", {}) for each in (found.gradient, found.elasticity))
             said = (f"no derivatives: {found.reason}",) if found.reason else ()
-            said += tuple(text for name in names if wrt != "all" for text in _turns(scene, row, name, rtol))
+            said += tuple(text for name in names if wrt != "all" for text in _extremes(scene, row, name, rtol))
             row = replace(row, gradient=gradient, elasticity=elasticity, sentences=row.sentences + said)
         rows.append(row)
     return rows
@@ -216,7 +216,7 @@ def _speeds(at: Scene, row: CriticalSpeed, columns: dict[str, np.ndarray], count
     return speeds
 
 
-def _turns(scene: Scene, row: CriticalSpeed, name: str, rtol: float) -> list[str]:
+def _extremes(scene: Scene, row: CriticalSpeed, name: str, rtol: float) -> list[str]:
     """Where the critical speed has a maximum or a minimum over an entry, within a factor of `_REACH` of its value."""
     at = scene.with_impact(angle=row.angle)
     entry, value = at.fields[name], value_of(at, name)
@@ -232,9 +232,9 @@ def _turns(scene: Scene, row: CriticalSpeed, name: str, rtol: float) -> list[str
         if not (0 < k < grid.size - 1 and speeds[k] > 0 and np.isfinite(speeds[k - 1 : k + 2]).all()):
             continue
         if (sign * (speeds[k] - 10 * sign * _WIDTH * speeds[k]) > sign * valid[[0, -1]]).all():  # not at an end
-            near = np.linspace(grid[k - 1], grid[k + 1], 2 * _PLACES)
-            fine = _speeds(at, row, {name: near}, near.size, rtol)
+            places = np.linspace(grid[k - 1], grid[k + 1], 2 * _PLACES)
+            fine = _speeds(at, row, {name: places}, places.size, rtol)
             best = int(np.nanargmax(sign * fine))
-            where = f"{near[best]:.3g} {entry.unit or ''}".rstrip()
+            where = f"{places[best]:.3g} {entry.unit or ''}".rstrip()
             texts.append(f"over {name} it has a {word}, {fine[best]:.4g} m/s (relative speed) at {where}")
     return texts

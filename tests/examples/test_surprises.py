@@ -243,17 +243,17 @@ def test_collide_says_that_a_contact_is_not_instantaneous() -> None:
     first = stokes(GRANULATION, STEEP)[0]
     near = collide(GRANULATION, stokes=1.01 * first, angle=STEEP)
     ways = near.contact_time * near.speed / 0.5 / 2e-4
-    assert f"travels {ways:.3g} diameters meanwhile, 3.86 turns" in near.lasting
-    assert f"fill {100 / (12 * ways):.2g} % of the volume" in near.lasting
+    assert f"travels {ways:.3g} diameters meanwhile, 3.86 turns" in near.long_contact
+    assert f"fill {100 / (12 * ways):.2g} % of the volume" in near.long_contact
     assert "not instantaneous" in str(near)
     assert near.validity == ()  # it is within the model
     for scene, number in ((GRANULATION, 0.3), (GRANULATION, 0.5 * first), (PENDULUM, 1.3)):
         other = collide(scene, stokes=number, angle="45 deg" if scene is PENDULUM else STEEP)
-        assert other.lasting == ""
+        assert other.long_contact == ""
         assert "not instantaneous" not in str(other)
     unequal = partner(GRANULATION, 1.5, 1.5**3)
     slow = collide(unequal, stokes=1.01 * stokes(unequal, STEEP)[0], angle=STEEP)
-    assert f"travels {slow.contact_time * slow.speed / 0.5 / 2.5e-4:.3g} diameters" in slow.lasting
+    assert f"travels {slow.contact_time * slow.speed / 0.5 / 2.5e-4:.3g} diameters" in slow.long_contact
 
 
 @pytest.mark.slow
