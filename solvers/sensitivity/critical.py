@@ -115,9 +115,9 @@ def _of_material(
         if row.stokes is not None and names:
             found = moving(scene, at, changes[0], names, rtol)
             gradient, elasticity = (each.get("relative_speed", {}) for each in (found.gradient, found.elasticity))
-            said = (f"no derivatives: {found.reason}",) if found.reason else ()
-            said += tuple(text for name in names if wrt != "all" for text in _extremes(scene, row, name, rtol))
-            row = replace(row, gradient=gradient, elasticity=elasticity, sentences=row.sentences + said)
+            said = [f"no derivatives: {found.reason}"] if found.reason else []
+            said += [text for name in names if wrt != "all" for text in _extremes(scene, row, name, rtol)]
+            row = replace(row, gradient=gradient, elasticity=elasticity, sentences=(*row.sentences, *said))
         rows.append(row)
     return rows
 
