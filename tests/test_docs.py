@@ -22,6 +22,7 @@ PAGES = [
     ROOT / "README.md",
     *sorted(path for path in (ROOT / "docs").rglob("*.md") if not path.is_relative_to(ROOT / "docs/_build")),
 ]
+DRAWN = re.compile(r"auto_gallery/images/sphx_glr_(\w+)_\d+\.png")
 SCENES, RESULTS = (
     (ROOT / "docs/reference" / name).read_text(encoding="utf-8") for name in ("scene-file.md", "results.md")
 )
@@ -60,9 +61,9 @@ def test_links_of_the_front_page_lead_somewhere():
 
 
 def test_pictures_of_the_pages_are_there():
-    """What a page shows from beside it is in the repository."""
+    """What a page shows from beside it is in the repository; of the gallery the script that draws it."""
     shown = [
-        page.parent / target
+        ROOT / f"docs/gallery/{drawn[1]}.py" if (drawn := DRAWN.search(target)) else page.parent / target
         for page in PAGES
         for target in re.findall(r"!\[[^]]*\]\(([^):]+\.png)\)", page.read_text(encoding="utf-8"))
     ]

@@ -88,10 +88,11 @@ def collision_averages(
         stick_probability, rotate_probability, bounce_probability (sum 1); restitution_all and
         tangential_restitution_all, means over all collisions in which a stick counts as 0; restitution_separated and
         tangential_restitution_separated, means over the collisions that separate, NaN where none does;
-        normal_dissipation, the part of the normal kinetic energy that is dissipated, and energy_into_rotation, the gain
-        of the energy of rotation over the kinetic energy; of each its error as NAME_error; collision_rate, m^3/s, over
-        both number densities (beside a wall m/s); reason of a failure, else "". With `wrt` also gradient and
-        gradient_error over (quantity, parameter), SI.
+        kinetic_energy_loss, what all kinetic energy loses, rotation included, over that of the relative motion;
+        normal_dissipation, the same of the normal motion alone, no cooling rate and negative where rotation feeds it;
+        energy_into_rotation, the gain of the energy of rotation over the kinetic energy; of each its error as
+        NAME_error; collision_rate, m^3/s, over both number densities (beside a wall m/s); reason of a failure, else "".
+        With `wrt` also gradient and gradient_error over (quantity, parameter), SI.
 
     Raises:
         InputError: an invalid name or value, or a scene with strings. A pair that fails raises nothing; it is marked.

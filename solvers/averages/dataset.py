@@ -12,7 +12,7 @@ import numpy as np
 from ..formatting.markdown import csv_text
 from ..many.csv_map import cells_of
 from ..scene.scene import Scene
-from .geometry import BOUNCES, ENERGY, NORMAL, ROTATES, SLOPES, STICKS, TANGENTIAL, TURNING
+from .geometry import BOUNCES, ENERGY, LOST, NORMAL, ROTATES, SLOPES, STICKS, TANGENTIAL, TURNING
 
 if TYPE_CHECKING:
     import xarray
@@ -50,8 +50,11 @@ _TABLE = {
         TANGENTIAL, f"{_TANGENTIAL} of the collisions that separate", "e_t apart", True
     ),
     "normal_dissipation": Quantity(
-        ENERGY, "part of the normal kinetic energy of all collisions that is dissipated", "dissipated",
+        ENERGY, "1 - normal kinetic energy after over before, of all collisions; negative where others feed it",
         factor=-2.0, constant=1.0,
+    ),
+    "kinetic_energy_loss": Quantity(
+        LOST, "loss of kinetic energy, rotation included, over the kinetic energy of the relative motion", "energy lost"
     ),
     "energy_into_rotation": Quantity(
         TURNING, "gain of the energy of rotation over the kinetic energy of all collisions"

@@ -17,9 +17,9 @@ from .sizes import collide, outcome_of
 
 RIGHT_ANGLE = np.pi / 2
 WIDTH = 1e-8  # rad, to which changes are enclosed
-STICKS, ROTATES, BOUNCES, NORMAL, TANGENTIAL, ENERGY, TURNING = range(7)  # columns: shares of the outcomes, sums of
-# e_n and e_t, of the normal energy that is left and of what rotations gain, both over the energy of the collision
-COLUMNS = 7
+STICKS, ROTATES, BOUNCES, NORMAL, TANGENTIAL, ENERGY, TURNING, LOST = range(8)  # columns: shares of the outcomes, sums
+# of e_n and e_t, of the normal energy that is left, of what rotations gain and of what is lost, over the energy
+COLUMNS = 8
 SLOPES = 5  # columns that have derivatives
 _ROUNDS = 12  # halvings of a panel
 _MOST = 64  # changes of a line within one bracket; more are those of chatter, and are left to the quadrature

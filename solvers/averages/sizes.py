@@ -3,6 +3,7 @@
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -45,8 +46,9 @@ class Collided:
     Attributes:
         label: 0 for a stick and -1 for an undecided collision; others have the same one if the outcome is the same,
             and of bounces the first rebound criterion, the number of events, and whether it is met at initial contact.
-        results: (4, collisions): e_n and e_t, 0 for sticks; (e_n cos(angle))^2, and what the energy of rotation gains,
-            over that of the relative motion. A stick rotates as one body.
+        results: (5, collisions): e_n and e_t, 0 for sticks; (e_n cos(angle))^2; what the energy of rotation gains, over
+            that of the relative motion, and what kinetic energy is lost, over the mean of the relative motion's over
+            all angles. A stick rotates as one body.
     """
 
     label: np.ndarray
@@ -104,7 +106,10 @@ def collide(
     if locating:
         return Collided(label, found)
     left = (found[0] * np.cos(angle)) ** 2
-    return Collided(label, np.stack([*found, left, _turning(experiment, pair, normal, within, outcome, spins)]))
+    turning, stretch = _turning(experiment, pair, normal, within, outcome, spins)
+    sliding = (stretch * np.sin(angle)) ** 2
+    lost = (np.cos(angle) ** 2 + sliding * (1 - found[1] ** 2) - left - turning) / ((1 + stretch**2) / 2)
+    return Collided(label, np.stack([*found, left, turning, lost]))
 
 
 def _turning(
@@ -114,11 +119,14 @@ def _turning(
     angle: np.ndarray,
     outcome: np.ndarray,
     spins: np.ndarray,
-) -> np.ndarray:
+) -> tuple[np.ndarray, Any]:
     """Gain of the energy of rotation over the energy of the relative motion; of a stick that of the rigid doublet.
 
     Arguments:
         spins: (2, collisions), after separation, rad/s; of the partner NaN where it is that of the sphere.
+
+    Returns:
+        The gain, and the sideways velocity of the centres over that of touching surfaces, 1 + x0/(R_1 + R_2).
     """
     given = {name: values[pair] if values.size > 1 else values[0] for name, values in experiment.columns.items()}
     mass = given["reduced_mass"]
@@ -126,7 +134,7 @@ def _turning(
     before = np.stack([given["impact_spin"] + 0 * angle, given.get("impact_partner_spin", 0.0) + 0 * angle])
     if experiment.scene.wall:  # a stick neither slides nor rolls on
         gained = np.where(outcome > 0, spins[0], 0.0) ** 2 - before[0] ** 2
-        return np.asarray(0.4 * mass * given["reduced_radius"] ** 2 * gained / energy)
+        return np.asarray(0.4 * mass * given["reduced_radius"] ** 2 * gained / energy), 1.0
     bodies = Bodies.made_of(given)
     inertia, touching = np.stack(bodies.inertia).reshape(2, -1), sum(bodies.radius)
     orbital = mass * (touching + given["film_thickness"]) ** 2
@@ -135,7 +143,8 @@ def _turning(
     apart = (inertia * np.stack([spins[0], after]) ** 2).sum(axis=0)
     together = momentum**2 / (orbital + inertia.sum(axis=0))
     gained = np.where(outcome > 0, apart, together) - (inertia * before**2).sum(axis=0)
-    return np.asarray(np.where(outcome == UNDECIDED, np.nan, gained / energy))
+    gained = np.where(outcome == UNDECIDED, np.nan, gained / energy)
+    return gained, 1 + given["film_thickness"] / touching
 
 
 def scene_of_sizes(scene: Scene, radius: float, partner_radius: float | None, films: str) -> Scene:

@@ -69,4 +69,8 @@ class Collision(Outcome, Drawn):
             end = f"{quantity(self.energy.final, 'J')} at the end; residual {self.energy.residual:.1e} J"
             rows.append(("energy", f"{quantity(self.energy.initial, 'J')} at contact", end))
         engine = f"{self.engine}, {self.steps} steps" + (f" ({self.engine_reason})" if self.engine_reason else "")
-        return view(name_of(self.scene), rows, notes=[*self.validity, *assumed(self.scene), engine])
+        return view(
+            name_of(self.scene),
+            rows,
+            notes=[*self.validity, *filter(None, [self.long_contact]), *assumed(self.scene), engine],
+        )

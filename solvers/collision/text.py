@@ -151,9 +151,8 @@ def table(collision: Outcome) -> str:
     """Return the short table that `wetdoublet collide` prints."""
     lines = [*_title(collision), "", *_outcome(collision), "", *_events(collision.events), ""]
     lines += [*_energy(collision), "", *_numerics(collision)]
-    remarks = [
-        line for sentence in collision.validity for line in wrap(f"note: {sentence}", WIDTH, break_on_hyphens=False)
-    ]
+    said = [*collision.validity, *filter(None, [collision.long_contact])]
+    remarks = [line for sentence in said for line in wrap(f"note: {sentence}", WIDTH, break_on_hyphens=False)]
     return "\n".join([*lines, *_model(collision.scene), *assumed(collision.scene), *remarks])
 
 

@@ -38,7 +38,7 @@ def command(
     Options:
         --angle RANGE: Impact angles (degrees): 40, or 20:65:10 [the scene's, or 0].
         --stokes LO:HI: Stokes numbers to search [1e-4:100, or more by the scene].
-        --wrt NAMES: Derivatives as well, in bridge.volume,liquid.viscosity, or all.
+        --wrt NAMES: Derivatives as well, and extremes, in bridge.volume,liquid.viscosity; or all (derivatives).
         --samples N: Draws of the uncertain entries, a power of two [256].
     """  # noqa: D301 -- click reads the \b, which keeps the lines of the example
     from ..sensitivity.critical import critical

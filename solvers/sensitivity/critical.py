@@ -28,6 +28,10 @@ from .uncertainty import LEVELS, check_samples, deviations, normal_deviates, pos
 _BESIDE = 1e-6  # relative distance of the collisions that confirm a speed on both sides
 _NEAR, _FINE, _COARSE = 3.0, 100, 12  # factor about the speed within which draws are searched finely; samples a decade
 _WIDTH = 1e-5  # to which the speed of a draw is enclosed, relative
+_REACH, _PLACES = (
+    10.0,
+    21,
+)  # factor up to which an entry is followed for an extreme of the speed, and at how many values
 _STICK = OUTCOMES.index(STICK)
 
 
@@ -53,7 +57,8 @@ def critical(
         angle: impact angles in rad, a number or 1-D; default the scene's, or head-on.
         uncertainty: standard deviations of entries by dotted name, as {"liquid.viscosity": "5 %"}; a table of materials
             may have its own, as columns `liquid.viscosity_sd`.
-        wrt: parameters by which the relative speed is differentiated; "all" for those of the scene.
+        wrt: parameters by which the relative speed is differentiated; "all" for those of the scene. Of parameters that
+            are named, a sentence says where the speed has a maximum or minimum within a factor of ten.
         stokes: lowest and highest Stokes number of the search, as for `boundary`.
         samples: draws of the uncertain entries, a power of two: independent normal distributions, truncated to values
             that the entries may have.
@@ -110,8 +115,9 @@ def _of_material(
         if row.stokes is not None and names:
             found = moving(scene, at, changes[0], names, rtol)
             gradient, elasticity = (each.get("relative_speed", {}) for each in (found.gradient, found.elasticity))
-            said = (f"no derivatives: {found.reason}",) if found.reason else ()
-            row = replace(row, gradient=gradient, elasticity=elasticity, sentences=row.sentences + said)
+            said = [f"no derivatives: {found.reason}"] if found.reason else []
+            said += [text for name in names if wrt != "all" for text in _extremes(scene, row, name, rtol)]
+            row = replace(row, gradient=gradient, elasticity=elasticity, sentences=(*row.sentences, *said))
         rows.append(row)
     return rows
 
@@ -163,37 +169,72 @@ def _with_interval(
         name: possible_values(at.fields[name], value_of(at, name), sigma * normal[:, k])
         for k, (name, sigma) in enumerate(deviations(at, uncertainty).items())
     }
-    angle = np.abs(columns.pop("impact.angle", np.full(samples, row.angle)))
-    experiment = Rows(at, (), columns, samples, rtol).unchecked(np.zeros(0))
-    kept = np.flatnonzero(np.broadcast_to(experiment.possible, samples))
-    radius, mass, viscosity = (experiment.columns[name] for name in ("reduced_radius", "reduced_mass", "viscosity"))
-    per_speed = np.broadcast_to(scaling.stokes(radius, mass, viscosity, 1.0), samples)
-    centre, (low, high) = row.stokes, row.searched
-    assert centre is not None
-
-    def labels(line: np.ndarray, stokes: np.ndarray) -> np.ndarray:
-        draw = kept[line]
-        outcome = experiment.outcomes(draw, stokes / per_speed[draw], angle[draw])
-        return np.where(outcome < 0, -1, outcome != _STICK)
-
-    near = max(low, centre / _NEAR), min(high, centre * _NEAR)
-    parts = ((low, near[0], _COARSE), (*near, _FINE), (near[1], high, _COARSE))
-    grids = [np.geomspace(a, b, 2 + int(each * np.log10(b / a))) for a, b, each in parts if b > a]
-    grid = np.unique(np.concatenate(grids))
     try:
-        changes = locate(labels, np.tile(grid, (kept.size, 1)), lambda each: _WIDTH * each.low, unknown=-1)
+        speeds = _speeds(at, row, columns, samples, rtol)
     except ComputationError as error:  # no compiled kernel
         return replace(row, sentences=(*row.sentences, f"no interval: {error}"))
-    ends = np.where(changes.first == 0, np.inf, 0.0)  # of a draw that sticks throughout, and of one that never does
-    first = np.flatnonzero((changes.before == 0) & (np.append(-1, changes.line[:-1]) != changes.line))
-    ends[changes.line[first]] = changes.place[first]
-    speeds = ends / per_speed[kept] / np.cos(angle[kept])
+    speeds = speeds[~np.isnan(speeds)]
     below, above = (float(np.quantile(speeds, LEVELS[0], method="lower")),
                     float(np.quantile(speeds, LEVELS[1], method="higher")))  # fmt: skip
     interval, said = (below or None, above if np.isfinite(above) else None), list(row.sentences)
     if None in interval:
         which = "all stick" if interval[1] is None else "not even the slowest stick"
         said.append(f"in more than 2.5 % of the draws {which} in the range, {searched}")
-    if lost := samples - kept.size:
+    if lost := samples - speeds.size:
         said.append(f"{lost} of {samples} draws make no scene and are left out")
     return replace(row, interval=interval, sentences=tuple(said))
+
+
+def _speeds(at: Scene, row: CriticalSpeed, columns: dict[str, np.ndarray], count: int, rtol: float) -> np.ndarray:
+    """The relative speeds up to which scenes stick whose entries vary; NaN for one that is impossible.
+
+    Infinite for one that sticks throughout the range, and 0 for one that does not where it is slowest.
+    """
+    angle = np.abs(columns.pop("impact.angle", np.full(count, row.angle)))
+    experiment = Rows(at, (), columns, count, rtol).unchecked(np.zeros(0))
+    possible = np.flatnonzero(np.broadcast_to(experiment.possible, count))
+    radius, mass, viscosity = (experiment.columns[name] for name in ("reduced_radius", "reduced_mass", "viscosity"))
+    per_speed = np.broadcast_to(scaling.stokes(radius, mass, viscosity, 1.0), count)
+    centre, (low, high) = row.stokes, row.searched
+    assert centre is not None
+
+    def labels(line: np.ndarray, stokes: np.ndarray) -> np.ndarray:
+        which = possible[line]
+        outcome = experiment.outcomes(which, stokes / per_speed[which], angle[which])
+        return np.where(outcome < 0, -1, outcome != _STICK)
+
+    near = max(low, centre / _NEAR), min(high, centre * _NEAR)
+    parts = ((low, near[0], _COARSE), (*near, _FINE), (near[1], high, _COARSE))
+    grids = [np.geomspace(a, b, 2 + int(each * np.log10(b / a))) for a, b, each in parts if b > a]
+    grid = np.unique(np.concatenate(grids))
+    changes = locate(labels, np.tile(grid, (possible.size, 1)), lambda each: _WIDTH * each.low, unknown=-1)
+    ends = np.where(changes.first == 0, np.inf, 0.0)
+    first = np.flatnonzero((changes.before == 0) & (np.append(-1, changes.line[:-1]) != changes.line))
+    ends[changes.line[first]] = changes.place[first]
+    speeds = np.full(count, np.nan)
+    speeds[possible] = ends / per_speed[possible] / np.cos(angle[possible])
+    return speeds
+
+
+def _extremes(scene: Scene, row: CriticalSpeed, name: str, rtol: float) -> list[str]:
+    """Where the critical speed has a maximum or a minimum over an entry, within a factor of `_REACH` of its value."""
+    at = scene.with_impact(angle=row.angle)
+    entry, value = at.fields[name], value_of(at, name)
+    grid = np.array([each for each in value * np.geomspace(1 / _REACH, _REACH, _PLACES) if entry.range.holds(each)])
+    try:
+        speeds, texts = _speeds(at, row, {name: grid}, grid.size, rtol), []
+    except ComputationError:  # no compiled kernel
+        return []
+    if not (valid := speeds[~np.isnan(speeds)]).size:
+        return []
+    for word, sign in (("maximum", 1), ("minimum", -1)):
+        k = int(np.nanargmax(sign * speeds))
+        if not (0 < k < grid.size - 1 and speeds[k] > 0 and np.isfinite(speeds[k - 1 : k + 2]).all()):
+            continue
+        if (sign * (speeds[k] - 10 * sign * _WIDTH * speeds[k]) > sign * valid[[0, -1]]).all():  # not at an end
+            places = np.linspace(grid[k - 1], grid[k + 1], 2 * _PLACES)
+            fine = _speeds(at, row, {name: places}, places.size, rtol)
+            best = int(np.nanargmax(sign * fine))
+            where = f"{places[best]:.3g} {entry.unit or ''}".rstrip()
+            texts.append(f"over {name} it has a {word}, {fine[best]:.4g} m/s (relative speed) at {where}")
+    return texts

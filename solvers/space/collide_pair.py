@@ -74,7 +74,8 @@ def collide_pair(
 
     Returns:
         Dataset over dim_0, dim_1, ..., with vectors over `axis` and `particle`: outcome (int8: 0 stick, 1
-        stick-rotate-separate, 2 bounce, -1 failed), certified, restitution, slip_restitution, time (s, to separation),
+        stick-rotate-separate, 2 bounce, -1 failed; bounce covers a pair that stuck and that twist throws off seconds
+        later, its roughness met), certified, restitution, slip_restitution, time (s, to separation),
         gap, position, normal, velocities, spins, centre_velocity, angular_velocity, until (s, where the integration of
         a stick stopped), and reason (of a failure, else ""). What is undefined is NaN. A stick is given at initial
         contact (time 0, the normal and gap of that moment) as the rigid motion that has its momentum and angular

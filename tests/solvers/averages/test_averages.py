@@ -334,7 +334,13 @@ def test_energies_and_rates_are_those_of_random_pairs_of_a_gas() -> None:
     )
     together = 0.5 * (orbital + inertia.sum()) * (np.nan_to_num(after.angular_velocity.values) ** 2).sum(axis=1)
     gained = np.where(sticks, together, apart) - before
+    moving, parted = (
+        0.5 * bodies.reduced_mass * (np.diff(each, axis=1)[:, 0] ** 2).sum(axis=1)
+        for each in (velocities, np.nan_to_num(after.velocities.values))
+    )
+    lost = moving - np.where(sticks, 0.0, parted) - gained
     rows = {
+        "kinetic_energy_loss": (speed * lost, speed * moving),
         "normal_dissipation": (speed * (1 - after.restitution.values**2) * speed**2, speed * speed**2),
         "energy_into_rotation": (speed * gained, speed * 0.5 * bodies.reduced_mass * (relative**2).sum(axis=1)),
         "stick_probability": (speed * sticks, speed),
@@ -353,14 +359,19 @@ def test_beside_a_wall_energies_and_rates_are_sums() -> None:
     count, speed = 4_000, 1.5
     scene = Scene.load("granulation").with_entries({"partner.wall": True, "impact.spin": 3000.0})
     angle = (np.arange(count) + 0.5) / count * np.pi / 2
-    each = collide_many(scene, relative_speed=speed, angle=angle, of=("outcome", "restitution", "final_spin"))
+    each = collide_many(
+        scene, relative_speed=speed, angle=angle, of=("outcome", "restitution", "tangential_restitution", "final_spin")
+    )
     weight = np.sin(2 * angle)
     found = collision_averages(scene, speeds=speed)
     left = np.average((each.restitution.values * np.cos(angle)) ** 2, weights=weight)
     assert float(found.normal_dissipation) == pytest.approx(1 - 2 * left, abs=4 / count)
+    sliding = np.average((np.nan_to_num(each.tangential_restitution.values) * np.sin(angle)) ** 2, weights=weight)
     spin = np.nan_to_num(each.final_spin.values)
     gained = 0.4 * (scene.reduced_radius / speed) ** 2 * (spin**2 - 3000.0**2)
-    assert float(found.energy_into_rotation) == pytest.approx(np.average(gained, weights=weight), abs=4 / count)
+    turning = np.average(gained, weights=weight)
+    assert float(found.energy_into_rotation) == pytest.approx(turning, abs=4 / count)
+    assert float(found.kinetic_energy_loss) == pytest.approx(1 - left - sliding - turning, abs=4 / count)
     assert float(found.collision_rate) == speed / 4
 
 
