@@ -4,7 +4,7 @@
 # Guess: `integrate_drag_sphere` and `v_terminal` know which way a sphere moves: drag opposes it, and a sphere that is
 #   lighter than the liquid rises at a speed that the drag curve gives.
 # What happens: a sphere of 1 mm in water, 10 % lighter than it, is said to rise at 54 mm/s; heavier by as much it sinks
-#   at 26 mm/s, and the same it rises. The value is Stokes's, at a Reynolds number of 54. A bead thrown upward with
+#   at 23 mm/s, and as fast it rises. The value is Stokes's, at a Reynolds number of 54. A bead thrown upward with
 #   0.5 m/s in water is *accelerated* by its drag: after a tenth of a second it is 12.8 mm above the start, where
 #   it should be 1.4 mm below. No message.
 # Why: the drag term is c V**2, whatever the sign of V, and the test for the Stokes regime, Re < 0.01, holds for each

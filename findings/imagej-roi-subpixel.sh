@@ -4,11 +4,11 @@
 # Guess: the format keeps subpixel places as single-precision numbers; both readers return them for points and circles
 #   alike.
 # What happens: each is right where the other is wrong. Points that roifile writes (and reads back) at 30.75 and 20.5
-#   are 31 and 20 in read-roi, which calls them by the right type. A circle about (14.5, 24.75) with a diameter of 8.5
-#   is that in read-roi, and its outline in roifile has the centre (14.5, 24.5) and the diameter 9.
-# Why: read-roi looks for subpixel places only if their bit is the *only* option that is set (roifile, and ImageJ as
-#   soon as labels are shown, set others beside it); roifile's `coordinates()` draws ovals and rectangles from the
-#   whole-pixel box that the format has beside the fields `xd`, `yd`, `widthd`, `heightd`.
+#   are 31 and 20 in read-roi. A circle about (14.5, 24.75) with a diameter of 8.5 is that in read-roi, and its outline
+#   in roifile has the centre (14.5, 24.5) and the diameter 9.
+# Why: read-roi looks for subpixel places only if their bit is the *only* option that is set (roifile sets others
+#   beside it); roifile's `coordinates()` draws ovals and rectangles from the whole-pixel box that the format has
+#   beside the fields `xd`, `yd`, `widthd`, `heightd`.
 # Why it matters here: circles fitted to spheres are stored as such regions. Half a pixel in the diameter is a gap
 #   between two spheres at contact that isn't there. Read `xd` and the others of roifile.
 set -euo pipefail

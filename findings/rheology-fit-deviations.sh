@@ -9,7 +9,7 @@
 #   last few points alone: with tau0 = 0.12 Pa (twice its error), and an exponent of 1.058 +- 0.004.
 # Why: the fit calls least squares without `sigma`.
 # Why it matters here: a film is sheared at 1 to 1000 per second, and the few points at the top decide a law that is
-#   used at the bottom: at 0.1 per second the fitted viscosity is thirteen times the liquid's.
+#   used at the bottom: at 0.1 per second the fitted viscosity is 12.5 times the liquid's.
 set -euo pipefail
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
