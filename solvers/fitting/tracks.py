@@ -8,7 +8,7 @@ import math
 import re
 import sys
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -19,11 +19,12 @@ from ...generated.automaton import STICK
 from ..errors import InputError
 from ..formatting.markdown import aligned
 from ..scene import units
-from ..scene.columns import Column, columns_of, row_name
+from ..scene.columns import Column, row_name
 from ..scene.scene import Scene
 from ..scene.values import with_unit
 from .measurements import OBSERVED
 from .straight import LEAST, REACH, Flight, near_contact, uneven
+from .trackers import PLACES, read_film, with_one_clock
 
 _ACCEPTED = {
     "rate": 'a frequency > 0, as 4000 or "150 kHz"',
@@ -40,11 +41,6 @@ _STRAY = 10.0  # times the usual distance from a line, which a frame of a film t
 _PIXELS = (None, "px", "pixel", "pixels", "css_pixel", "")
 _PER_PIXEL = re.compile(r"(.+)/(?:css_)?(?:px|pixels?)")
 _PIXELS_PER = re.compile(r"(?:css_)?(?:px|pixels?)/(.+)")
-_SPELT = {  # as trackers name columns, in small letters; of several the first
-    "frame": "frame slice image picture frame_number",
-    "time": "time t",
-    "impact": "impact film video",
-} | {name: f"{name} {name[0]}_{name[1]}" for name in ("x1", "y1", "x2", "y2")}
 _BY_DIRECTION = (
     "count by the direction of their line of centres only: they lie off the straight path of the others, as of a "
     "tracker that displaces near discs"
@@ -117,12 +113,14 @@ def tracks(
     scale_sd: float = 0.0,
     noise: Any = None,
     near: Any = None,
+    particles: Any = None,
 ) -> Tracks:
     """Impacts from the tracked centres of two spheres.
 
     Arguments:
-        film: a CSV file, a DataFrame or a mapping with columns `x1`, `y1`, `x2`, `y2` (pixels, or a unit of length) and
-            `frame`, or `time` with its unit; `impact` tells several films apart.
+        film: a file, a DataFrame or a mapping with columns `x1`, `y1`, `x2`, `y2` (pixels, or a unit of length) and
+            `frame`, or `time` with its unit; `impact` tells several films apart. Or what trackpy, TrackMate (CSV, XML),
+            Tracker, DLTdv, ImageJ, LapTrack or napari write; a remark says what it was taken for.
         scene: gives the radii, the film thickness and the rupture gap.
         rate: frames per second, or with a unit, as "150 kHz".
         scale: length of a pixel, in m or with its unit, as "12.5 um"; or as "2 um/px", "80 px/mm".
@@ -131,6 +129,8 @@ def tracks(
             None: from the scatter about the straight paths.
         near: frames of a smaller gap between the spheres are left out; in m or with a unit, as "0.1 mm", "8 px". None:
             of those off the straight path of the others the direction alone counts. 0: all count.
+        particles: of several the two, as "3,7" or (3, 7); "3+8,7" if the tracker went on with 3 as 8. None: those that
+            meet.
 
     `rate`, `scale`, `noise` and `near` may be quantities of pint.
 
@@ -154,14 +154,15 @@ def tracks(
     loaded = Scene.load(scene)
     if loaded.radius_ratio is None or loaded.pendulum is not None:
         raise InputError("tracks", loaded.name, "two spheres in free flight", "has a wall or strings")
-    columns, lines = columns_of(film, "tracks")
-    known = _named(columns)
-    for name in [each for each in ("x1", "y1", "x2", "y2") if each not in known]:
-        header = ", ".join(column.name for column in columns)
-        raise InputError("tracks", header, "columns x1, y1, x2, y2, and frame or time", f"has no {name}")
     pixel = None if scale is None else _size(scale, "m", "scale", plain=None)
-    per_frame = None if rate is None or "time" in known else 1 / _size(rate, "1/s", "rate")
-    coordinates = [_numbers(known[name], lines, "m", pixel, "scale", gaps=True) for name in ("x1", "y1", "x2", "y2")]
+    per_frame = None if rate is None else 1 / _size(rate, "1/s", "rate")
+    radii = 2 * loaded.particles.reduced_radius * (1 + loaded.radius_ratio)
+    found = read_film(film, particles, radii, lambda column: _factor(column, "m", pixel, "scale"))
+    rate_si = None if per_frame is None else 1 / per_frame
+    found = with_one_clock(found, rate_si, lambda column: _factor(column, "s", None, ""))
+    known, lines = found.columns, found.lines
+    per_frame = None if "time" in known else per_frame
+    coordinates = [_numbers(known[name], lines, "m", pixel, "scale", gaps=True) for name in PLACES]
     positions = np.stack(coordinates, axis=1)
     unit = _factor(known["x1"], "m", pixel, "scale")
     rounding = _rounding(positions / unit) * unit * math.sqrt(2)  # of a relative coordinate
@@ -170,12 +171,10 @@ def tracks(
     gap = None if near is None else _size(near, "m", "near", pixel=pixel, plain=None)
     clock = known.get("time") or known.get("frame")
     if clock is None:
-        header = ", ".join(column.name for column in columns)
-        raise InputError("tracks", header, "a column frame, or time [s]", "has no time")
+        raise InputError("tracks", found.header, "a column frame, or time [s]", "has no time")
     time = _numbers(clock, lines, "s", per_frame, "rate" * (clock.name == "frame"))
     unit_of_clock = f" {clock.unit}" if clock.unit and clock.name == "time" else ""
     films = [str(each) for each in known["impact"].cells] if "impact" in known else ["1"] * time.size
-    radii = 2 * loaded.particles.reduced_radius * (1 + loaded.radius_ratio)
     reaches = radii, radii + loaded.liquid.film_thickness, radii + loaded.rupture_gap
     rows, sigmas, remarks, labels, left_out = [], [], [], list[str](), list[InputError]()
     for label in dict.fromkeys(films or ["1"]):
@@ -205,6 +204,7 @@ def tracks(
         remarks += [f"impact {label}: {each}" for each in said]
     if not rows:
         raise left_out[0]
+    remarks.append(found.remark)
     if rate is not None and per_frame is None:
         remarks.append(f"the rate {rate} is not used: the times are those of the column time")
     gaps = f"x0 = {1e6 * loaded.liquid.film_thickness:.4g} um and x_f = {1e6 * loaded.rupture_gap:.4g} um"
@@ -416,18 +416,6 @@ def _state(line: np.ndarray, distance: float, side: int) -> tuple[float, float, 
     normal = place / np.linalg.norm(place)
     sideways = normal[0] * velocity[1] - normal[1] * velocity[0]
     return math.atan2(place[1], place[0]), -float(normal @ velocity), float(sideways), time
-
-
-def _named(columns: list[Column]) -> dict[str, Column]:
-    """The columns that are used, by name; InputError for two of one name."""
-    words = [re.sub(r"[\s-]+", "_", column.name.strip().lower()) for column in columns]
-    for k, word in enumerate(words):
-        if word in words[:k]:
-            raise InputError("tracks, header", columns[k].name, "each column once", "is given twice")
-    by_word = dict(zip(words, columns))
-    spelt = {name: next((by_word[each] for each in others.split() if each in by_word), None)
-             for name, others in _SPELT.items()}  # fmt: skip
-    return {name: replace(column, name=name) for name, column in spelt.items() if column is not None}
 
 
 def _size(value: Any, si: str, option: str, *, pixel: float | None = None, plain: float | None = 1.0) -> float:

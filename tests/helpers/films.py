@@ -3,8 +3,10 @@
 import math
 
 import numpy as np
+import pandas as pd
 from wetdoublet.solvers import Collision, Scene
 
+PLACES = ("x1", "y1", "x2", "y2")
 GRAVITY = np.array([0.0, -9.81])
 
 
@@ -77,6 +79,17 @@ def drawn(scene: Scene, random: np.random.Generator, *, stick: bool, noise: floa
         "film": film, "rate": rate, "scale": pixel, "speed": speed, "angle": angle, "step": step,
         "restitution": 0.0 if stick else e_n, "contact": np.flatnonzero(~before & ~after),
     }  # fmt: skip
+
+
+def long_table(film: dict[str, np.ndarray]) -> pd.DataFrame:
+    """The film with a row for each particle, 0 and 1, and frame."""
+    parts = [
+        pd.DataFrame(
+            {"y": film[f"y{k + 1}"], "x": film[f"x{k + 1}"], "frame": film["frame"].astype(float), "particle": k}
+        )
+        for k in (0, 1)
+    ]
+    return pd.concat(parts).sort_values(["frame", "particle"], ignore_index=True)
 
 
 def lossy(film: dict[str, np.ndarray], lost: object) -> dict[str, np.ndarray]:
