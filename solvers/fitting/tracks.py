@@ -22,7 +22,8 @@ from ..scene import units
 from ..scene.columns import Column, row_name
 from ..scene.scene import Scene
 from ..scene.values import with_unit
-from .measurements import OBSERVED
+from .flights import FLIGHT
+from .measurements import CORRELATION, OBSERVED
 from .straight import LEAST, REACH, Flight, near_contact, uneven
 from .trackers import PLACES, read_film, with_one_clock
 
@@ -33,10 +34,14 @@ _ACCEPTED = {
     "near": 'a gap >= 0, as "0.1 mm" or "8 px"',
 }
 _SIGNED = ("tangential_restitution", "rotation")
-_NAMES = ("speed", "angle", *OBSERVED)
+_NAMES = ("speed", "angle", *OBSERVED)  # at the scene's gaps
 _WITH_SD = ("", "_sd")
 _UNITS = {"speed": "m/s", "angle": "deg", "contact_time": "s", "rotation": "deg"}
+_UNITS |= {name: unit.replace("rad", "deg") for name, unit in FLIGHT.items()}
+_HIDDEN = (*FLIGHT, CORRELATION)  # written, for `fit`, and not printed
 _CLEAR = 4.0  # standard deviations of the noise by which a pair is apart
+_WIDER, _MANY = 0.25, 8  # share by which gaps are widened, beyond which frames are free flight, where so many remain
+_LITTLE = 1e-99  # of a variance
 _STRAY = 10.0  # times the usual distance from a line, which a frame of a film that is tracked well does not reach
 _PIXELS = (None, "px", "pixel", "pixels", "css_pixel", "")
 _PER_PIXEL = re.compile(r"(.+)/(?:css_)?(?:px|pixels?)")
@@ -61,8 +66,9 @@ class Tracks:
 
     Attributes:
         labels: what names the impacts.
-        columns: `speed` (normal), `angle`, `restitution`, ... and their `_sd`, SI, and `outcome` ("stick", or "" of
-            impacts that separate); as `fit` takes them.
+        columns: `speed` (normal), `angle`, `restitution`, ... and their `_sd`, SI, at the scene's gaps; `outcome`
+            ("stick", or "" of impacts that separate); and what `fit` takes: `relative_speed`, `impact_parameter`,
+            `exit_speed`, `exit_parameter`, `delay`, `turn` of the free flight, with `_sd` and `correlation`.
         noise: standard deviation of a centre's coordinate, m, by impact.
         remarks: sentences.
     """
@@ -72,21 +78,21 @@ class Tracks:
     noise: tuple[float, ...]
     remarks: tuple[str, ...] = field(default=())
 
-    def _shown(self) -> tuple[list[str], list[list[str]]]:
+    def _shown(self, columns: Mapping[str, list[Any]]) -> tuple[list[str], list[list[str]]]:
         """Header and cells, angles in degrees."""
-        unit = {name: _UNITS.get(name.removesuffix("_sd"), "") for name in self.columns}
-        head = [f"{name} [{unit[name]}]" if unit[name] else name for name in self.columns]
-        scale = {name: math.degrees(1) if unit[name] == "deg" else 1.0 for name in self.columns}
+        unit = {name: _UNITS.get(name.removesuffix("_sd"), "") for name in columns}
+        head = [f"{name} [{unit[name]}]" if unit[name] else name for name in columns]
+        scale = {name: math.degrees(1) if unit[name] == "deg" else 1.0 for name in columns}
         rows = [
             [each if isinstance(each, str) else "" if math.isnan(each) else f"{scale[name] * each:.6g}"
-             for name, each in zip(self.columns, row, strict=True)]
-            for row in zip(*self.columns.values(), strict=True)
+             for name, each in zip(columns, row, strict=True)]
+            for row in zip(*columns.values(), strict=True)
         ]  # fmt: skip
         return head, rows
 
     def to_csv(self) -> str:
         """The table that `fit` reads."""
-        head, rows = self._shown()
+        head, rows = self._shown(self.columns)
         lines = [f"{','.join(row)} # {label}" for row, label in zip(rows, self.labels, strict=True)]
         return "\n".join([",".join(head), *lines]) + "\n"
 
@@ -99,7 +105,8 @@ class Tracks:
         return {"labels": list(self.labels), **columns, "noise": list(self.noise), "remarks": list(self.remarks)}
 
     def __str__(self) -> str:
-        head, rows = self._shown()
+        columns = {name: each for name, each in self.columns.items() if name.removesuffix("_sd") not in _HIDDEN}
+        head, rows = self._shown(columns)
         head = [f"normal {each}" if each.startswith("speed") else each for each in head]
         return "\n".join([*aligned([["impact", *head], *([n, *r] for n, r in zip(self.labels, rows))]), *self.remarks])
 
@@ -209,11 +216,11 @@ def tracks(
         remarks.append(f"the rate {rate} is not used: the times are those of the column time")
     gaps = f"x0 = {1e6 * loaded.liquid.film_thickness:.4g} um and x_f = {1e6 * loaded.rupture_gap:.4g} um"
     remarks.append(
-        f"Speed, angle, contact time and rotation are those at the scene's gaps, {gaps}; no standard deviation holds "
-        "an error of these. Do not fit the film or the bridge to this contact time and rotation."
+        f"Speed, angle, e_n, e_t, contact time and rotation are those at the scene's gaps, {gaps}; no standard "
+        "deviation holds an error of these. `fit` takes what was measured in free flight, which needs no gap."
     )
     results = {name: [row[name] for row in rows] for name in rows[0]}
-    always = ("speed", "angle", "speed_sd", "angle_sd", "outcome")
+    always = ("speed", "angle", "speed_sd", "angle_sd", "outcome", CORRELATION)
     kept = {name: each for name, each in results.items() if name in always or any(one == one for one in each)}
     return Tracks(tuple(labels), kept, tuple(sigmas), tuple(remarks))
 
@@ -263,6 +270,10 @@ def _impact(
                 raise InputError(where, None, f"at least {LEAST} frames {side}", problem)
 
     check_count()
+    sure = solids + (1 + _WIDER) * (apart - solids)
+    if not sticks and distance[-LEAST:].max() < sure:
+        problem = f"ends {distance[-1]:.4g} m apart, where the scene's rupture is at {apart:.4g} m: is it a stick?"
+        raise InputError(where, None, f"a film that goes on until the spheres are {sure:.4g} m apart", problem)
     floor, interval = max(rounding, noise or 0.0, _ROUNDING * touch), per_frame or float(np.median(np.diff(time)))
 
     def free(gap: float) -> list[Flight]:
@@ -300,6 +311,10 @@ def _impact(
         use = "are left out" if near is not None else _BY_DIRECTION
         remarks.append(f"{blank} frames in which the gap is below {gap:.3g} m {use}")
     before, after = before & ~near_frames, after & ~near_frames
+    for part, reach in ((before, touch), (after, apart)):  # the scene's gaps may be too small
+        wide = distance > solids + (1 + _WIDER) * (reach - solids)
+        if (part & wide).sum() >= _MANY:
+            part &= wide
     check_count()
     time = time - time[first]
     lines, used = list[tuple[np.ndarray, np.ndarray, float, int]](), [before, after]
@@ -311,7 +326,7 @@ def _impact(
     first, last = int(np.flatnonzero(used[0])[-1]) + 1, int(np.flatnonzero(used[1])[0]) - 1 if not sticks else last
     sigma = noise or math.sqrt(sum(line[2] for line in lines) / sum(line[3] for line in lines))
     turned = np.unwrap(np.arctan2(relative[:, 1], relative[:, 0]))
-    for part, reach, (course, *_) in zip((before, after), (touch, apart), lines):
+    for part, reach, (course, *_) in zip((before, after), (touch, sure), lines):
         passing = abs(course[0, 0] * course[1, 1] - course[0, 1] * course[1, 0]) / np.linalg.norm(course[1])
         if passing >= reach:
             problem = f"pass each other at {passing:.4g} m, beyond {reach:.4g} m: is the scale or the diameter off?"
@@ -341,6 +356,8 @@ def _impact(
                 f"{touch:.4g} m: look at the scale, the diameter and the tracker"
             )
 
+    sense = math.copysign(1.0, _flight(lines[0][0])[1])
+
     def results(parameters: np.ndarray) -> np.ndarray:
         lines = (1 + parameters[-1]) * parameters[:-1].reshape(-1, 2, 2)
         at, normal, sideways, since = _state(lines[0], touch, -1)
@@ -351,28 +368,43 @@ def _impact(
             turn = then - at - 2 * math.pi * round((then - at - (turned[last + 1] - turned[first - 1])) / (2 * math.pi))
             tangential = along / sideways if sideways else math.nan
             found += [-opening / normal, tangential, until - since, turn * math.copysign(1, sideways)]
-        return np.array(found)
+        speed, parameter, time_before, direction = _flight(lines[0])
+        free = [speed, sense * parameter]
+        if not sticks:
+            exit_speed, exit_parameter, time_after, direction_after = _flight(lines[1])
+            coming, going = (
+                math.remainder(each, 2 * math.pi) for each in (at - direction - math.pi, direction_after - then)
+            )
+            free += [exit_speed, sense * exit_parameter, time_after - time_before, sense * (coming + turn + going)]
+        return np.array([*free, *found])
 
     centre = np.array([*(each for one in lines for each in one[0].ravel()), 0.0])
     blocks = [np.linalg.cholesky(covariance) * sigma for _, covariance, *_ in lines]
     steps = block_diag(*blocks, [[scale_sd]]).T  # independent deviations of the parameters
     moved = [(results(centre + _STEP * step) - results(centre - _STEP * step)) / (2 * _STEP) for step in steps]
-    sd = np.sqrt((np.array(moved) ** 2).sum(axis=0))
-    values = dict.fromkeys((name + suffix for name in _NAMES for suffix in _WITH_SD), math.nan)
+    covariance = np.array(moved).T @ np.array(moved)
+    sd = np.sqrt(np.diag(covariance))
+    values = dict.fromkeys((name + suffix for name in (*_NAMES, *FLIGHT) for suffix in _WITH_SD), math.nan)
     unknown: tuple[str, ...] = ()
-    for name, value, error in zip(_NAMES, results(centre), sd):
+    count = 2 if sticks else len(FLIGHT)
+    for name, value, error in zip([*list(FLIGHT)[:count], *_NAMES], results(centre), sd):
         values |= {name: float(value), f"{name}_sd": float(error)}
-    if not sticks and not values["contact_time"] > 0:
+    correlation = (covariance / np.maximum(np.outer(sd, sd), _LITTLE))[:count, :count][np.tril_indices(count, -1)]
+    if not sticks and abs(values["exit_parameter"]) >= apart:
+        unknown = OBSERVED
+        remarks.append("its line after separation passes the other centre beyond the scene's rupture gap: no e_n there")
+    elif not sticks and not values["contact_time"] > 0:
         problem = f"last {values['contact_time']:.3g} s: is the scale or the rate off?"
         raise InputError(f"tracks, {label}", None, "contacts that take time", problem)
     if values["angle"] <= _SIDEWAYS * values["angle_sd"] and not sticks:
-        unknown = _SIGNED
+        unknown += _SIGNED
         remarks.append("head-on within its uncertainty, so that e_t and the sense of the rotation are not known")
     elif not sticks and np.abs(np.diff(turned[first - 1 : last + 2])).max() > _FASTEST:
-        unknown = ("rotation",)
+        unknown += ("rotation", "turn")
         remarks.append("it turns by more than 90 deg between two frames, so that its turns cannot be counted")
     values |= {name + suffix: math.nan for name in unknown for suffix in _WITH_SD}
-    return values | {"outcome": STICK if sticks else ""}, sigma, remarks
+    written = "" if sticks else " ".join(f"{each:.6f}" for each in correlation)
+    return values | {"outcome": STICK if sticks else "", CORRELATION: written}, sigma, remarks
 
 
 def _rests_from(time: np.ndarray, distance: np.ndarray, tolerance: float) -> int:
@@ -400,6 +432,13 @@ def _line(
     solution = np.linalg.lstsq(design, values, rcond=None)[0]
     squares = float(((values - design @ solution) ** 2).sum())
     return solution.reshape(2, 2), np.linalg.inv(design.T @ design), squares, values.size - 4
+
+
+def _flight(line: np.ndarray) -> tuple[float, float, float, float]:
+    """Speed of a line, its least distance from the origin, signed by the sense of rotation, when; and direction."""
+    (x, y), (u, v) = line
+    speed = math.hypot(u, v)
+    return speed, (x * v - y * u) / speed, -(x * u + y * v) / speed**2, math.atan2(v, u)
 
 
 def _state(line: np.ndarray, distance: float, side: int) -> tuple[float, float, float, float]:
