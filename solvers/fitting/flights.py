@@ -27,6 +27,7 @@ DEPARTING = {"exit_speed": "m/s", "exit_parameter": "m", "delay": "s", "turn": "
 FLIGHT = {**ARRIVING, **DEPARTING}
 
 _COLLIDED = ("restitution", "tangential_restitution", "contact_time", "rotation")
+_ROUNDED = 1e-6  # of correlations, as they are written
 _TINY = 1e-200  # imaginary step of derivatives
 
 
@@ -62,7 +63,8 @@ class Flights:
         known = np.isfinite(values) & (sd > 0)
         sd = np.where(known, sd, 1.0)
         both = known.T[:, :, None] & known.T[:, None]
-        rows = np.where(both, correlation[:, places][:, :, places], 0.0) + np.eye(len(places)) * ~both
+        rows = np.where(both, (1 - _ROUNDED) * correlation[:, places][:, :, places], 0.0)
+        rows += np.eye(len(places)) * np.where(both, _ROUNDED, 1.0)
         try:
             lower = np.linalg.cholesky(rows)
         except np.linalg.LinAlgError:
@@ -194,16 +196,14 @@ def _flown(
     sideways = normal * np.tan(angle) * touch / solids
     opening, along = e_n * normal, np.where(np.abs(angle) > 0, e_t, 0.0) * sideways
     before, after = normal**2 + sideways**2, opening**2 + along**2
-    delay = time - touch * normal / before - apart * opening / after
-    turn = rotation + np.arctan(sideways / normal) + np.arctan(along / opening)
-    return [np.sqrt(after), apart * along / np.sqrt(after), delay, turn]
+    with np.errstate(invalid="ignore", divide="ignore"):  # of sticks
+        delay = time - touch * normal / before - apart * opening / after
+        turn = rotation + np.arctan(sideways / normal) + np.arctan(along / opening)
+        return [np.sqrt(after), apart * along / np.sqrt(after), delay, turn]
 
 
 def _with_slopes(function: Callable[..., list[Any]], arguments: list[np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
     """Values, and derivatives (values, arguments, impacts) by complex steps."""
-    with np.errstate(invalid="ignore", divide="ignore"):
-        steps = [
-            function(*(each + 1j * _TINY * (j == k) for j, each in enumerate(arguments))) for k in range(len(arguments))
-        ]
-        value = np.array(function(*arguments))
-    return value, np.moveaxis(np.imag(steps) / _TINY, 0, 1)
+    count = range(len(arguments))
+    steps = [function(*(each + 1j * _TINY * (j == k) for j, each in enumerate(arguments))) for k in count]
+    return np.array(function(*arguments)), np.moveaxis(np.imag(steps) / _TINY, 0, 1)

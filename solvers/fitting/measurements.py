@@ -447,7 +447,7 @@ class _Table:
         for row, cell in enumerate(self.by_name[CORRELATION].cells if CORRELATION in self.by_name else ()):
             if not _is_missing(cell):
                 numbers = [units.number(each, self._where(row, CORRELATION), "numbers") for each in str(cell).split()]
-                if len(numbers) != lower[0].size or not all(-1 < each < 1 for each in numbers):
+                if len(numbers) != lower[0].size or not all(-1 <= each <= 1 for each in numbers):
                     accepted = f"{lower[0].size} numbers between -1 and 1, as `tracks` writes them"
                     raise InputError(self._where(row, CORRELATION), cell, accepted)
                 correlation[row][lower] = numbers

@@ -306,15 +306,15 @@ def _impact(
         if rests and apart_still and free(REACH * solids):
             gap = max(gap, REACH * solids)
     near_frames = distance < solids + gap
+    for part, reach in ((before, touch), (after, apart)):  # the scene's gaps may be too small
+        wide = distance > solids + (1 + _WIDER) * (reach - solids)
+        if (part & wide & ~near_frames).sum() >= _MANY:
+            part &= wide
     turned_only = [each & near_frames & (near is None) for each in (before, after)]  # if free: contact is hidden there
     if blank := int(((before | after) & near_frames).sum()):
         use = "are left out" if near is not None else _BY_DIRECTION
         remarks.append(f"{blank} frames in which the gap is below {gap:.3g} m {use}")
     before, after = before & ~near_frames, after & ~near_frames
-    for part, reach in ((before, touch), (after, apart)):  # the scene's gaps may be too small
-        wide = distance > solids + (1 + _WIDER) * (reach - solids)
-        if (part & wide).sum() >= _MANY:
-            part &= wide
     check_count()
     time = time - time[first]
     lines, used = list[tuple[np.ndarray, np.ndarray, float, int]](), [before, after]
