@@ -334,7 +334,11 @@ def _meeting(table: pd.DataFrame, solids: float) -> tuple[list[str], list[str]]:
     if len(meet) != 1:
         accepted = 'two that meet, or particles="A,B" (--particles); "A+C,B" if the tracker goes on with A as C'
         several = "; ".join(f"{a},{b}" for a, b in meet[:6]) + " ..." * (len(meet) > 6)
-        problem = f"may be several that come near each other: {several}" if meet else "are none: is the scale off?"
+        problem = (
+            f"may be several that come near each other: {several}"
+            if meet
+            else "are none: do their tracks break, or is the scale off?"
+        )
         raise InputError("particles", None, accepted, problem)
     return [meet[0][0]], [meet[0][1]]
 

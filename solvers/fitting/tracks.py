@@ -41,6 +41,7 @@ _UNITS |= {name: unit.replace("rad", "deg") for name, unit in FLIGHT.items()}
 _HIDDEN = (*FLIGHT, CORRELATION)  # written, for `fit`, and not printed
 _CLEAR = 4.0  # standard deviations of the noise by which a pair is apart
 _WIDER, _MANY = 0.25, 8  # share by which gaps are widened, beyond which frames are free flight, where so many remain
+_BLURRED = 0.1  # noise of a relative coordinate, over the distance of touching solids
 _LITTLE = 1e-99  # of a variance
 _STRAY = 10.0  # times the usual distance from a line, which a frame of a film that is tracked well does not reach
 _PIXELS = (None, "px", "pixel", "pixels", "css_pixel", "")
@@ -325,6 +326,9 @@ def _impact(
         lines.append(line)
     first, last = int(np.flatnonzero(used[0])[-1]) + 1, int(np.flatnonzero(used[1])[0]) - 1 if not sticks else last
     sigma = noise or math.sqrt(sum(line[2] for line in lines) / sum(line[3] for line in lines))
+    if sigma > _BLURRED * solids:
+        problem = f"scatter by {sigma / math.sqrt(2):.3g} m about their lines: look at the tracker's settings"
+        raise InputError(where, None, f"centres to {_BLURRED / math.sqrt(2):.2g} of the touching distance", problem)
     turned = np.unwrap(np.arctan2(relative[:, 1], relative[:, 0]))
     for part, reach, (course, *_) in zip((before, after), (touch, sure), lines):
         passing = abs(course[0, 0] * course[1, 1] - course[0, 1] * course[1, 0]) / np.linalg.norm(course[1])
@@ -334,6 +338,10 @@ def _impact(
         frames = np.flatnonzero(part)
         off = np.linalg.norm(relative[part] - course[0] - time[part, None] * course[1], axis=1)
         worst, usual = int(np.argmax(off)), max(float(np.median(off)), noise or 0.0)
+        beside = distance[frames[worst]] - solids
+        if off[worst] > _STRAY * usual + _ROUNDING * touch and near is None and beside < REACH * solids:
+            wider = float(beside + _RESTING * solids)  # of a tracker that takes part of the other disc for this one
+            return _impact(label, path, repeated, reaches, noise, scale_sd, wider, per_frame, rounding)
         if off[worst] > _STRAY * usual + _ROUNDING * touch:
             problem = f"{off[worst]:.3g} m off its line at {names[frames[worst]]}, others {usual:.2g} m"
             raise InputError(where, None, "positions along straight lines", problem)

@@ -1,6 +1,7 @@
 """Films of the toolkit's own trajectories: two centres in pixels, with noise, drift of the pair and gravity."""
 
 import math
+import warnings
 
 import numpy as np
 import pandas as pd
@@ -113,3 +114,37 @@ def pushed(
     far = np.clip(1 - (distance / diameter - 1) / reach, 0, 1)
     x, y = most * diameter * far**1.4 * relative / distance / 2
     return film | {"x1": film["x1"] - x, "y1": film["y1"] - y, "x2": film["x2"] + x, "y2": film["y2"] + y}
+
+
+def rendered(film: dict[str, np.ndarray], radius: float, random: np.random.Generator, grey: float = 8.0) -> np.ndarray:
+    """Pictures (frames, height, width) of two bright discs on a dark ground, in 256 greys with a noise of `grey`."""
+    places = np.stack([[film["x1"], film["y1"]], [film["x2"], film["y2"]]])
+    places = places - places.min(axis=(0, 2))[:, None] + 3 * radius
+    width, height = np.ceil(places.max(axis=(0, 2)) + 3 * radius).astype(int)
+    y, x = np.mgrid[:height, :width]
+    pictures = np.empty((places.shape[2], height, width), np.uint8)
+    for k, (one, two) in enumerate(places.transpose(2, 0, 1)):
+        discs = [np.clip(radius + 0.5 - np.hypot(x - place[0], y - place[1]), 0, 1) for place in (one, two)]
+        noisy = 20 + 180 * np.minimum(sum(discs), 1) + grey * random.standard_normal((height, width))
+        pictures[k] = np.clip(np.rint(noisy), 0, 255)
+    return pictures
+
+
+def tracked(
+    pictures: np.ndarray, mask: int, ground: int = 60, reach: float = 10, memory: int = 3, **settings: object
+) -> pd.DataFrame:
+    """What trackpy makes of pictures.
+
+    Arguments:
+        mask: its `diameter`.
+        ground: grey that is subtracted first.
+        reach: its `search_range`.
+    """
+    import trackpy
+
+    trackpy.quiet()
+    dark = np.maximum(pictures.astype(int) - ground, 0).astype(np.uint8)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # of an empty picture, and of what pandas will do without
+        found = [trackpy.locate(one, mask, **settings).assign(frame=k) for k, one in enumerate(dark)]
+        return trackpy.link(pd.concat(found), reach, memory=memory)
