@@ -110,6 +110,9 @@ def read_film(source: Any, particles: Any, solids: float, lengths: Units) -> Fil
         if not {"frame", "time"} & known.keys() and len(words) == 2 * len(bodies):
             known["frame"] = Column("frame", None, list(range(len(lines))))
     every = [each for each in dict.fromkeys(table.particle) if each] if long else list(bodies)
+    linked = long and ("particle" not in known or len(every) == 1)  # TrackMate's track of two that merge
+    if long and len(every) == 1:
+        table, every = _linked(table), ["1", "2"]
     pair = _chosen(every, particles)
     if pair is None:
         table = table if long else _as_long(known | by_word, bodies, None, lines)
@@ -130,9 +133,9 @@ def read_film(source: Any, particles: Any, solids: float, lengths: Units) -> Fil
     if kind == _TRACKER:
         shared = _calibrated(shared, solids)
     which = ", particles " + " and ".join("+".join(each) for each in pair) if long or len(every) > 2 else ""
-    linked = ", linked from frame to frame by their distance" if long and "particle" not in known else ""
+    how = ", linked from frame to frame by their distance" if linked else ""
     where = f", positions in {shared['x1'].unit}" if shared["x1"].unit else ""
-    remark = f"the table was taken for {kind or 'two paths side by side'}{which}{linked}{where}"
+    remark = f"the table was taken for {kind or 'two paths side by side'}{which}{how}{where}"
     return Film(shared, lines, remark, given)
 
 

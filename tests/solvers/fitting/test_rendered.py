@@ -93,7 +93,7 @@ def pairs(gap: float, random: np.random.Generator, count: int = 30) -> tuple[np.
 def test_the_masks_of_the_how_to() -> None:
     """Scatter of the distance of two discs of 24 px that are far apart: the numbers of the page, to a quarter."""
     random = np.random.default_rng(1)
-    pictures, distance = pairs(60, random)
+    pictures, _ = pairs(60, random)
     found = []
     for mask in (21, 25, 27, 29):
         two = located(pictures, mask, 60, preprocess=False, minmass=5000)

@@ -196,6 +196,17 @@ def test_of_several_the_two_that_meet_or_that_are_named(tmp_path: Path, film: Fi
     same(read(three, particles="1,2"), film)
 
 
+def test_two_that_are_one_spot_while_they_touch(film: Film) -> None:
+    """TrackMate gives both the number of one track, and frames of contact one row."""
+    table = long_table(film)
+    distance = np.hypot(film["x2"] - film["x1"], film["y2"] - film["y1"])
+    merged = table.assign(particle=0)[~(table.frame.isin(film["frame"][distance < 156]) & (table.particle == 1))]
+    found = read(merged)
+    assert found.columns["speed"] == pytest.approx(read(film).columns["speed"], rel=1e-2)
+    assert found.columns["delay"] == pytest.approx(read(film).columns["delay"], rel=2e-2)
+    assert any("linked from frame to frame" in each for each in found.remarks)
+
+
 def test_what_is_none_of_these_says_what_is_accepted(tmp_path: Path, film: Film) -> None:
     """A table without positions, dust among nameless rows, an XML of something else: refused, and how it should be."""
     (tmp_path / "film.xml").write_text("<svg></svg>")
