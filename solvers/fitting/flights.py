@@ -135,7 +135,9 @@ class FlightExperiment(Experiment):
         arrival = self._arrival(row, speed, angle)
         at, by = _with_slopes(_at_contact, arrival)
         flown = bool(set(names) & set(DEPARTING))
-        there = self.collisions.results(_COLLIDED if flown else names, row, *at, forward=forward, budget=budget)
+        there = self.collisions.results(
+            _COLLIDED if flown else names, row, at[0], at[1], forward=forward, budget=budget
+        )
         free = np.array([self.slopes[name][row] for name in LENGTHS])  # of the distances
         moved = np.einsum("cdn,dnp->cnp", by[:, :3], free)  # normal speed and angle at contact
         of_contact = np.array([there.speed, there.angle])

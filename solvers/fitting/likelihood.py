@@ -253,13 +253,8 @@ class Likelihood:
         row = np.flatnonzero(data.separated) if len(self.measured) > 1 else np.zeros(0, int)
         centre, width = np.zeros(data.size), np.ones(data.size)
         if not row.size:
-            return _Narrow(
-                centre,
-                width,
-                row,
-                {name: np.zeros(0) for name in self.measured},
-                dict.fromkeys(self.measured, np.zeros(0)),
-            )
+            none = dict.fromkeys(self.measured, np.zeros(0))
+            return _Narrow(centre, width, row, none, none)
         at = ScatterLines.through(data, self.direction, 1).at(row, np.zeros(row.size))
         there = experiment.results(self.measured, row, *at)
         precision, pull = np.tile(np.eye(2), (row.size, 1, 1)), np.zeros((row.size, 2))
@@ -278,13 +273,8 @@ class Likelihood:
         less = np.flatnonzero((size < _NARROW) & (there.outcome > 0))
         mean = np.einsum("ni,nij,nj->n", across, left, pull)
         centre[row[less]], width[row[less]] = np.clip(mean, -REACH, REACH)[less], size[less]
-        return _Narrow(
-            centre,
-            width,
-            row[less],
-            {name: there.value[k][less] for k, name in enumerate(self.measured)},
-            {name: each[less] for name, each in spread.items()},
-        )
+        values_there = {name: there.value[k][less] for k, name in enumerate(self.measured)}
+        return _Narrow(centre, width, row[less], values_there, {name: each[less] for name, each in spread.items()})
 
     def _integrals(
         self, segments: Segments, noise: Mapping[str, float], ends: np.ndarray, mapping: SegmentMap, value: np.ndarray,

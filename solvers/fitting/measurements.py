@@ -433,7 +433,7 @@ class _Table:
 
     def _flown(self, data: Measurements) -> Measurements:
         """The data with their lines of free flight."""
-        measured = dict(data.observed)
+        measured: dict[str, tuple[np.ndarray, np.ndarray]] = dict(data.observed)
         for name, unit in reversed(ARRIVING.items()):
             if not {name, f"{name}_sd"} <= self.by_name.keys():
                 raise InputError(self.header, name, f"{name} and {name}_sd, as `tracks` writes them", "is missing")

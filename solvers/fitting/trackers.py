@@ -117,7 +117,7 @@ def read_film(source: Any, particles: Any, solids: float, lengths: Units) -> Fil
     if pair is None:
         table = table if long else _as_long(known | by_word, bodies, None, lines)
         pair = _meeting(table, solids / lengths(known["x"] if long else by_word[bodies[every[0]][0]]))
-    shared = {name: known[name] for name in ("frame", "time", "impact") if name in known}
+    shared: dict[str, Column] = {name: known[name] for name in ("frame", "time", "impact") if name in known}
     if long:
         one, two = (table[table.particle.isin(each)] for each in pair)
         both = one.merge(two, how="outer", on=["at", "film"], suffixes=("1", "2")).sort_values(["film", "at"])
@@ -236,8 +236,8 @@ def _from_xml(text: str, source: str) -> dict[str, list[Any]]:
     if not rows:
         raise InputError("tracks", source, accepted, "has none")
     length, clock = (_UNITS.get(each.lower(), each) for each in (length, clock))
-    names = ("track_id", "frame", f"t [{clock}]", f"x [{length}]", f"y [{length}]")
-    return {name: list(each) for name, each in zip(names, zip(*rows)) if name != "t [frame]"}
+    header = ("track_id", "frame", f"t [{clock}]", f"x [{length}]", f"y [{length}]")
+    return {name: list(each) for name, each in zip(header, zip(*rows)) if name != "t [frame]"}
 
 
 def _below_names(known: dict[str, Column], lines: list[int]) -> tuple[dict[str, Column], list[int]]:
