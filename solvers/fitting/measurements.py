@@ -437,11 +437,11 @@ class _Table:
         for name, unit in reversed(ARRIVING.items()):
             if not {name, f"{name}_sd"} <= self.by_name.keys():
                 raise InputError(self.header, name, f"{name} and {name}_sd, as `tracks` writes them", "is missing")
-            both = (
+            value, sd = (
                 self._numbers(each, unit, lambda v: v >= 0, "a number >= 0", gaps=False)
                 for each in (name, f"{name}_sd")
             )
-            measured = {name: tuple(both)} | measured
+            measured = {name: (value, sd)} | measured
         size, correlation = len(FLIGHT), np.tile(np.eye(len(FLIGHT)), (self.size, 1, 1))
         lower = np.tril_indices(size, -1)
         for row, cell in enumerate(self.by_name[CORRELATION].cells if CORRELATION in self.by_name else ()):
