@@ -31,6 +31,9 @@ UNDECIDED = -1
 STEEPEST = np.arccos(4e-5)
 """Largest impact angle that is computed, rad; a steeper impact counts as one at this angle."""
 
+LENGTHS = ("solids", "touch", "apart")
+"""Distances of the centres (m) of touching solids and at both ends of contact, of rows that need them."""
+
 _ENDLESS = (Status.NO_BUDGET, Status.CHATTER)  # the other engines' budget of steps is the same
 _HEAD_ON = 1e-12  # angle (rad) below which an impact is head-on: rounding on a line along the speeds
 _PLACES: dict[str, tuple[int, int | str]] = {  # column of the derivative, field of the value
@@ -67,10 +70,15 @@ class Rows:
         column = SX.sym("entries", len(entries))
         shared: dict[str, Any] = {name: value for name, value in scene.si if name not in MEETING}
         by_quantity = quantities(shared | {name: column[k] for k, name in enumerate(entries)}, scene.ways)
+        by_quantity |= self.lengths(by_quantity)
         self._quantities = tuple(name for name in by_quantity if name != "density")
         stacked = vertcat(*(SX(by_quantity[name]) for name in self._quantities))
         slopes = jacobian(stacked, column[: len(names)]) if names else SX(stacked.numel(), 0)
         self._map = Function("quantities", [column], [densify(stacked), densify(slopes)])
+
+    def lengths(self, known: Mapping[str, Any]) -> dict[str, Any]:
+        """LENGTHS from quantities, where they are needed."""
+        return {}
 
     def at(self, values: np.ndarray) -> Experiment | None:
         """The experiment with these values of the free entries; None where they make the scene of a row impossible."""
@@ -156,7 +164,7 @@ class Experiment:
         others = {
             name: values[share]
             for name, values in self.columns.items()
-            if values.size > 1 or float(values[0]) != material.get(name)
+            if name not in LENGTHS and (values.size > 1 or float(values[0]) != material.get(name))
         }
         for name in ("impact_spin", "impact_partner_spin"):
             spin = self.columns.get(name)

@@ -21,7 +21,7 @@ from ..scene.schema import SPINS
 from .free_entries import NOISE
 from .measurements import SCATTER, Measurements, rows_of
 from .rare_outcomes import RARE, beyond_reach
-from .scatter import Resolution, ScatterLines, SegmentMap, Segments, in_deviations, nearest_normals
+from .scatter import REACH, Resolution, ScatterLines, SegmentMap, Segments, in_deviations, nearest_normals
 
 NEGLIGIBLE = 1e-12  # probability of the scatter below which a segment is left out
 FINER = (3, 7)
@@ -32,6 +32,10 @@ deviations) contradicts the model; from there its log-likelihood falls with the 
 
 _BEYOND = 6.0  # standard deviations of noise and angle beyond which a restitution is impossible
 _NAMED = 8  # rows in a message
+_ROOM, _NARROW = (
+    1.3,
+    0.6,
+)  # widening of an integrand, and width (standard deviations of the scatter) below which it counts
 _SIDES = -0.02, 0.02  # relative steps of the differences by the scatter
 _USUAL = Resolution().lines * Resolution().nodes
 _FIXED, _EXACT = 0.3, 3.0  # cost of an evaluation that does not depend on its nodes; factor of exact derivatives
@@ -62,6 +66,22 @@ class Evaluation:
     @property
     def value(self) -> float:
         return float(self.rows.sum())
+
+
+@dataclass(frozen=True)
+class _Narrow:
+    """Rows whose integrand is much narrower across the lines than the scatter.
+
+    Attributes:
+        centre, width: of the integrands of all rows.
+        row: those rows, and of them the results' `mean` and `spread` over the scatter.
+    """
+
+    centre: np.ndarray
+    width: np.ndarray
+    row: np.ndarray
+    mean: dict[str, np.ndarray]
+    spread: dict[str, np.ndarray]
 
 
 class Likelihood:
@@ -178,14 +198,17 @@ class Likelihood:
         data, size = self.data.noisier(noise), self.size
         if factors is None:
             factors = self.line_factors if resolution.lines > 1 else np.ones(size, int)
-        lines = ScatterLines.through(data, self.direction, resolution.lines * factors)
+        narrow = self._narrow(experiment, data)
+        lines = ScatterLines.through(
+            data, self.direction, resolution.lines * factors, REACH, narrow.centre, narrow.width
+        )
         changes = lines.changes(experiment, resolution)
         segments = Segments.between(lines, changes)
         unknown = segments.part(segments.outcome < 0)
-        undecided = np.bincount(unknown.row, unknown.weight * unknown.mass(), size)
+        undecided = np.bincount(unknown.row, unknown.share * unknown.mass(), size)
         segments = segments.part((segments.outcome >= 0) & data.allowed[segments.row, segments.outcome])
         mass = segments.mass()
-        probability = np.bincount(segments.row, segments.weight * mass, size)
+        probability = np.bincount(segments.row, segments.share * mass, size)
         dense = data.separated[segments.row]
         counts = mass > np.where(dense, NEGLIGIBLE, 0.0)
         ends = segments.moving_ends(experiment, lines, changes, counts, resolution.approximate)
@@ -203,7 +226,7 @@ class Likelihood:
         rare = np.flatnonzero((probability < RARE) & (factors > 0))
         if rare.size:
             moves = np.zeros((size, by_free.shape[1]))  # of the logarithm of the probability
-            np.add.at(moves, segments.row, (segments.weight * mass)[:, None] * by_free)
+            np.add.at(moves, segments.row, (segments.share * mass)[:, None] * by_free)
             moves /= np.maximum(probability, 1e-300)[:, None]
             as_given = replace(data, observed=self.data.observed)  # not with the noise: its derivative is 0 there
             log, slope = beyond_reach(
@@ -219,10 +242,39 @@ class Likelihood:
             with np.errstate(divide="ignore", invalid="ignore"):
                 mean[name] = first / share
                 spread[name] = np.sqrt(np.maximum(second / share - mean[name] ** 2, 0.0))
+            mean[name][narrow.row], spread[name][narrow.row] = narrow.mean[name], narrow.spread[name]
         return Evaluation(
             limited + self.constant, scores * factor[:, None], rows + self.constant, np.minimum(probability, 1.0),
             undecided, mean, spread,
         )  # fmt: skip
+
+    def _narrow(self, experiment: Experiment, data: Measurements) -> "_Narrow":
+        """Where across the lines what was measured leaves much less than the scatter, to first order."""
+        row = np.flatnonzero(data.separated) if len(self.measured) > 1 else np.zeros(0, int)
+        centre, width = np.zeros(data.size), np.ones(data.size)
+        if not row.size:
+            none = dict.fromkeys(self.measured, np.zeros(0))
+            return _Narrow(centre, width, row, none, none)
+        at = ScatterLines.through(data, self.direction, 1).at(row, np.zeros(row.size))
+        there = experiment.results(self.measured, row, *at)
+        precision, pull = np.tile(np.eye(2), (row.size, 1, 1)), np.zeros((row.size, 2))
+        spread = {}
+        for k, name in enumerate(self.measured):
+            values, sd = (each[row] for each in data.observed[name])
+            by = in_deviations(data, row, *at, there.speed[k], there.angle[k])
+            spread[name] = np.linalg.norm(by, axis=1)
+            known = np.isfinite(values - there.value[k])
+            steep = np.where(known, 1.0, 0.0)[:, None] * np.nan_to_num(by) / sd[:, None]
+            precision += steep[:, :, None] * steep[:, None]
+            pull += steep * np.where(known, (values - np.nan_to_num(there.value[k])) / sd, 0.0)[:, None]
+        across = np.column_stack([-np.sin(self.direction[row]), np.cos(self.direction[row])])
+        left = np.linalg.inv(precision)
+        size = _ROOM * np.sqrt(np.einsum("ni,nij,nj->n", across, left, across))
+        less = np.flatnonzero((size < _NARROW) & (there.outcome > 0))
+        mean = np.einsum("ni,nij,nj->n", across, left, pull)
+        centre[row[less]], width[row[less]] = np.clip(mean, -REACH, REACH)[less], size[less]
+        values_there = {name: there.value[k][less] for k, name in enumerate(self.measured)}
+        return _Narrow(centre, width, row[less], values_there, {name: each[less] for name, each in spread.items()})
 
     def _integrals(
         self, segments: Segments, noise: Mapping[str, float], ends: np.ndarray, mapping: SegmentMap, value: np.ndarray,

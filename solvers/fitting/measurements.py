@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from difflib import get_close_matches
 from typing import Any
@@ -21,6 +21,7 @@ from ..scene.held import NAMES
 from ..scene.quantities import quantities
 from ..scene.scene import Scene
 from ..scene.schema import MEETING, SPEEDS
+from .flights import ARRIVING, DEPARTING, FLIGHT, FlightRows, Flights
 
 UNKNOWN = -1
 """Code of an outcome that was not recorded."""
@@ -37,10 +38,15 @@ _STICK = OUTCOMES.index(STICK)
 _MISSING = ("", "-", "na", "n/a", "nan", "null", "none")
 _ALIASES = {STICK: ("sticks", "s"), ROTATE: ("srs",), BOUNCE: ("bounces", "b")}
 _WORDS = {word: OUTCOMES.index(name) for name, others in _ALIASES.items() for word in (name, *others)}
-_UNITS = {"restitution": "", "tangential_restitution": "", "contact_time": "s", "rotation": "rad"}
+_UNITS = {"restitution": "", "tangential_restitution": "", "contact_time": "s", "rotation": "rad"} | FLIGHT
+CORRELATION = "correlation"
+"""Column of the correlations between errors of FLIGHT: those of a lower triangle, row by row, without the diagonal."""
 _IMPACT = {"speed": "m/s", "relative_speed": "m/s", "stokes": "", "angle": "rad"}
 _SPREAD = ("speed_sd", "relative_speed_sd", "angle_sd")
-_PLAIN = (*_IMPACT, *_SPREAD, "outcome", *OBSERVED, *(f"{name}_sd" for name in OBSERVED))
+_RESULTS = dict.fromkeys((*OBSERVED, *FLIGHT))
+_PLAIN = tuple(
+    dict.fromkeys((*_IMPACT, *_SPREAD, "outcome", *_RESULTS, *(f"{name}_sd" for name in _RESULTS), CORRELATION))
+)
 _SPELT = {  # as people name columns, in small letters with underscores
     "speed": "v v_n vn velocity normal_speed normal_velocity impact_speed impact_velocity",
     "relative_speed": "v_rel vrel relative_velocity",
@@ -72,6 +78,8 @@ class Measurements:
         outcome: 0 stick, 1 stick-rotate-separate, 2 bounce, -1 not recorded.
         observed: result -> values and standard deviations of its measurement; NaN where it was not measured.
         columns: other entries that differ from row to row, by dotted name.
+        flights: of impacts that were measured in free flight; `observed` are then DEPARTING, and speed and angle those
+            of the line of approach at a distance.
         kind_unsaid: the name of the column does not say which speed it is.
         remarks: sentences on what the data left to defaults.
         labels: what names a row in messages.
@@ -88,6 +96,7 @@ class Measurements:
     kind_unsaid: bool = False
     remarks: tuple[str, ...] = ()
     labels: tuple[str, ...] = ()
+    flights: Flights | None = None
 
     @property
     def speed_name(self) -> str:
@@ -134,6 +143,7 @@ class Measurements:
             **{name: getattr(self, name)[which] for name in alone},
             observed={name: (values[which], sds[which]) for name, (values, sds) in self.observed.items()},
             columns={name: values[which] for name, values in self.columns.items()},
+            flights=self.flights and self.flights.part(which),
             labels=tuple(self.labels[k] for k in which.tolist()) if self.labels else (),
         )
 
@@ -154,7 +164,7 @@ class Measurements:
             tables.append(table)
         one: dict[str, Any] = stacked(tables, [each.size for each in parts])
         observed = {
-            name: (one.pop(f"observed {name}"), one.pop(f"sd {name}")) for name in OBSERVED if f"sd {name}" in one
+            name: (one.pop(f"observed {name}"), one.pop(f"sd {name}")) for name in _RESULTS if f"sd {name}" in one
         }
         about = tuple(f"{label}: {text}" for label, each in zip(labels, parts) for text in each.remarks)
         rows = tuple(f"{label}, {each.label(k)}" for label, each in zip(labels, parts) for k in range(each.size))
@@ -183,6 +193,8 @@ def stacked(tables: Sequence[Mapping[str, np.ndarray]], sizes: Sequence[int]) ->
 def rows_of(scene: Scene, names: tuple[str, ...], data: Measurements, rtol: float) -> Rows:
     """The scenes of the rows, with free entries; ComputationError if the kernel has no derivatives of them."""
     check_derivatives(scene)
+    if data.flights is not None:
+        return FlightRows(data.flights, scene, names, data.columns, data.size, rtol)
     return Rows(scene, names, data.columns, data.size if data.columns else 1, rtol)
 
 
@@ -196,7 +208,8 @@ def read_data(source: Any, scene: Scene, label: str = "data") -> Measurements:
 
     Columns, also as people name them (`v (mm/s)`, `COR`, `theta err`): speed, relative_speed or stokes, and angle;
     speed_sd, angle_sd; outcome; restitution, tangential_restitution, contact_time, rotation, each with NAME_sd; entries
-    of the scene by their dotted names. Standard deviations may be in %. Empty cells are missing. Restitution 0 without
+    of the scene by their dotted names. FLIGHT, as `tracks` writes them, are used in place of speed, angle and results.
+    Standard deviations may be in %. Empty cells are missing. Restitution 0 without
     an outcome is a stick. Other columns are not used, and named in a remark, unless they look like a misspelt name,
     or are in a unit of speed or angle where no column is the speed or the angle.
 
@@ -306,7 +319,12 @@ class _Table:
             raise InputError(self._where(row, name), cell, words, "is not a number") from None
 
     def measurements(self) -> Measurements:
-        angle = self._angle()
+        flown = "impact_parameter" in self.by_name
+        if flown:
+            unused = [name for name in ("speed", "stokes", "angle", *OBSERVED) if self.by_name.pop(name, None)]
+            if unused:
+                self.remarks.append(f"What was measured in free flight is used, not {', '.join(unused)}.")
+        angle = np.zeros(self.size) if flown else self._angle()
         columns = {
             name: self._numbers(name, entry.unit or "", entry.range.holds, entry.accepts, gaps=False)
             for name in self.by_name
@@ -314,8 +332,8 @@ class _Table:
             for entry in (self.scene.fields[name],)
         }
         speed, of_speed = self._speed(angle, columns)
-        speed_sd, angle_sd = self._scatter(speed, of_speed)
-        outcome, observed = self._outcome(), self._observed()
+        speed_sd, angle_sd = (np.ones(self.size),) * 2 if flown else self._scatter(speed, of_speed)
+        outcome, observed = self._outcome(), self._observed(DEPARTING if flown else OBSERVED)
         if "restitution" in observed:
             values = observed["restitution"][0]
             outcome = np.where((outcome == UNKNOWN) & (values == 0), _STICK, outcome)
@@ -331,6 +349,7 @@ class _Table:
             speed, angle, speed_sd, angle_sd, outcome.astype(np.int8), observed, columns, of_speed == "relative_speed",
             self.kind_unsaid, (), labels,
         )  # fmt: skip
+        data = self._flown(data) if flown else data
         observation = data.measured | (outcome != UNKNOWN)
         if not observation.any():
             accepted = "outcome, restitution or another result in at least one row"
@@ -412,14 +431,46 @@ class _Table:
             codes[row] = code
         return codes
 
-    def _observed(self) -> dict[str, tuple[np.ndarray, np.ndarray]]:
+    def _flown(self, data: Measurements) -> Measurements:
+        """The data with their lines of free flight."""
+        measured: dict[str, tuple[np.ndarray, np.ndarray]] = dict(data.observed)
+        for name, unit in reversed(ARRIVING.items()):
+            if not {name, f"{name}_sd"} <= self.by_name.keys():
+                raise InputError(self.header, name, f"{name} and {name}_sd, as `tracks` writes them", "is missing")
+            value, sd = (
+                self._numbers(each, unit, lambda v: v >= 0, "a number >= 0", gaps=False)
+                for each in (name, f"{name}_sd")
+            )
+            measured = {name: (value, sd)} | measured
+        size, correlation = len(FLIGHT), np.tile(np.eye(len(FLIGHT)), (self.size, 1, 1))
+        lower = np.tril_indices(size, -1)
+        for row, cell in enumerate(self.by_name[CORRELATION].cells if CORRELATION in self.by_name else ()):
+            if not _is_missing(cell):
+                numbers = [units.number(each, self._where(row, CORRELATION), "numbers") for each in str(cell).split()]
+                if len(numbers) != lower[0].size or not all(-1 <= each <= 1 for each in numbers):
+                    accepted = f"{lower[0].size} numbers between -1 and 1, as `tracks` writes them"
+                    raise InputError(self._where(row, CORRELATION), cell, accepted)
+                correlation[row][lower] = numbers
+                correlation[row] += np.tril(correlation[row], -1).T
+        solids = 2 * self.scene.particles.reduced_radius * (1 + (self.scene.radius_ratio or 0.0))
+        flights, sd = Flights.of(measured, correlation, solids + self.scene.liquid.film_thickness)
+        angle = np.arcsin(flights.values[1] / flights.reach)
+        return replace(
+            data, speed=flights.values[0], speed_sd=sd[0], angle=angle, angle_sd=sd[1] / flights.reach / np.cos(angle),
+            observed={name: (values, sd[k]) for k, (name, (values, _)) in enumerate(measured.items()) if k > 1},
+            flights=flights, relative=True,
+        )  # fmt: skip
+
+    def _observed(self, names: Iterable[str]) -> dict[str, tuple[np.ndarray, np.ndarray]]:
         observed = {}
-        for name in OBSERVED:
+        for name in names:
             error, relative = f"{name}_sd", name == "contact_time"
             if name not in self.by_name:
                 if error in self.by_name:
                     raise InputError(self.header, error, f"a column {name} beside it", "stands alone")
                 continue
+            if name in DEPARTING and error not in self.by_name:
+                raise InputError(self.header, name, f"a column {error} beside it", "stands alone")
             words = "a number >= 0" if relative else "a number"
             values = self._numbers(name, _UNITS[name], (lambda v: v >= 0) if relative else math.isfinite, words)
             sd = np.full(self.size, np.nan)
@@ -427,14 +478,14 @@ class _Table:
                 sd = self._numbers(error, _UNITS[name], lambda v: v > 0, "a standard deviation > 0")
                 if self.by_name[error].unit == "%":
                     sd = sd * np.abs(values)
-            if (np.isnan(sd) & np.isfinite(values)).any():
+            if name in RESULT_SD and (np.isnan(sd) & np.isfinite(values)).any():
                 shown = f"{100 * RESULT_SD[name]:g} %" if relative else f"{RESULT_SD[name]:.4g}"
                 shown = f"{math.degrees(RESULT_SD[name]):.3g} deg" if _UNITS[name] == "rad" else shown
                 self.remarks.append(f"Standard deviation of {name}, where it is not given: {shown}.")
                 sd = np.where(np.isnan(sd), RESULT_SD[name] * (np.abs(values) if relative else 1.0), sd)
             bad = ~(sd > 0) & np.isfinite(values) & (values != 0)
             self._refuse(bad, error, sd, "a standard deviation > 0")
-            sd = np.where(sd > 0, sd, RESULT_SD[name])
+            sd = np.where(sd > 0, sd, RESULT_SD.get(name, 1.0))
             if name == "restitution":
                 accepted = f"a number >= 0, or below by up to {_NOISE:g} standard deviations of noise"
                 self._refuse(values < -_NOISE * sd, name, values, accepted, "is out of range")

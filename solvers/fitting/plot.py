@@ -19,6 +19,7 @@ from ..many.collide_many import collide_many
 from ..scene.held import AXIS_LABELS
 from .free_entries import unit_shown
 from .joint import Part, home
+from .measurements import OBSERVED
 from .optimise import whitening
 from .profiles import profile_point
 from .result import Fit
@@ -151,7 +152,7 @@ def _map(axes: Axes, part: Part, samples: np.ndarray, odd: np.ndarray) -> None:
 
 def _results(axes: Axes, part: Part, samples: np.ndarray, expected: Mapping[str, np.ndarray]) -> None:
     data = part.data
-    name = next((each for each in expected if each in data.observed), "")
+    name = next((each for each in expected if each in OBSERVED), "")
     if not name:
         axes.axis("off")
         axes.text(0.5, 0.5, "no result was measured beside the outcome", ha="center", va="center", color=NOTE)

@@ -75,14 +75,17 @@ class ScatterLines(Lines):
 
     Attributes:
         weight: of each line in the mean over its row, over the probability of a possible impact on it.
+        share: the same, as parts of the weights of the row's lines.
     """
 
     weight: np.ndarray
+    share: np.ndarray
 
     @classmethod
     def through(
-        cls, data: Measurements, direction: np.ndarray | float, counts: np.ndarray | int, reach: float = REACH
-    ) -> ScatterLines:
+        cls, data: Measurements, direction: np.ndarray | float, counts: np.ndarray | int, reach: float = REACH,
+        centre: np.ndarray | float = 0.0, width: np.ndarray | float = 1.0,
+    ) -> ScatterLines:  # fmt: skip
         """The lines of all rows.
 
         Arguments:
@@ -90,12 +93,17 @@ class ScatterLines(Lines):
                 for each.
             counts: number of lines, likewise, 0 to leave a row out; one at most where a row scatters in speed or angle
                 alone.
+            centre, width: where across the lines most of an integrand is, for each row, in standard deviations.
         """
         alone = (data.speed_sd == 0) | (data.angle_sd == 0)
         direction = np.where(data.speed_sd == 0, np.pi / 2, np.where(data.angle_sd == 0, 0.0, direction))
         counts = np.where(alone, np.minimum(counts, 1), counts)
         row = np.repeat(np.arange(data.size), counts)
         nodes, weights = (np.concatenate([hermite(int(n))[k] for n in counts if n] or [np.zeros(0)]) for k in (0, 1))
+        size = np.broadcast_to(width, data.size)[row]
+        at_nodes = np.broadcast_to(centre, data.size)[row] + size * nodes
+        weights = weights * size * np.exp((nodes**2 - at_nodes**2) / 2)
+        nodes = at_nodes
         c, s = np.cos(direction[row]), np.sin(direction[row])
         speed = np.column_stack([data.speed[row] - data.speed_sd[row] * s * nodes, data.speed_sd[row] * c])
         angle = np.column_stack([data.angle[row] + data.angle_sd[row] * c * nodes, data.angle_sd[row] * s])
@@ -106,7 +114,9 @@ class ScatterLines(Lines):
             moves = at[:, 1] != 0
             low, high = np.where(moves, np.fmax(low, ends[0]), low), np.where(moves, np.fmin(high, ends[1]), high)
         low, high = np.minimum(low, 0.0), np.maximum(high, 0.0)
-        return cls(row, speed, angle, low, high, data.relative, weights / (ndtr(high) - ndtr(low)))
+        weights = weights / (ndtr(high) - ndtr(low))
+        share = weights / np.bincount(row, weights * (ndtr(high) - ndtr(low)), data.size)[row]
+        return cls(row, speed, angle, low, high, data.relative, weights, share)
 
     def changes(self, experiment: Experiment, resolution: Resolution) -> Changes:
         """The changes of outcome on the lines."""
@@ -177,6 +187,7 @@ class Segments:
     line: np.ndarray
     row: np.ndarray
     weight: np.ndarray
+    share: np.ndarray
     outcome: np.ndarray
     low: np.ndarray
     high: np.ndarray
@@ -190,7 +201,7 @@ class Segments:
         upper, lower = np.append(changes.high, 0.0), np.append(changes.low, 0.0)
         low = np.where(first < 0, lines.low[line], upper[first])
         high = np.where(last < 0, lines.high[line], lower[last])
-        segments = cls(line, lines.row[line], lines.weight[line], outcome, low, high, first, last)
+        segments = cls(line, lines.row[line], lines.weight[line], lines.share[line], outcome, low, high, first, last)
         return segments.part(high > low)
 
     def part(self, which: np.ndarray) -> Segments:

@@ -8,7 +8,7 @@ import math
 import re
 import sys
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -19,11 +19,13 @@ from ...generated.automaton import STICK
 from ..errors import InputError
 from ..formatting.markdown import aligned
 from ..scene import units
-from ..scene.columns import Column, columns_of, row_name
+from ..scene.columns import Column, row_name
 from ..scene.scene import Scene
 from ..scene.values import with_unit
-from .measurements import OBSERVED
+from .flights import FLIGHT
+from .measurements import CORRELATION, OBSERVED
 from .straight import LEAST, REACH, Flight, near_contact, uneven
+from .trackers import PLACES, read_film, with_one_clock
 
 _ACCEPTED = {
     "rate": 'a frequency > 0, as 4000 or "150 kHz"',
@@ -32,19 +34,19 @@ _ACCEPTED = {
     "near": 'a gap >= 0, as "0.1 mm" or "8 px"',
 }
 _SIGNED = ("tangential_restitution", "rotation")
-_NAMES = ("speed", "angle", *OBSERVED)
+_NAMES = ("speed", "angle", *OBSERVED)  # at the scene's gaps
 _WITH_SD = ("", "_sd")
 _UNITS = {"speed": "m/s", "angle": "deg", "contact_time": "s", "rotation": "deg"}
+_UNITS |= {name: unit.replace("rad", "deg") for name, unit in FLIGHT.items()}
+_HIDDEN = (*FLIGHT, CORRELATION)  # written, for `fit`, and not printed
 _CLEAR = 4.0  # standard deviations of the noise by which a pair is apart
+_WIDER, _MANY = 0.25, 20  # share by which gaps are widened, beyond which frames are free flight, where so many remain
+_BLURRED = 0.1  # noise of a relative coordinate, over the distance of touching solids
+_LITTLE = 1e-99  # of a variance
 _STRAY = 10.0  # times the usual distance from a line, which a frame of a film that is tracked well does not reach
 _PIXELS = (None, "px", "pixel", "pixels", "css_pixel", "")
 _PER_PIXEL = re.compile(r"(.+)/(?:css_)?(?:px|pixels?)")
 _PIXELS_PER = re.compile(r"(?:css_)?(?:px|pixels?)/(.+)")
-_SPELT = {  # as trackers name columns, in small letters; of several the first
-    "frame": "frame slice image picture frame_number",
-    "time": "time t",
-    "impact": "impact film video",
-} | {name: f"{name} {name[0]}_{name[1]}" for name in ("x1", "y1", "x2", "y2")}
 _BY_DIRECTION = (
     "count by the direction of their line of centres only: they lie off the straight path of the others, as of a "
     "tracker that displaces near discs"
@@ -65,8 +67,9 @@ class Tracks:
 
     Attributes:
         labels: what names the impacts.
-        columns: `speed` (normal), `angle`, `restitution`, ... and their `_sd`, SI, and `outcome` ("stick", or "" of
-            impacts that separate); as `fit` takes them.
+        columns: `speed` (normal), `angle`, `restitution`, ... and their `_sd`, SI, at the scene's gaps; `outcome`
+            ("stick", or "" of impacts that separate); and what `fit` takes: `relative_speed`, `impact_parameter`,
+            `exit_speed`, `exit_parameter`, `delay`, `turn` of the free flight, with `_sd` and `correlation`.
         noise: standard deviation of a centre's coordinate, m, by impact.
         remarks: sentences.
     """
@@ -76,21 +79,21 @@ class Tracks:
     noise: tuple[float, ...]
     remarks: tuple[str, ...] = field(default=())
 
-    def _shown(self) -> tuple[list[str], list[list[str]]]:
+    def _shown(self, columns: Mapping[str, list[Any]]) -> tuple[list[str], list[list[str]]]:
         """Header and cells, angles in degrees."""
-        unit = {name: _UNITS.get(name.removesuffix("_sd"), "") for name in self.columns}
-        head = [f"{name} [{unit[name]}]" if unit[name] else name for name in self.columns]
-        scale = {name: math.degrees(1) if unit[name] == "deg" else 1.0 for name in self.columns}
+        unit = {name: _UNITS.get(name.removesuffix("_sd"), "") for name in columns}
+        head = [f"{name} [{unit[name]}]" if unit[name] else name for name in columns]
+        scale = {name: math.degrees(1) if unit[name] == "deg" else 1.0 for name in columns}
         rows = [
             [each if isinstance(each, str) else "" if math.isnan(each) else f"{scale[name] * each:.6g}"
-             for name, each in zip(self.columns, row, strict=True)]
-            for row in zip(*self.columns.values(), strict=True)
+             for name, each in zip(columns, row, strict=True)]
+            for row in zip(*columns.values(), strict=True)
         ]  # fmt: skip
         return head, rows
 
     def to_csv(self) -> str:
         """The table that `fit` reads."""
-        head, rows = self._shown()
+        head, rows = self._shown(self.columns)
         lines = [f"{','.join(row)} # {label}" for row, label in zip(rows, self.labels, strict=True)]
         return "\n".join([",".join(head), *lines]) + "\n"
 
@@ -103,7 +106,8 @@ class Tracks:
         return {"labels": list(self.labels), **columns, "noise": list(self.noise), "remarks": list(self.remarks)}
 
     def __str__(self) -> str:
-        head, rows = self._shown()
+        columns = {name: each for name, each in self.columns.items() if name.removesuffix("_sd") not in _HIDDEN}
+        head, rows = self._shown(columns)
         head = [f"normal {each}" if each.startswith("speed") else each for each in head]
         return "\n".join([*aligned([["impact", *head], *([n, *r] for n, r in zip(self.labels, rows))]), *self.remarks])
 
@@ -117,12 +121,14 @@ def tracks(
     scale_sd: float = 0.0,
     noise: Any = None,
     near: Any = None,
+    particles: Any = None,
 ) -> Tracks:
     """Impacts from the tracked centres of two spheres.
 
     Arguments:
-        film: a CSV file, a DataFrame or a mapping with columns `x1`, `y1`, `x2`, `y2` (pixels, or a unit of length) and
-            `frame`, or `time` with its unit; `impact` tells several films apart.
+        film: a file, a DataFrame or a mapping with columns `x1`, `y1`, `x2`, `y2` (pixels, or a unit of length) and
+            `frame`, or `time` with its unit; `impact` tells several films apart. Or what trackpy, TrackMate (CSV, XML),
+            Tracker, DLTdv, ImageJ, LapTrack or napari write; a remark says what it was taken for.
         scene: gives the radii, the film thickness and the rupture gap.
         rate: frames per second, or with a unit, as "150 kHz".
         scale: length of a pixel, in m or with its unit, as "12.5 um"; or as "2 um/px", "80 px/mm".
@@ -131,6 +137,8 @@ def tracks(
             None: from the scatter about the straight paths.
         near: frames of a smaller gap between the spheres are left out; in m or with a unit, as "0.1 mm", "8 px". None:
             of those off the straight path of the others the direction alone counts. 0: all count.
+        particles: of several the two, as "3,7" or (3, 7); "3+8,7" if the tracker went on with 3 as 8. None: those that
+            meet.
 
     `rate`, `scale`, `noise` and `near` may be quantities of pint.
 
@@ -154,14 +162,15 @@ def tracks(
     loaded = Scene.load(scene)
     if loaded.radius_ratio is None or loaded.pendulum is not None:
         raise InputError("tracks", loaded.name, "two spheres in free flight", "has a wall or strings")
-    columns, lines = columns_of(film, "tracks")
-    known = _named(columns)
-    for name in [each for each in ("x1", "y1", "x2", "y2") if each not in known]:
-        header = ", ".join(column.name for column in columns)
-        raise InputError("tracks", header, "columns x1, y1, x2, y2, and frame or time", f"has no {name}")
     pixel = None if scale is None else _size(scale, "m", "scale", plain=None)
-    per_frame = None if rate is None or "time" in known else 1 / _size(rate, "1/s", "rate")
-    coordinates = [_numbers(known[name], lines, "m", pixel, "scale", gaps=True) for name in ("x1", "y1", "x2", "y2")]
+    per_frame = None if rate is None else 1 / _size(rate, "1/s", "rate")
+    radii = 2 * loaded.particles.reduced_radius * (1 + loaded.radius_ratio)
+    found = read_film(film, particles, radii, lambda column: _factor(column, "m", pixel, "scale"))
+    rate_si = None if per_frame is None else 1 / per_frame
+    found = with_one_clock(found, rate_si, lambda column: _factor(column, "s", None, ""))
+    known, lines = found.columns, found.lines
+    per_frame = None if "time" in known else per_frame
+    coordinates = [_numbers(known[name], lines, "m", pixel, "scale", gaps=True) for name in PLACES]
     positions = np.stack(coordinates, axis=1)
     unit = _factor(known["x1"], "m", pixel, "scale")
     rounding = _rounding(positions / unit) * unit * math.sqrt(2)  # of a relative coordinate
@@ -170,12 +179,10 @@ def tracks(
     gap = None if near is None else _size(near, "m", "near", pixel=pixel, plain=None)
     clock = known.get("time") or known.get("frame")
     if clock is None:
-        header = ", ".join(column.name for column in columns)
-        raise InputError("tracks", header, "a column frame, or time [s]", "has no time")
+        raise InputError("tracks", found.header, "a column frame, or time [s]", "has no time")
     time = _numbers(clock, lines, "s", per_frame, "rate" * (clock.name == "frame"))
     unit_of_clock = f" {clock.unit}" if clock.unit and clock.name == "time" else ""
     films = [str(each) for each in known["impact"].cells] if "impact" in known else ["1"] * time.size
-    radii = 2 * loaded.particles.reduced_radius * (1 + loaded.radius_ratio)
     reaches = radii, radii + loaded.liquid.film_thickness, radii + loaded.rupture_gap
     rows, sigmas, remarks, labels, left_out = [], [], [], list[str](), list[InputError]()
     for label in dict.fromkeys(films or ["1"]):
@@ -205,15 +212,16 @@ def tracks(
         remarks += [f"impact {label}: {each}" for each in said]
     if not rows:
         raise left_out[0]
+    remarks.append(found.remark)
     if rate is not None and per_frame is None:
         remarks.append(f"the rate {rate} is not used: the times are those of the column time")
     gaps = f"x0 = {1e6 * loaded.liquid.film_thickness:.4g} um and x_f = {1e6 * loaded.rupture_gap:.4g} um"
     remarks.append(
-        f"Speed, angle, contact time and rotation are those at the scene's gaps, {gaps}; no standard deviation holds "
-        "an error of these. Do not fit the film or the bridge to this contact time and rotation."
+        f"Speed, angle, e_n, e_t, contact time and rotation are those at the scene's gaps, {gaps}; no standard "
+        "deviation holds an error of these. `fit` takes what was measured in free flight, which needs no gap."
     )
     results = {name: [row[name] for row in rows] for name in rows[0]}
-    always = ("speed", "angle", "speed_sd", "angle_sd", "outcome")
+    always = ("speed", "angle", "speed_sd", "angle_sd", "outcome", CORRELATION)
     kept = {name: each for name, each in results.items() if name in always or any(one == one for one in each)}
     return Tracks(tuple(labels), kept, tuple(sigmas), tuple(remarks))
 
@@ -263,6 +271,10 @@ def _impact(
                 raise InputError(where, None, f"at least {LEAST} frames {side}", problem)
 
     check_count()
+    sure = solids + (1 + _WIDER) * (apart - solids)
+    if not sticks and distance[-LEAST:].max() < sure:
+        problem = f"ends {distance[-1]:.4g} m apart, where the scene's rupture is at {apart:.4g} m: is it a stick?"
+        raise InputError(where, None, f"a film that goes on until the spheres are {sure:.4g} m apart", problem)
     floor, interval = max(rounding, noise or 0.0, _ROUNDING * touch), per_frame or float(np.median(np.diff(time)))
 
     def free(gap: float) -> list[Flight]:
@@ -295,6 +307,10 @@ def _impact(
         if rests and apart_still and free(REACH * solids):
             gap = max(gap, REACH * solids)
     near_frames = distance < solids + gap
+    for part, reach in ((before, touch), (after, apart)):  # the scene's gaps may be too small
+        wide = distance > solids + (1 + _WIDER) * (reach - solids)
+        if (part & wide & ~near_frames).sum() >= _MANY:
+            part &= wide
     turned_only = [each & near_frames & (near is None) for each in (before, after)]  # if free: contact is hidden there
     if blank := int(((before | after) & near_frames).sum()):
         use = "are left out" if near is not None else _BY_DIRECTION
@@ -310,8 +326,11 @@ def _impact(
         lines.append(line)
     first, last = int(np.flatnonzero(used[0])[-1]) + 1, int(np.flatnonzero(used[1])[0]) - 1 if not sticks else last
     sigma = noise or math.sqrt(sum(line[2] for line in lines) / sum(line[3] for line in lines))
+    if sigma > _BLURRED * solids:
+        problem = f"scatter by {sigma / math.sqrt(2):.3g} m about their lines: look at the tracker's settings"
+        raise InputError(where, None, f"centres to {_BLURRED / math.sqrt(2):.2g} of the touching distance", problem)
     turned = np.unwrap(np.arctan2(relative[:, 1], relative[:, 0]))
-    for part, reach, (course, *_) in zip((before, after), (touch, apart), lines):
+    for part, reach, (course, *_) in zip((before, after), (touch, sure), lines):
         passing = abs(course[0, 0] * course[1, 1] - course[0, 1] * course[1, 0]) / np.linalg.norm(course[1])
         if passing >= reach:
             problem = f"pass each other at {passing:.4g} m, beyond {reach:.4g} m: is the scale or the diameter off?"
@@ -319,6 +338,10 @@ def _impact(
         frames = np.flatnonzero(part)
         off = np.linalg.norm(relative[part] - course[0] - time[part, None] * course[1], axis=1)
         worst, usual = int(np.argmax(off)), max(float(np.median(off)), noise or 0.0)
+        beside = distance[frames[worst]] - solids
+        if off[worst] > _STRAY * usual + _ROUNDING * touch and near is None and beside < REACH * solids:
+            wider = float(beside + _RESTING * solids)  # of a tracker that takes part of the other disc for this one
+            return _impact(label, path, repeated, reaches, noise, scale_sd, wider, per_frame, rounding)
         if off[worst] > _STRAY * usual + _ROUNDING * touch:
             problem = f"{off[worst]:.3g} m off its line at {names[frames[worst]]}, others {usual:.2g} m"
             raise InputError(where, None, "positions along straight lines", problem)
@@ -341,6 +364,8 @@ def _impact(
                 f"{touch:.4g} m: look at the scale, the diameter and the tracker"
             )
 
+    sense = math.copysign(1.0, _flight(lines[0][0])[1])
+
     def results(parameters: np.ndarray) -> np.ndarray:
         lines = (1 + parameters[-1]) * parameters[:-1].reshape(-1, 2, 2)
         at, normal, sideways, since = _state(lines[0], touch, -1)
@@ -351,28 +376,43 @@ def _impact(
             turn = then - at - 2 * math.pi * round((then - at - (turned[last + 1] - turned[first - 1])) / (2 * math.pi))
             tangential = along / sideways if sideways else math.nan
             found += [-opening / normal, tangential, until - since, turn * math.copysign(1, sideways)]
-        return np.array(found)
+        speed, parameter, time_before, direction = _flight(lines[0])
+        free = [speed, sense * parameter]
+        if not sticks:
+            exit_speed, exit_parameter, time_after, direction_after = _flight(lines[1])
+            coming, going = (
+                math.remainder(each, 2 * math.pi) for each in (at - direction - math.pi, direction_after - then)
+            )
+            free += [exit_speed, sense * exit_parameter, time_after - time_before, sense * (coming + turn + going)]
+        return np.array([*free, *found])
 
     centre = np.array([*(each for one in lines for each in one[0].ravel()), 0.0])
     blocks = [np.linalg.cholesky(covariance) * sigma for _, covariance, *_ in lines]
     steps = block_diag(*blocks, [[scale_sd]]).T  # independent deviations of the parameters
     moved = [(results(centre + _STEP * step) - results(centre - _STEP * step)) / (2 * _STEP) for step in steps]
-    sd = np.sqrt((np.array(moved) ** 2).sum(axis=0))
-    values = dict.fromkeys((name + suffix for name in _NAMES for suffix in _WITH_SD), math.nan)
+    covariance = np.array(moved).T @ np.array(moved)
+    sd = np.sqrt(np.diag(covariance))
+    values = dict.fromkeys((name + suffix for name in (*_NAMES, *FLIGHT) for suffix in _WITH_SD), math.nan)
     unknown: tuple[str, ...] = ()
-    for name, value, error in zip(_NAMES, results(centre), sd):
+    count = 2 if sticks else len(FLIGHT)
+    for name, value, error in zip([*list(FLIGHT)[:count], *_NAMES], results(centre), sd):
         values |= {name: float(value), f"{name}_sd": float(error)}
-    if not sticks and not values["contact_time"] > 0:
+    correlation = (covariance / np.maximum(np.outer(sd, sd), _LITTLE))[:count, :count][np.tril_indices(count, -1)]
+    if not sticks and abs(values["exit_parameter"]) >= apart:
+        unknown = OBSERVED
+        remarks.append("its line after separation passes the other centre beyond the scene's rupture gap: no e_n there")
+    elif not sticks and not values["contact_time"] > 0:
         problem = f"last {values['contact_time']:.3g} s: is the scale or the rate off?"
         raise InputError(f"tracks, {label}", None, "contacts that take time", problem)
     if values["angle"] <= _SIDEWAYS * values["angle_sd"] and not sticks:
-        unknown = _SIGNED
+        unknown += _SIGNED
         remarks.append("head-on within its uncertainty, so that e_t and the sense of the rotation are not known")
     elif not sticks and np.abs(np.diff(turned[first - 1 : last + 2])).max() > _FASTEST:
-        unknown = ("rotation",)
+        unknown += ("rotation", "turn")
         remarks.append("it turns by more than 90 deg between two frames, so that its turns cannot be counted")
     values |= {name + suffix: math.nan for name in unknown for suffix in _WITH_SD}
-    return values | {"outcome": STICK if sticks else ""}, sigma, remarks
+    written = "" if sticks else " ".join(f"{each:.6f}" for each in correlation)
+    return values | {"outcome": STICK if sticks else "", CORRELATION: written}, sigma, remarks
 
 
 def _rests_from(time: np.ndarray, distance: np.ndarray, tolerance: float) -> int:
@@ -402,6 +442,13 @@ def _line(
     return solution.reshape(2, 2), np.linalg.inv(design.T @ design), squares, values.size - 4
 
 
+def _flight(line: np.ndarray) -> tuple[float, float, float, float]:
+    """Speed of a line, its least distance from the origin, signed by the sense of rotation, when; and direction."""
+    (x, y), (u, v) = line
+    speed = math.hypot(u, v)
+    return speed, (x * v - y * u) / speed, -(x * u + y * v) / speed**2, math.atan2(v, u)
+
+
 def _state(line: np.ndarray, distance: float, side: int) -> tuple[float, float, float, float]:
     """Angle of the line of centres, approach and tangential speed, and time, where a path crosses a distance.
 
@@ -416,18 +463,6 @@ def _state(line: np.ndarray, distance: float, side: int) -> tuple[float, float, 
     normal = place / np.linalg.norm(place)
     sideways = normal[0] * velocity[1] - normal[1] * velocity[0]
     return math.atan2(place[1], place[0]), -float(normal @ velocity), float(sideways), time
-
-
-def _named(columns: list[Column]) -> dict[str, Column]:
-    """The columns that are used, by name; InputError for two of one name."""
-    words = [re.sub(r"[\s-]+", "_", column.name.strip().lower()) for column in columns]
-    for k, word in enumerate(words):
-        if word in words[:k]:
-            raise InputError("tracks, header", columns[k].name, "each column once", "is given twice")
-    by_word = dict(zip(words, columns))
-    spelt = {name: next((by_word[each] for each in others.split() if each in by_word), None)
-             for name, others in _SPELT.items()}  # fmt: skip
-    return {name: replace(column, name=name) for name, column in spelt.items() if column is not None}
 
 
 def _size(value: Any, si: str, option: str, *, pixel: float | None = None, plain: float | None = 1.0) -> float:

@@ -18,7 +18,7 @@ _LARGEST = 20_000_000  # bytes of a file
 _MOST_ROWS = 100_000
 _HEADER = re.compile(r"\s*([^\[\]()]+?)\s*(?:[\[(]\s*([^\[\]()]*?)\s*[\])])?\s*")
 _UNNAMED = re.compile(r"|unnamed(: ?\d+)?|index|level_0|row|#", re.IGNORECASE)
-DECIMAL_COMMA = re.compile(r"\s*[-+]?\d*,\d+\s*")
+DECIMAL_COMMA = re.compile(r"\s*[-+]?\d*,\d+(?:[eE][-+]?\d+)?\s*")
 _DECIMAL_POINT = re.compile(r"\s*[-+]?\d*\.\d+(?!\d*[.,]).*")  # no date 12.03.2026, no thousands 1.798,7
 
 
@@ -37,12 +37,17 @@ def columns_of(source: Any, label: str) -> tuple[list[Column], list[int]]:
     A first column without a name that numbers the rows, as a DataFrame writes its index, is left out.
     """
     columns, lines = _read(source, label)
+    return without_index(columns, label), lines
+
+
+def without_index(columns: list[Column], label: str) -> list[Column]:
+    """Columns without a first one that has no name and numbers the rows; InputError for others without a name."""
     if columns and _UNNAMED.fullmatch(columns[0].name) and all(map(_is_whole, columns[0].cells)):
         columns = columns[1:]
     for column in columns:
         if not column.name:
             raise InputError(f"{label}, header", "", "names of columns, with their unit in brackets", "is no name")
-    return columns, lines
+    return columns
 
 
 def _is_whole(cell: Any) -> bool:
@@ -67,7 +72,7 @@ def _read(source: Any, label: str) -> tuple[list[Column], list[int]]:
         known = source.astype(object).where(source.notna(), None)  # pandas has several kinds of missing cells
         return _columns({str(name): known[name].tolist() for name in known.columns}, label)
     if isinstance(source, (str, Path)):
-        return _from_csv(source, label)
+        return columns_from_text(text_of(source, label), label, str(source))
     accepted = "a CSV file, a DataFrame, a Dataset, or a mapping of columns"
     raise InputError(label, type(source).__name__, accepted, "is none of these")
 
@@ -92,16 +97,23 @@ def _columns(
     return columns, list(range(1, max(lengths.values(), default=0) + 1))
 
 
-def _from_csv(source: str | Path, label: str) -> tuple[list[Column], list[int]]:
-    accepted = "a CSV file whose first line names the columns, such as speed [m/s],angle [deg],restitution,outcome"
+_CSV = "a CSV file whose first line names the columns, such as speed [m/s],angle [deg],restitution,outcome"
+
+
+def text_of(source: str | Path, label: str, accepted: str = _CSV) -> str:
+    """The text of a file; InputError if it cannot be read."""
     try:
-        text = bounded.read(Path(source), _LARGEST).decode("utf-8-sig")
+        return bounded.read(Path(source), _LARGEST).decode("utf-8-sig")
     except FileNotFoundError:
         raise InputError(label, str(source), accepted, "is no file") from None
     except bounded.NotRead as reason:
         raise InputError(label, str(source), accepted, str(reason)) from None
     except UnicodeDecodeError:
         raise InputError(label, str(source), accepted, "is not UTF-8 text") from None
+
+
+def columns_from_text(text: str, label: str, source: str, accepted: str = _CSV) -> tuple[list[Column], list[int]]:
+    """The columns of a CSV file's text, separated by commas, semicolons or tabs, and the line of each row."""
     kept = [(k, line) for k, line in enumerate(text.splitlines(), 1) if line.strip(" \t,;") and line.lstrip()[0] != "#"]
     if not kept:
         raise InputError(label, str(source), accepted, "has no line with names of columns")

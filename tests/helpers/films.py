@@ -1,10 +1,13 @@
 """Films of the toolkit's own trajectories: two centres in pixels, with noise, drift of the pair and gravity."""
 
 import math
+import warnings
 
 import numpy as np
+import pandas as pd
 from wetdoublet.solvers import Collision, Scene
 
+PLACES = ("x1", "y1", "x2", "y2")
 GRAVITY = np.array([0.0, -9.81])
 
 
@@ -79,6 +82,17 @@ def drawn(scene: Scene, random: np.random.Generator, *, stick: bool, noise: floa
     }  # fmt: skip
 
 
+def long_table(film: dict[str, np.ndarray]) -> pd.DataFrame:
+    """The film with a row for each particle, 0 and 1, and frame."""
+    parts = [
+        pd.DataFrame(
+            {"y": film[f"y{k + 1}"], "x": film[f"x{k + 1}"], "frame": film["frame"].astype(float), "particle": k}
+        )
+        for k in (0, 1)
+    ]
+    return pd.concat(parts).sort_values(["frame", "particle"], ignore_index=True)
+
+
 def lossy(film: dict[str, np.ndarray], lost: object) -> dict[str, np.ndarray]:
     """The film without some frames, whose numbers are not counted."""
     rest = {name: np.delete(values, lost) for name, values in film.items()}
@@ -100,3 +114,37 @@ def pushed(
     far = np.clip(1 - (distance / diameter - 1) / reach, 0, 1)
     x, y = most * diameter * far**1.4 * relative / distance / 2
     return film | {"x1": film["x1"] - x, "y1": film["y1"] - y, "x2": film["x2"] + x, "y2": film["y2"] + y}
+
+
+def rendered(film: dict[str, np.ndarray], radius: float, random: np.random.Generator, grey: float = 8.0) -> np.ndarray:
+    """Pictures (frames, height, width) of two bright discs on a dark ground, in 256 greys with a noise of `grey`."""
+    places = np.stack([[film["x1"], film["y1"]], [film["x2"], film["y2"]]])
+    places = places - places.min(axis=(0, 2))[:, None] + 3 * radius
+    width, height = np.ceil(places.max(axis=(0, 2)) + 3 * radius).astype(int)
+    y, x = np.mgrid[:height, :width]
+    pictures = np.empty((places.shape[2], height, width), np.uint8)
+    for k, (one, two) in enumerate(places.transpose(2, 0, 1)):
+        discs = [np.clip(radius + 0.5 - np.hypot(x - place[0], y - place[1]), 0, 1) for place in (one, two)]
+        noisy = 20 + 180 * np.minimum(sum(discs), 1) + grey * random.standard_normal((height, width))
+        pictures[k] = np.clip(np.rint(noisy), 0, 255)
+    return pictures
+
+
+def tracked(
+    pictures: np.ndarray, mask: int, ground: int = 60, reach: float = 10, memory: int = 3, **settings: object
+) -> pd.DataFrame:
+    """What trackpy makes of pictures.
+
+    Arguments:
+        mask: its `diameter`.
+        ground: grey that is subtracted first.
+        reach: its `search_range`.
+    """
+    import trackpy
+
+    trackpy.quiet()
+    dark = np.maximum(pictures.astype(int) - ground, 0).astype(np.uint8)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # of an empty picture, and of what pandas will do without
+        found = [trackpy.locate(one, mask, **settings).assign(frame=k) for k, one in enumerate(dark)]
+        return trackpy.link(pd.concat(found), reach, memory=memory)

@@ -1,0 +1,373 @@
+"""Films as trackers write them: their tables become columns `x1`, `y1`, `x2`, `y2` over frames or times.
+
+A table is long, with a row for each particle and frame, or wide, with a row for each frame. Y may point either way: the
+mirror image of a collision has the same results.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+from xml.etree import ElementTree as ET
+
+import numpy as np
+from scipy.spatial import KDTree
+
+from ..errors import InputError
+from ..scene.columns import Column, columns_from_text, columns_of, text_of, without_index
+from .straight import LEAST
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+PLACES = ("x1", "y1", "x2", "y2")
+Units = Callable[[Column], float]
+"""The factor of a column of lengths or times to SI; InputError if it has no unit."""
+
+_ACCEPTED = (
+    "columns x1, y1, x2, y2 and frame or time; or a long table of x, y, frame, particle (trackpy, LapTrack, napari), "
+    "TrackMate's CSV or XML, an export of Tracker or DLTdv, or ImageJ's Results"
+)
+_SPELT = {  # as trackers name columns, in small letters and underscores; of several the first
+    "frame": "frame slice image picture frame_number slice_n axis_0 frame_y",
+    "time": "time t position_t",
+    "impact": "impact film video",
+    "x": "x position_x x_position pos_x axis_2 xm",
+    "y": "y position_y y_position pos_y axis_1 ym",
+    "particle": "particle track_id trackid particle_id track trajectory track_n",
+}
+_KINDS = {  # columns by which a table is known, of several kinds the first
+    "TrackMate's table of spots": {"position_x", "visibility"},
+    "a table of LapTrack": {"tree_id"},
+    "a table of trackpy": {"particle"},
+    "a table of napari": {"track_id", "t"},
+    "ImageJ's Results": {"slice", "x"},
+    "an export of DLTdv, a row for each frame": {"pt1_cam1_x"},
+}
+_TRACKER, _XML = "an export of Tracker", "TrackMate's XML"
+_UNITS = {"sec": "s", "seconds": "s", "msec": "ms", "micron": "um", "microns": "um"}  # as Fiji writes them
+_BODY = re.compile(r"([xy])_?(\d+)|(\w*?)_?([xy])")  # x1, x_1, pt1_cam1_x, mass_a_x
+_NEAR = (0.7, 1.2)  # closest approach of two that meet, over the distance of touching solids
+_AVI, _MATROSKA = 600.0, 1e-3  # 1/s of an AVI header for every faster film; s, the clock of Matroska
+
+
+@dataclass(frozen=True)
+class Film:
+    """Paths of two particles.
+
+    Attributes:
+        columns: `x1`, `y1`, `x2`, `y2`, `frame`, `time`, `impact`, where they are known.
+        lines: of each row in its file.
+        remark: a sentence that says what the table was taken for.
+        header: the names of all columns of the table.
+    """
+
+    columns: dict[str, Column]
+    lines: list[int]
+    remark: str
+    header: str
+
+
+def read_film(source: Any, particles: Any, solids: float, lengths: Units) -> Film:
+    """The paths of two particles in a tracker's table.
+
+    Arguments:
+        source: a file, a DataFrame or a mapping of columns.
+        particles: the two, as "3,7", a sequence, or "3+8,7" where a tracker went on with another number; None: those
+            that meet.
+        solids: distance of the centres of touching solids, m.
+
+    Raises:
+        InputError: a table of no such kind; particles that are not there, or several pairs that meet.
+    """
+    kind, columns, lines = _table(source)
+    given = ", ".join(column.name for column in columns)
+    words = [re.sub(r"\W+", "_", column.name.strip().lower()).strip("_") for column in columns]
+    for k, word in enumerate(words):
+        if word in words[:k]:
+            raise InputError("tracks, header", columns[k].name, "each column once", "is given twice")
+    by_word = dict(zip(words, columns))
+    known = {name: replace(by_word[word], name=name) for name, spelt in _SPELT.items()
+             for word in [next((each for each in spelt.split() if each in by_word), None)] if word}  # fmt: skip
+    if not kind:
+        kind = next((name for name, some in _KINDS.items() if some <= by_word.keys()), "")
+    if long := {"x", "y"} <= known.keys():
+        known, lines = _below_names(known, lines)
+        if not {"frame", "time"} & known.keys():
+            raise InputError("tracks", given, _ACCEPTED, "has no frame and no time")
+        kind = kind or "a long table, a row for each particle and frame"
+        names = known["particle"].cells if "particle" in known else None
+        table = _as_long(known, {"": ("x", "y")}, names, lines)
+    else:
+        bodies = _bodies(words)
+        if len(bodies) < 2:
+            lack = [f"has no {name}" for name in PLACES if name not in words]
+            raise InputError("tracks", given, _ACCEPTED, lack[0] if 1 <= len(lack) < 4 else "is none of these")
+        if not {"frame", "time"} & known.keys() and len(words) == 2 * len(bodies):
+            known["frame"] = Column("frame", None, list(range(len(lines))))
+    every = [each for each in dict.fromkeys(table.particle) if each] if long else list(bodies)
+    linked = long and ("particle" not in known or len(every) == 1)  # TrackMate's track of two that merge
+    if long and len(every) == 1:
+        table, every = _linked(table), ["1", "2"]
+    pair = _chosen(every, particles)
+    if pair is None:
+        table = table if long else _as_long(known | by_word, bodies, None, lines)
+        pair = _meeting(table, solids / lengths(known["x"] if long else by_word[bodies[every[0]][0]]))
+    shared: dict[str, Column] = {name: known[name] for name in ("frame", "time", "impact") if name in known}
+    if long:
+        one, two = (table[table.particle.isin(each)] for each in pair)
+        both = one.merge(two, how="outer", on=["at", "film"], suffixes=("1", "2")).sort_values(["film", "at"])
+        rows = both.row1.fillna(both.row2).astype(int).tolist()
+        shared = {name: replace(each, cells=[each.cells[k] for k in rows]) for name, each in shared.items()}
+        for place in PLACES:
+            cells = [None if k != k else known[place[0]].cells[int(k)] for k in both[f"row{place[1]}"]]
+            shared[place] = replace(known[place[0]], name=place, cells=cells)
+        lines = [lines[k] for k in rows]
+    else:
+        four = [word for body in pair for word in bodies[body[0]]]
+        shared |= {place: replace(by_word[word], name=place) for place, word in zip(PLACES, four)}
+    if kind == _TRACKER:
+        shared = _calibrated(shared, solids)
+    which = ", particles " + " and ".join("+".join(each) for each in pair) if long or len(every) > 2 else ""
+    how = ", linked from frame to frame by their distance" if linked else ""
+    where = f", positions in {shared['x1'].unit}" if shared["x1"].unit else ""
+    remark = f"the table was taken for {kind or 'two paths side by side'}{which}{how}{where}"
+    return Film(shared, lines, remark, given)
+
+
+def with_one_clock(film: Film, rate: float | None, times: Units) -> Film:
+    """The film with its frames alone, or with times that can be those of a camera.
+
+    Arguments:
+        rate: frames per second, if they are given.
+
+    Raises:
+        InputError: the times cannot be true, and no rate is given.
+    """
+    columns, time, frame = dict(film.columns), film.columns.get("time"), film.columns.get("frame")
+    if time is None or (frame is None and time.unit is None):
+        return film
+    written = np.array([_number(cell) for cell in time.cells])
+    at = written * (times(time) if time.unit else 1.0)
+    steps = np.diff(ticks := np.unique(at[np.isfinite(at)]))
+    problem, counts = "", None
+    if frame is not None and np.array_equal(written, [_number(cell) for cell in frame.cells]):
+        problem = "are the numbers of the frames"
+    elif steps.size and abs(float(np.median(steps)) * _AVI - 1) < 1e-3:
+        problem = f"come at {_AVI:g} frames/s, which an AVI says of every film above 1000 frames/s"
+        counts = np.rint(at * _AVI)
+    elif steps.size and np.ptp(steps) > 0.5 * _MATROSKA and np.abs((ticks / _MATROSKA + 0.5) % 1 - 0.5).max() < 1e-6:
+        problem = "are whole milliseconds, as Matroska writes them, and not evenly spaced"
+        counts = np.rint(at * rate) if rate and rate * _MATROSKA < 1 else None
+    if problem and rate is None:
+        raise InputError("rate", None, "the camera's frames per second (--rate)", f"is not known: the times {problem}")
+    if frame is None and counts is not None:
+        frame = Column("frame", None, counts.tolist())
+    if frame is None or rate is None:
+        columns.pop("frame", None)
+        return replace(film, columns=columns)
+    why = f" {problem} and" if problem else ""
+    columns = {name: each for name, each in columns.items() if name != "time"} | {"frame": frame}
+    return replace(film, columns=columns, remark=f"{film.remark}; the times{why} are not used")
+
+
+def _table(source: Any) -> tuple[str, list[Column], list[int]]:
+    """What kind of file it is, if its form says so; its columns, and the line of each row."""
+    if isinstance(source, (str, Path)):
+        text = text_of(source, "tracks", _ACCEPTED)
+        if text.lstrip().startswith("<"):
+            return (_XML, *columns_of(_from_xml(text, str(source)), "tracks"))
+        kind, text = _one_header(text)
+        columns, lines = columns_from_text(text, "tracks", str(source), _ACCEPTED)
+        return kind, without_index(columns, "tracks"), lines
+    index = [name for name in getattr(getattr(source, "index", None), "names", ()) if name is not None]
+    if fresh := [name for name in index if name not in source.columns]:
+        source = source.reset_index(fresh)
+    return ("", *columns_of(source, "tracks"))
+
+
+def _one_header(text: str) -> tuple[str, str]:
+    """The kind of a table whose header has several rows, and its text with one row of names instead."""
+    lines = text.splitlines()
+    rows = [k for k, line in enumerate(lines) if line.strip(" \t,;") and not line.lstrip().startswith("#")][:5]
+    separator = max(",;\t", key=lines[rows[0]].count) if rows else ","
+    above: list[str] = []
+    for k in rows:
+        cells = [cell.strip().strip('"') for cell in lines[k].split(separator)]
+        axes = [re.sub(r"\W.*", "", cell.lower()) for cell in cells]
+        if k > rows[0] and axes.count("x") > 1 and axes.count("y") > 1:
+            names = [f"{body}_{cell}" if axis in ("x", "y") else "frame" if axis == "coords" else cell
+                     for body, cell, axis in zip(above, cells, axes)]  # fmt: skip
+            kind = _TRACKER if text.lstrip().lower().startswith("#multi") else "bodies side by side"
+            return kind, "\n".join([*[""] * k, separator.join(names), *lines[k + 1 :]])
+        filled = [next((each for each in cells[j::-1] if each), "") for j in range(len(cells))]
+        above = [re.sub(r"\W+", "_", f"{name}_{each}".strip("_")) for name, each in zip(above or [""] * 999, filled)]
+    return "", text
+
+
+def _from_xml(text: str, source: str) -> dict[str, list[Any]]:
+    """A long table of the spots of TrackMate's tracks: hidden spots are in none, and edges come in any order."""
+    accepted = "a file of TrackMate, with tracks"
+    try:
+        root = ET.fromstring(text)
+    except ET.ParseError as reason:
+        raise InputError("tracks", source, accepted, f"is no XML ({reason})") from None
+    model = root.find(".//Model")
+    rows: list[tuple[Any, ...]] = []
+    if model is not None:
+        length, clock = model.get("spatialunits", "px"), model.get("timeunits", "frame")
+        spots = {spot.get("ID"): spot for spot in model.iter("Spot")}
+        listed = {each.get("TRACK_ID") for each in model.findall("FilteredTracks/TrackID")}
+        for track in model.iter("Track"):
+            number, names = track.get("TRACK_ID"), ("FRAME", "POSITION_T", "POSITION_X", "POSITION_Y")
+            ends = {edge.get(f"SPOT_{end}_ID") for edge in track.iter("Edge") for end in ("SOURCE", "TARGET")}
+            if not listed or number in listed:
+                rows += [(number, *map(spots[each].get, names)) for each in sorted(ends & spots.keys(), key=str)]
+    else:
+        length, clock = root.get("spaceUnits", "px"), root.get("timeUnits", "frame")
+        interval = _number(root.get("frameInterval", 1))
+        for k, path in enumerate(root.iter("particle")):
+            for spot in path.iter("detection"):
+                rows.append((k, spot.get("t"), interval * _number(spot.get("t")), spot.get("x"), spot.get("y")))
+    if not rows:
+        raise InputError("tracks", source, accepted, "has none")
+    length, clock = (_UNITS.get(each.lower(), each) for each in (length, clock))
+    header = ("track_id", "frame", f"t [{clock}]", f"x [{length}]", f"y [{length}]")
+    return {name: list(each) for name, each in zip(header, zip(*rows)) if name != "t [frame]"}
+
+
+def _below_names(known: dict[str, Column], lines: list[int]) -> tuple[dict[str, Column], list[int]]:
+    """The columns of a long table without TrackMate's three rows of names, the last of which has the units."""
+    clocks = [known[name].cells for name in ("x", "frame", "time") if name in known]
+    names = 0
+    while names < min(3, len(lines)) and all(math.isnan(_number(each[names])) for each in clocks):
+        names += 1
+    for name, column in known.items():
+        below = re.fullmatch(r"\s*\((.+)\)\s*", str(column.cells[names - 1])) if names else None
+        unit = below[1] if below else column.unit
+        known[name] = replace(column, cells=column.cells[names:], unit=_UNITS.get((unit or "").lower(), unit))
+    time = known.get("time")
+    if time and (time.unit == "frame" or (time.unit is None and "frame" not in known and _whole(time.cells))):  # napari
+        del known["time"]
+        known.setdefault("frame", replace(time, name="frame", unit=None))
+    return known, lines[names:]
+
+
+def _bodies(words: Iterable[str]) -> dict[str, tuple[str, str]]:
+    """Names of the bodies of a wide table, and those of their columns x and y."""
+    places: dict[str, dict[str, str]] = {}
+    for word in words:
+        if match := _BODY.fullmatch(word):
+            places.setdefault(match[2] or match[3] or "", {}).setdefault(match[1] or match[4], word)
+    return {body: (both["x"], both["y"]) for body, both in places.items() if len(both) == 2}
+
+
+def _as_long(
+    known: Mapping[str, Column], bodies: Mapping[str, tuple[str, str]], names: list[Any] | None, lines: list[int]
+) -> pd.DataFrame:
+    """A row for each particle and frame: film, at, particle, x, y, and the row of the table."""
+    import pandas as pd
+
+    clock, rows = known.get("frame") or known.get("time"), range(len(lines))
+    at = [_number(cell) for cell in clock.cells] if clock else list(rows)
+    for k in (k for k in rows if not math.isfinite(at[k])):
+        raise InputError(
+            f"tracks, line {lines[k]}, column {clock.name if clock else ''}", clock and clock.cells[k], "a number"
+        )
+    films = [_name(cell) for cell in known["impact"].cells] if "impact" in known else ""
+    parts = [
+        pd.DataFrame({"film": films, "at": at, "particle": body if names is None else [_name(each) for each in names],
+                      **{axis: [_number(cell) for cell in known[word].cells] for axis, word in zip("xy", both)},
+                      "row": rows}) for body, both in bodies.items()
+    ]  # fmt: skip
+    table = pd.concat(parts)
+    return _linked(table) if names is None and "" in bodies else table
+
+
+def _linked(table: pd.DataFrame) -> pd.DataFrame:
+    """The table with names "1" and "2": two rows on a frame, each the nearer to where it was; "" on others."""
+    names = np.full(len(table), "", object)
+    for _, film in table.groupby("film"):
+        before = None
+        for at, rows in film.groupby("at"):
+            if len(rows) > 2:
+                problem = f"has {len(rows)} rows on frame {at:g}, and no column names the particle"
+                raise InputError("tracks", None, "two rows for each frame, or a column particle or track_id", problem)
+            if len(rows) == 2:
+                here = rows[["x", "y"]].to_numpy()
+                swapped = before is not None and ((here[::-1] - before) ** 2).sum() < ((here - before) ** 2).sum()
+                before = here[::-1] if swapped else here
+                names[rows.row] = ("2", "1") if swapped else ("1", "2")
+    return table.assign(particle=names)
+
+
+def _chosen(names: list[str], particles: Any) -> tuple[list[str], list[str]] | None:
+    """The two particles that are asked for, each with the numbers under which a tracker followed it."""
+    if particles is None:
+        return ([names[0]], [names[1]]) if len(names) == 2 else None
+    parts = re.split(r"[,;]", particles) if isinstance(particles, str) else list(np.atleast_1d(particles))
+    pair = [[_name(each) for each in str(part).split("+")] for part in parts]
+    every = [each for part in pair for each in part]
+    if len(pair) != 2 or len(set(every)) < len(every) or not set(every) <= set(names):
+        accepted = f'two of {", ".join(names[:12])}{" ..." * (len(names) > 12)}, as "A,B"'
+        raise InputError("particles", str(particles), accepted)
+    return pair[0], pair[1]
+
+
+def _meeting(table: pd.DataFrame, solids: float) -> tuple[list[str], list[str]]:
+    """The pair that meets; InputError if none or several do."""
+    table = table[(table.particle != "") & np.isfinite(table.x) & np.isfinite(table.y)]
+    low, high = (share * solids for share in _NEAR)
+    frames = table.groupby("particle").apply(lambda rows: set(zip(rows.film, rows["at"])), include_groups=False)
+    nearest: dict[tuple[str, str], float] = {}
+    for _, rows in table.groupby(["film", "at"]):
+        places, names = rows[["x", "y"]].to_numpy(), rows.particle.tolist()
+        for j, k in KDTree(places).query_pairs(high):
+            pair = (min(names[j], names[k]), max(names[j], names[k]))
+            nearest[pair] = min(float(math.dist(places[j], places[k])), nearest.get(pair, math.inf))
+    meet = [
+        pair
+        for pair, distance in nearest.items()
+        if distance >= low and len(frames[pair[0]] & frames[pair[1]]) >= LEAST
+    ]
+    if len(meet) != 1:
+        accepted = 'two that meet, or particles="A,B" (--particles); "A+C,B" if the tracker goes on with A as C'
+        several = "; ".join(f"{a},{b}" for a, b in meet[:6]) + " ..." * (len(meet) > 6)
+        problem = (
+            f"may be several that come near each other: {several}"
+            if meet
+            else "are none: do their tracks break, or is the scale off?"
+        )
+        raise InputError("particles", None, accepted, problem)
+    return [meet[0][0]], [meet[0][1]]
+
+
+def _calibrated(columns: dict[str, Column], solids: float) -> dict[str, Column]:
+    """Tracker writes seconds, and metres if it was calibrated: then the solids touch at the scene's distance."""
+    x1, y1, x2, y2 = (np.array([_number(cell) for cell in columns[place].cells]) for place in PLACES)
+    nearest = np.nanmin(np.hypot(x2 - x1, y2 - y1), initial=math.inf)
+    unit = {"time": "s"} | dict.fromkeys(PLACES if 0.5 < nearest / solids < 2 else (), "m")
+    return {name: replace(each, unit=each.unit or unit.get(name)) for name, each in columns.items()}
+
+
+def _number(cell: Any) -> float:
+    try:
+        return float(cell)
+    except (TypeError, ValueError):
+        return math.nan
+
+
+def _whole(cells: Iterable[Any]) -> bool:
+    return all(_number(cell) == round(_number(cell)) for cell in cells if math.isfinite(_number(cell)))
+
+
+def _name(cell: Any) -> str:
+    """What names a particle: 3 of pandas' 3.0; "" of none."""
+    text, number = str(cell).strip().lower(), _number(cell)
+    if text in ("", "none", "nan", "<na>"):
+        return ""
+    return str(int(number)) if math.isfinite(number) and number == int(number) else text

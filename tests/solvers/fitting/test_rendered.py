@@ -1,0 +1,113 @@
+"""Films that are drawn and tracked by trackpy: with good settings right, with bad ones said; numbers of the how-to."""
+
+import math
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+from wetdoublet.solvers import InputError, Scene, collide, tracks
+
+from tests.helpers.films import filmed, rendered, tracked
+
+DISC = 16  # px
+GOOD = {"mask": 19, "preprocess": False, "separation": 13, "minmass": 8000}
+BAD = {
+    "a mask smaller than the disc": {"mask": 13, "preprocess": False, "separation": 13, "minmass": 5000},
+    "the default preprocessing": {"mask": 19, "preprocess": True, "ground": 0, "minmass": 1500},
+    "discs nearer than their separation": {"mask": 19, "preprocess": False, "minmass": 8000, "memory": 0},
+    "a range shorter than a step": {"reach": 1.5} | GOOD,
+}
+NAMES = ("speed", "angle", "restitution", "tangential_restitution")
+PAGE = Path(__file__).parents[3] / "docs" / "how-to" / "films.md"
+
+
+def shots(count: int, seed: int):
+    """Pictures of impacts on `lactose-pvp`, ten frames to a diameter, with what they show."""
+    scene, random = Scene.load("lactose-pvp"), np.random.default_rng(seed)
+    diameter = 4 * scene.particles.reduced_radius
+    for _ in range(count):
+        one = collide(scene, stokes=random.uniform(10, 16), angle=random.uniform(0.2, 0.9), trajectory=True)
+        rate = 10 * one.speed / diameter
+        film = filmed(scene, one, rate, diameter / DISC, 0.0, random, frames=24)
+        yield one, rendered(film, DISC / 2, random), {"rate": rate, "scale": diameter / DISC}
+
+
+@pytest.mark.slow
+def test_films_tracked_well_give_their_collisions() -> None:
+    """Of 40 films: speed, angle, e_n and e_t within two standard deviations in 95 %, and every stick a stick."""
+    errors, refused = [], 0
+    for one, pictures, settings in shots(40, 5):
+        try:
+            found = tracks(tracked(pictures, **GOOD), "lactose-pvp", **settings)
+        except InputError:
+            refused += 1
+            continue
+        assert (found.columns["outcome"] == ["stick"]) == (one.outcome == "stick")
+        if one.outcome != "stick":
+            errors += [(found.columns[name][0] - getattr(one, name)) / found.columns[f"{name}_sd"][0]
+                       for name in NAMES if name in found.columns]  # fmt: skip
+    assert refused <= 1
+    assert len(errors) > 120
+    assert np.mean(np.abs(errors) < 2) >= 0.95
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("kind", BAD)
+def test_films_tracked_badly_are_refused_or_said(kind: str) -> None:
+    """No outcome is wrong, and where the impact is off by more than four deviations a remark tells of the tracker."""
+    for one, pictures, settings in shots(6, 5):
+        try:
+            found = tracks(tracked(pictures, **BAD[kind]), "lactose-pvp", **settings)
+        except InputError as error:
+            assert re.search("track|scale|separation|scatter|apart|before the impact|off its line", str(error))
+            continue
+        assert (found.columns["outcome"] == ["stick"]) == (one.outcome == "stick")
+        errors = [(found.columns[name][0] - getattr(one, name)) / found.columns[f"{name}_sd"][0]
+                  for name in NAMES if name in found.columns and one.outcome != "stick"]  # fmt: skip
+        said = any("displaces near discs" in each for each in found.remarks)
+        assert said or max(map(abs, errors), default=0.0) < 4
+
+
+def on_the_page(row: str) -> list[float]:
+    """The numbers in a row of the page's table."""
+    [line] = [each for each in PAGE.read_text(encoding="utf-8").splitlines() if each.startswith(f"| {row} |")]
+    return [float(each.replace("−", "-")) for each in re.findall(r"[-−]?\d+\.\d+", line)]
+
+
+def located(pictures: np.ndarray, mask: int, ground: int, **settings: object) -> np.ndarray:
+    """The two largest discs of each picture that has two, (pictures, 2, 2)."""
+    table = tracked(pictures, mask, ground, reach=0.1, **settings)
+    groups = [rows.nlargest(2, "mass")[["x", "y"]].to_numpy() for _, rows in table.groupby("frame")]
+    return np.array([each for each in groups if len(each) == 2])
+
+
+def pairs(gap: float, random: np.random.Generator, count: int = 30) -> tuple[np.ndarray, float]:
+    """Pictures of two discs of 24 px at random places, and the distance of their centres."""
+    turn, place, distance = random.uniform(0, 2 * math.pi, count), random.random((count, 2)), 24 + gap
+    film = {"x1": place[:, 0], "y1": place[:, 1]}
+    film |= {"x2": place[:, 0] + distance * np.cos(turn), "y2": place[:, 1] + distance * np.sin(turn)}
+    return rendered(film, 12, random, grey=2), distance
+
+
+def test_the_masks_of_the_how_to() -> None:
+    """Scatter of the distance of two discs of 24 px that are far apart: the numbers of the page, to a quarter."""
+    random = np.random.default_rng(1)
+    pictures, _ = pairs(60, random)
+    found = []
+    for mask in (21, 25, 27, 29):
+        two = located(pictures, mask, 60, preprocess=False, minmass=5000)
+        found.append(float(np.std(np.linalg.norm(two[:, 0] - two[:, 1], axis=1)) / math.sqrt(2)))
+    assert found == pytest.approx(on_the_page("a mask of 21, 25, 27, 29 px for a disc of 24 px"), rel=0.25, abs=0.005)
+    assert np.all(np.diff(found) < 0)
+
+
+def test_the_near_discs_of_the_how_to() -> None:
+    """How far two discs of 24 px are pushed apart at a gap of 0, 4 and 12 px: the numbers of the page, to 0.1 px."""
+    for row, ground, preprocess in (("`preprocess=True`", 0, True), ("`preprocess=False`", 60, False)):
+        found = []
+        for gap in (0, 4, 12):
+            pictures, distance = pairs(gap, np.random.default_rng(gap), 15)
+            two = located(pictures, 27, ground, preprocess=preprocess, minmass=3000, separation=20)
+            found.append(float(np.mean(np.linalg.norm(two[:, 0] - two[:, 1], axis=1)) - distance))
+        assert found == pytest.approx(on_the_page(f"{row}, near discs"), abs=0.1)

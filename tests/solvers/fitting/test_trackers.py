@@ -1,0 +1,237 @@
+"""The same film as each tracker writes it gives the same impact, and one sentence says what it was taken for."""
+
+import itertools
+import math
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pytest
+from wetdoublet.solvers import InputError, Scene, collide, tracks
+
+from tests.helpers.command import run
+from tests.helpers.films import PLACES, filmed, long_table
+
+RATE, PIXEL = 1.5e5, 2e-6
+Film = dict[str, np.ndarray]
+
+
+@pytest.fixture(scope="module")
+def film() -> Film:
+    """A bounce of 0.818 m/s, tracked to 0.2 px and written with three decimals."""
+    scene = Scene.load("lactose-pvp")
+    one = collide(scene, stokes=12, angle=math.radians(40), trajectory=True)
+    shot = filmed(scene, one, RATE, PIXEL, 0.2, np.random.default_rng(1))
+    return {name: values if name == "frame" else values.round(3) for name, values in shot.items()}
+
+
+def read(source: object, **settings: object):
+    return tracks(source, "lactose-pvp", **{"rate": RATE, "scale": PIXEL} | settings)
+
+
+def same(found: object, film: Film, within: float = 1e-9) -> None:
+    expected = read(film).columns
+    assert found.columns["outcome"] == expected["outcome"]
+    either = ([[*map(float, each.split())] for each in of["correlation"]] for of in (found.columns, expected))
+    np.testing.assert_allclose(*either, atol=1e-2 if within > 1e-9 else 2e-6)
+    for name in set(expected) - {"outcome", "correlation"}:
+        assert found.columns[name] == pytest.approx(expected[name], rel=within, abs=1e-15), name
+
+
+def trackmate(film: Film, unit: str = "pixel", size: float = 1.0, clock: str = "frame", step: float = 1.0) -> str:
+    """Spots with four rows of names; units stand in the third one below."""
+    names = "LABEL,ID,TRACK_ID,QUALITY,POSITION_X,POSITION_Y,POSITION_Z,POSITION_T,FRAME,RADIUS,VISIBILITY"
+    rows = [names, "Label,Spot ID,Track ID,Quality,X,Y,Z,T,Frame,Radius,Visibility",
+            "Label,Spot ID,Track ID,Quality,X,Y,Z,T,Frame,R,Visibility",
+            f",,,(quality),({unit}),({unit}),({unit}),({clock}),,({unit}),"]  # fmt: skip
+    rows += [
+        f"ID{k},{k},{row.particle:.0f},5,{size * row.x:.9g},{480 - size * row.y:.9g},0,{step * row.frame:.9g},"
+        f"{row.frame:.0f},77,1" for k, row in enumerate(long_table(film).itertuples())
+    ]  # fmt: skip
+    return "\n".join([*rows, "ID999,999,None,5,10,10,0,3,3,77,1"]) + "\n"
+
+
+def xml(film: Film) -> str:
+    """TrackMate's file: spots by frame, hidden ones too, and edges in no order."""
+    table = long_table(film)
+    ids = {(row.particle, row.frame): 100 + k for k, row in enumerate(table.itertuples())}
+    spots, hidden = "", '<Spot ID="7" VISIBILITY="0" POSITION_X="400" POSITION_Y="400" POSITION_T="3" FRAME="3"/>'
+    for frame, rows in table.groupby("frame"):
+        spots += f'<SpotsInFrame frame="{frame:.0f}">{hidden if frame == 3 else ""}' + "".join(
+            f'<Spot ID="{ids[row.particle, row.frame]}" POSITION_X="{row.x}" POSITION_Y="{row.y}" VISIBILITY="1" '
+            f'POSITION_T="{row.frame:.1f}" FRAME="{row.frame:.0f}"/>' for row in rows.itertuples()
+        ) + "</SpotsInFrame>"  # fmt: skip
+    tracks_of, random = "", np.random.default_rng(2)
+    for particle, rows in table.groupby("particle"):
+        edges = list(itertools.pairwise(ids[particle, frame] for frame in rows.frame))
+        tracks_of += f'<Track TRACK_ID="{particle:.0f}">' + "".join(
+            f'<Edge SPOT_SOURCE_ID="{a}" SPOT_TARGET_ID="{b}"/>' for a, b in random.permutation(edges)
+        ) + "</Track>"  # fmt: skip
+    return (
+        '<?xml version="1.0" encoding="UTF-8"?>\n<TrackMate version="7"><Model spatialunits="pixel" timeunits="frame">'
+        f"<AllSpots>{spots}</AllSpots><AllTracks>{tracks_of}</AllTracks></Model></TrackMate>"
+    )
+
+
+def simple_xml(film: Film) -> str:
+    """TrackMate's export of tracks alone."""
+    paths = "".join(
+        "<particle>" + "".join(f'<detection t="{row.frame:.0f}" x="{row.x}" y="{row.y}" z="0"/>'
+                               for row in rows.itertuples()) + "</particle>"
+        for _, rows in long_table(film).groupby("particle")
+    )  # fmt: skip
+    return f'<Tracks nTracks="2" spaceUnits="pixel" frameInterval="1.0" timeUnits="frame">{paths}</Tracks>'
+
+
+def tracker(film: Film, separator: str = "\t", comma: bool = False) -> str:
+    """Two masses side by side, in seconds and metres."""
+    rows = ["#multi:", separator.join(["", "mass A", "", "mass B", "", ""]), separator.join(["t", *"xyxy", ""])]
+    for k, *places in zip(film["frame"], *(PIXEL * film[name] for name in PLACES)):
+        line = separator.join(f"{value:.12E}" for value in (k / RATE, *places)) + separator
+        rows.append(line.replace(".", ",") if comma else line)
+    return "\n".join(rows) + "\n"
+
+
+def imagej(film: Film, **csv: object) -> str:
+    """Results: a blank first name, counting from 1, no particle; the larger spheres first on some frames."""
+    table = long_table(film).sort_values(["frame", "y"])
+    table = pd.DataFrame({" ": np.arange(1, len(table) + 1), "Area": 900, "X": table.x, "Y": 479 - table.y,
+                          "Slice": table.frame.astype(int) + 1})  # fmt: skip
+    return table.to_csv(index=False, **csv)
+
+
+def wide(film: Film, names: tuple[str, ...], **csv: object) -> str:
+    table = pd.DataFrame(dict(zip(names, (film[name] for name in PLACES[: len(names)]))))
+    return table.to_csv(index=False, **csv)
+
+
+def long(film: Film, names: dict[str, str], others: dict[str, float], **csv: object) -> str:
+    table = long_table(film).rename(columns=names).assign(**others)
+    return table.to_csv(**{"index": False} | csv)
+
+
+DLTDV = ("pt1_cam1_X", "pt1_cam1_Y", "pt2_cam1_X", "pt2_cam1_Y")
+SPELT: dict[str, tuple[str, Callable[[Film], str]]] = {
+    "trackpy": ("trackpy", lambda film: long(film, {}, {"mass": 9.5, "ep": 0.1}, index=True)),
+    "trackpy;": ("trackpy", lambda film: long(film, {}, {"mass": 9.5}, sep=";", decimal=",")),
+    "trackpy-tab": ("trackpy", lambda film: long(film, {"x": "X", "y": "Y", "frame": "Frame"}, {}, sep="\t")),
+    "laptrack": ("LapTrack", lambda film: long(film, {"particle": "track_id"}, {"tree_id": 0, "index": 4})),
+    "napari": ("napari", lambda film: long(film, {"particle": "track_id", "frame": "t"}, {})),
+    "trackmate": ("TrackMate", trackmate),
+    "trackmate-mm": ("TrackMate", lambda film: trackmate(film, "mm", 1e3 * PIXEL)),
+    "trackmate-micron": ("TrackMate", lambda film: trackmate(film, "micron", 1e6 * PIXEL)),
+    "trackmate-sec": ("TrackMate", lambda film: trackmate(film, clock="sec", step=1 / RATE)),
+    "trackmate-uncalibrated": ("TrackMate", lambda film: trackmate(film, clock="sec")),
+    "xml": ("TrackMate's XML", xml),
+    "simple-xml": ("TrackMate's XML", simple_xml),
+    "tracker": ("Tracker", tracker),
+    "tracker;": ("Tracker", lambda film: tracker(film, ";", comma=True)),
+    "dltdv": ("DLTdv", lambda film: wide(film, DLTDV)),
+    "imagej": ("ImageJ's Results", imagej),
+    "imagej-tab": ("ImageJ's Results", lambda film: imagej(film, sep="\t")),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("kind", SPELT)
+def test_the_film_of_a_tracker_is_that_film(tmp_path: Path, film: Film, kind: str) -> None:
+    """All columns within rounding, one sentence; Y may point either way."""
+    name, write = SPELT[kind]
+    path = tmp_path / ("film.xml" if "xml" in kind else "film.csv")
+    path.write_text(write(film), encoding="utf-8")
+    found = read(path)
+    same(found, film, 1e-6)
+    said = [each for each in found.remarks if "taken for" in each and "table" in each]
+    assert len(said) == 1 and name in said[0]
+
+
+@pytest.mark.parametrize("kind", ["trackpy", "laptrack", "napari", "trackmate"])
+def test_numbers_and_order_of_rows_do_not_matter(tmp_path: Path, film: Film, kind: str) -> None:
+    """Particles renumbered, frames counted from 1000, rows in any order."""
+    later = film | {"frame": film["frame"] + 1000}
+    head, *rows = SPELT[kind][1](later).splitlines()
+    names = 3 if kind == "trackmate" else 0
+    shuffled = [rows[k] for k in np.random.default_rng(3).permutation(np.arange(names, len(rows)))]
+    (tmp_path / "film.csv").write_text("\n".join([head, *rows[:names], *shuffled]) + "\n", encoding="utf-8")
+    same(read(tmp_path / "film.csv"), film, 1e-6)
+    table = long_table(film).assign(particle=lambda each: np.where(each.particle == 0, 17, 4))
+    same(read(table.sample(frac=1, random_state=1)), film)
+    same(read(table.set_index("frame", drop=False)), film)
+    same(read(table.set_index(["frame", table.index])), film)
+
+
+def crowd(film: Film) -> pd.DataFrame:
+    """The film with one particle that rests and one that passes far away."""
+    frames, table = film["frame"], long_table(film)
+    others = [pd.DataFrame({"frame": frames, "x": x, "y": y, "particle": k})
+              for k, x, y in ((8, 900.0, 900.0), (9, 50 + 3.0 * frames, 20.0))]  # fmt: skip
+    return pd.concat([table, *others]).sort_values(["frame", "particle"], ignore_index=True)
+
+
+def test_of_several_the_two_that_meet_or_that_are_named(tmp_path: Path, film: Film) -> None:
+    """Without an option those that meet; a track that goes on under another number is joined by "+"."""
+    table = crowd(film)
+    found = read(table)
+    same(found, film)
+    assert any("particles 0 and 1" in each for each in found.remarks)
+    for pair in ("0,1", (1, 0), ["0", "1"]):
+        same(read(table, particles=pair), film)
+    late = (table.particle == 1) & (table.frame > 35)
+    broken = table.assign(particle=np.where(late, 12, table.particle))
+    with pytest.raises(InputError, match="particles"):
+        read(broken.assign(particle=np.where((broken.particle == 0) & (broken.frame > 35), 11, broken.particle)))
+    same(read(broken, particles="0,1+12"), film)
+    with pytest.raises(InputError, match="particles"):
+        read(table, particles="0,5")
+    table.to_csv(tmp_path / "film.csv")
+    words = ("tracks", tmp_path / "film.csv", "lactose-pvp", "--rate", RATE, "--scale", "2 um")
+    done = run(*words, "--particles", "0,1")
+    assert done.exit_code == 0 and "trackpy" in done.output
+    assert run(*words, "--particles", "0,1,8").exit_code == 2
+    twins = pd.concat([table, table.assign(particle=table.particle + 20, y=table.y + 5000)])
+    with pytest.raises(InputError, match="0,1; 20,21"):
+        read(twins)
+    three = film | {"x3": 0 * film["x1"], "y3": 0 * film["x1"]}
+    same(read(three), film)
+    same(read(three, particles="1,2"), film)
+
+
+def test_two_that_are_one_spot_while_they_touch(film: Film) -> None:
+    """TrackMate gives both the number of one track, and frames of contact one row."""
+    table = long_table(film)
+    distance = np.hypot(film["x2"] - film["x1"], film["y2"] - film["y1"])
+    merged = table.assign(particle=0)[~(table.frame.isin(film["frame"][distance < 156]) & (table.particle == 1))]
+    found = read(merged)
+    assert found.columns["speed"] == pytest.approx(read(film).columns["speed"], rel=1e-2)
+    assert found.columns["delay"] == pytest.approx(read(film).columns["delay"], rel=2e-2)
+    assert any("linked from frame to frame" in each for each in found.remarks)
+
+
+def test_what_is_none_of_these_says_what_is_accepted(tmp_path: Path, film: Film) -> None:
+    """A table without positions, dust among nameless rows, an XML of something else: refused, and how it should be."""
+    (tmp_path / "film.xml").write_text("<svg></svg>")
+    dusty = pd.concat([long_table(film), pd.DataFrame({"frame": [3.0], "x": [1.0], "y": [1.0], "particle": [5.0]})])
+    for wrong, words in (
+        ({"frame": [1, 2, 3], "speed": [1, 2, 3]}, "trackpy, LapTrack, napari"),
+        (dusty.drop(columns="particle"), "has 3 rows on frame 3"),
+        (long_table(film).drop(columns="frame"), "has no frame"),
+        (tmp_path / "film.xml", "TrackMate"),
+        (tmp_path / "no.csv", "is no file"),
+    ):
+        with pytest.raises(InputError, match=words):
+            read(wrong)
+
+
+def test_a_clock_that_cannot_be_a_cameras_asks_for_the_rate(film: Film) -> None:
+    """600/s of an AVI, whole milliseconds of Matroska, frame numbers: refused without a rate, and said."""
+    table, frame = long_table(film), long_table(film).frame
+    for times, words in ((frame / 600, "AVI"), ((frame / 0.7).round() / 1e3, "Matroska"), (frame, "numbers of the")):
+        timed = table.assign(**{"time [s]": times})
+        with pytest.raises(InputError, match=f"^rate: .*{words}"):
+            tracks(timed, "lactose-pvp", scale=PIXEL)
+        found = read(timed)
+        same(found, film)
+        assert any(words in each and "not used" in each for each in found.remarks)
+    true = table.assign(**{"time [s]": frame / RATE})
+    same(tracks(true, "lactose-pvp", scale=PIXEL), film, 1e-6)
+    same(read(true.assign(**{"time [s]": frame / 600}).drop(columns="frame")), film, 1e-6)
