@@ -4,8 +4,8 @@
 
 Blocks of `python` on a page run one after another in one process; blocks of `console` and `sh` line by line. A command
 whose line ends in `# exit status N` has to leave with that. Notebooks are executed when the site is built; commands
-beside their cells run here. What pages compile is compiled as the tests compile it (`-O0`, unless flags are given), so
-that a cache of kernels serves both.
+beside their cells run here. What pages compile is compiled quickly (`-Og`, unless flags are given), as for the site, so
+that both can share a cache of kernels.
 """
 
 from __future__ import annotations
@@ -62,7 +62,7 @@ def run(page: Path) -> list[str]:
     """Run a page; what failed, a line each."""
     failures: list[str] = []
     path = f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"
-    environment = {"WETDOUBLET_CFLAGS": "-O0", "CFLAGS": "-O0", **os.environ, "PATH": path}
+    environment = {"WETDOUBLET_CFLAGS": "-Og", "CFLAGS": "-O0", **os.environ, "PATH": path}
     with tempfile.TemporaryDirectory() as folder:
         python = "".join(text for language, text in blocks(page) if language == "python")
         lines = [line for language, text in blocks(page) if language != "python" for line in commands(text, language)]
