@@ -22,7 +22,7 @@ class BuildWithKernels(build_py):
     """Python files and compiled kernels; an editable installation compiles its kernels when they are needed.
 
     WETDOUBLET_INSTRUCTION_SETS names the instruction sets that they are compiled for, separated by commas, or "" for
-    none; without it that of this machine, none with derivatives, and no kernels on Windows.
+    none. Without it that of this machine, and few kernels if it has a compiler, all values if not; on Windows none.
     """
 
     def run(self) -> None:
@@ -30,13 +30,7 @@ class BuildWithKernels(build_py):
         if self.editable_mode or SETS == "":
             return
         folder = Path(self.build_lib, *ENGINES.split("."), "taylor", "kernels")
-        command = [
-            sys.executable,
-            "-m",
-            f"{ENGINES}.ship",
-            str(folder),
-            *(SETS.split(",") if SETS else ["--only-values"]),
-        ]
+        command = [sys.executable, "-m", f"{ENGINES}.ship", str(folder), *(SETS.split(",") if SETS else ["--for-here"])]
         path = os.pathsep.join([self.build_lib, *filter(None, [os.environ.get("PYTHONPATH")])])
         with tempfile.TemporaryDirectory() as cache:
             env = os.environ | {"PYTHONPATH": path, "WETDOUBLET_CACHE": cache}

@@ -4,7 +4,8 @@
 
 Blocks of `python` on a page run one after another in one process; blocks of `console` and `sh` line by line. A command
 whose line ends in `# exit status N` has to leave with that. Notebooks are executed when the site is built; commands
-beside their cells run here.
+beside their cells run here. What pages compile is compiled quickly (`-Og`, unless flags are given), as for the site, so
+that both can share a cache of kernels.
 """
 
 from __future__ import annotations
@@ -17,6 +18,9 @@ import sys
 import tempfile
 from pathlib import Path
 
+from wetdoublet.derive.user.template import TEMPLATE
+from wetdoublet.solvers.scene.scenefile import read_text
+
 ROOT = Path(__file__).resolve().parents[2]
 MADE = ("_build", "_emitted", "auto_gallery", "api", "laws")
 SET_UP = re.compile(
@@ -25,11 +29,11 @@ SET_UP = re.compile(
 )
 """What sets up an environment, or measures for minutes, is run by the integration script or by hand."""
 LONG = re.compile(
-    r"wetdoublet (reproduce|bench|verify|design|fit \S+ \S+ .* --plot|boundary \S+ --angle 0:85 )|--stress"
-    r"|:10000 "
+    r"wetdoublet (reproduce|bench|verify|compile|explore|design|fit \S+ \S+ .* --plot|boundary \S+ --angle 0:85 )"
+    r"|--stress|:10000 "
 )
 """Commands that take tens of seconds: `tests/test_docs.py` holds their options, tests of their own what they do, and
-cells of the pages compute designs and fits."""
+cells of the pages compute designs and fits; the site has an explorer of its own."""
 
 
 def pages() -> list[Path]:
@@ -57,18 +61,17 @@ def commands(text: str, language: str) -> list[str]:
 def run(page: Path) -> list[str]:
     """Run a page; what failed, a line each."""
     failures: list[str] = []
-    environment = {**os.environ, "PATH": f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"}
+    path = f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"
+    environment = {"WETDOUBLET_CFLAGS": "-Og", "CFLAGS": "-O0", **os.environ, "PATH": path}
     with tempfile.TemporaryDirectory() as folder:
-        prepared = [Path(folder) / name for name in ("my-scene.toml", "my.toml", "mine.py")]
         python = "".join(text for language, text in blocks(page) if language == "python")
         lines = [line for language, text in blocks(page) if language != "python" for line in commands(text, language)]
-        if any(path.name in line for path in prepared for line in lines) or "--model mine" in " ".join(lines):
-            _prepare(prepared, folder, environment)
+        for name, text in GIVEN.items():
+            stem = name.partition(".")[0]
+            if any(stem in line for line in lines) and f"--new {stem} " not in " ".join(lines):
+                (Path(folder) / name).write_text(text, encoding="utf-8")
         for data, name in DATA.items():
             shutil.copy(ROOT / "docs/data" / data, Path(folder) / name)
-        for path in prepared:
-            if f"--new {path.stem} " in " ".join(lines):
-                path.unlink(missing_ok=True)  # the page makes it
         for line in lines:
             failures += _one(page, line, folder, environment)
         if python:
@@ -84,19 +87,13 @@ DATA = {
     "synthetic-steel-spheres.csv": "impacts.csv", "films.csv": "films.csv", "materials.csv": "materials.csv",
 }  # fmt: skip
 """Tables of the reader's, and what pages call them."""
+GIVEN = {
+    "my-scene.toml": read_text("granulation")[0], "mine.py": TEMPLATE,
+    "bad.py": TEMPLATE.replace("stress * neck", "stress * R"),
+}  # fmt: skip
+"""A scene and models of the reader's, for pages that name them and do not make them."""
 PREAMBLE = "import numpy as np\nst, theta = np.array([0.02, 0.03]), np.array([1.3, 1.3])\n"
 """What snippets take for given: arrays of Stokes numbers and angles."""
-
-
-def _prepare(files: list[Path], folder: str, environment: dict[str, str]) -> None:
-    """A scene and a model of the reader's, where a page speaks of them."""
-    for path, command in zip(files, ("scenes granulation", "scenes granulation", "generate --template"), strict=True):
-        text = subprocess.run(["wetdoublet", *command.split()], env=environment, capture_output=True, check=True).stdout
-        path.write_bytes(text)
-    wrong = files[-1].read_text(encoding="utf-8").replace("stress * neck", "stress * R")
-    files[-1].with_name("bad.py").write_text(wrong, encoding="utf-8")
-    made = ["wetdoublet", "generate", "mine.py", "--out", "mine"]
-    subprocess.run(made, cwd=folder, env=environment, check=True, capture_output=True)
 
 
 def _one(page: Path, line: str, folder: str, environment: dict[str, str]) -> list[str]:

@@ -29,15 +29,15 @@ def log_density(x):
 found = fit("pendulum", data, names, prior=prior)
 start = np.log([found.estimates[name].value for name in names])
 random = np.random.default_rng(1)
-walkers = start + 0.05 * random.standard_normal((10, 1)) * [1, -2] + 0.01 * random.standard_normal((10, 2))
+walkers = start + 0.05 * random.standard_normal((8, 1)) * [1, -2] + 0.01 * random.standard_normal((8, 2))
 sampler = emcee.EnsembleSampler(len(walkers), len(names), log_density)
 sampler.random_state = np.random.RandomState(1).get_state()
-sampler.run_mcmc(walkers, 60)
+sampler.run_mcmc(walkers, 30)
 
 samples = arviz.from_emcee(sampler, var_names=["ln x0", "ln p_gt"])
 print(arviz.summary(samples, kind="stats"))
 
-film, pressure = np.exp(sampler.get_chain(discard=20, flat=True)).T
+film, pressure = np.exp(sampler.get_chain(discard=10, flat=True)).T
 figure, axes = plt.subplots(layout="constrained")
 axes.plot(1e6 * film, 1e-6 * pressure, ".", color="#4477aa", markersize=3, alpha=0.5, label="posterior")
 low, high = (

@@ -9,7 +9,7 @@ from collections.abc import Callable, Collection
 from dataclasses import asdict
 from pathlib import Path
 
-from ..host.compiler import CannotCompile, library
+from ..host.compiler import CannotCompile, compiler, library
 from ..host.cores import usable_cores
 from ..host.user_cache import digest_of
 from ..model.key import ModelKey
@@ -18,6 +18,8 @@ from .taylor.shipped import SUFFIX, compilation, name_of
 from .taylor.source import Variant
 
 LIST = Path(__file__).with_name("shipped.json")
+FIRST = "oblique_bridge"
+"""Beginning of the structures of which the README's first commands ask, and four of the presets."""
 
 
 def needed_by_questions() -> tuple[Variant, ...]:
@@ -66,10 +68,17 @@ def pack(folder: Path, suffix: str, wanted: Collection[str], content: Callable[[
         list(pool.map(write, (name for name in wanted if name not in there)))
 
 
-def _compile(folder: Path, sets: list[InstructionSet], structure: str | None, only_values: bool) -> None:
-    """Compile the shipped kernels, all or some of them, into a folder, and remove others from it."""
-    chosen = [each for each in variants() if structure in (None, each.choice.structure)]
-    chosen = [each for each in chosen if not (only_values and each.gradients)]
+def values_for_here() -> list[Variant]:
+    """The variants without derivatives; beside a compiler, which makes the others when asked, those asked for first."""
+    values = [variant for variant in variants() if not variant.gradients]
+    own = compiler()
+    if own is None or "ziglang" in own.command:  # of the build's environment only
+        return values
+    return [variant for variant in values if variant.choice.structure.startswith(FIRST)]
+
+
+def _compile(folder: Path, sets: list[InstructionSet], chosen: Collection[Variant]) -> None:
+    """Compile kernels for instruction sets into a folder, and remove others from it."""
     wanted = {name_of(each, instructions): (each, instructions) for each in chosen for instructions in sets}
     pack(folder, SUFFIX, wanted, lambda name: library(*compilation(*wanted[name])))
 
@@ -81,8 +90,8 @@ if __name__ == "__main__":
     parser = argparse.ArgumentParser(description="Compile the kernels that come with the package.")
     parser.add_argument("folder", type=Path, nargs="?")
     parser.add_argument("sets", nargs="*", help=f"instruction sets [this machine's]: {', '.join(known)}")
-    parser.add_argument("--structure", help="of this structure only")
-    parser.add_argument("--only-values", action="store_true", help="none with derivatives, which take twice as long")
+    parser.add_argument("--structure", help="values of this structure only")
+    parser.add_argument("--for-here", action="store_true", help="values only; beside a compiler, those asked for first")
     parser.add_argument("--list", action="store_true", help="write the list of kernels instead")
     arguments = parser.parse_args()
     if arguments.list:
@@ -94,6 +103,9 @@ if __name__ == "__main__":
         parser.error(f"no such instruction set: {', '.join(sorted(unknown))}; accepted: {', '.join(known)}")
     try:
         sets = [known[name] for name in arguments.sets] or [here()[0]]
-        _compile(arguments.folder, sets, arguments.structure, arguments.only_values)
+        chosen = values_for_here() if arguments.for_here else variants()
+        if arguments.structure:
+            chosen = [each for each in chosen if each.choice.structure == arguments.structure and not each.gradients]
+        _compile(arguments.folder, sets, chosen)
     except CannotCompile as error:
         parser.exit(1, f"the kernels cannot be compiled: {error}\n")

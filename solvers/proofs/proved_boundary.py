@@ -55,7 +55,7 @@ class ProvedBoundary:
 
     Example:
         >>> from wetdoublet.solvers import prove_boundary
-        >>> prove_boundary("granulation", angle="10 deg", stokes=(0.2, 0.5)).changes
+        >>> prove_boundary("granulation", angle="10 deg", stokes=(0.25, 0.35)).changes
         ()
     """
 

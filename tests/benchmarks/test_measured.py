@@ -6,11 +6,8 @@ from typing import Any
 import numpy as np
 import pytest
 from wetdoublet.solvers import Scene, collide
-from wetdoublet.solvers.formatting.markdown import table
 
-from ..helpers.own_arm import described
 from .measured import gradient_work, near, sharp
-from .measured import reference as references
 from .measured.answers import Impact
 from .measured.cold import COMMANDS
 from .measured.gradient_task import Gradients
@@ -32,21 +29,6 @@ def record() -> dict[str, Any]:
     cold = {name: [0.2, 0.1] for name in COMMANDS}
     few: dict[str, Any] = {"repeats": 1, "sets": 2}  # nothing is timed, nothing compiled
     return bench([TINY], (1e-5, 1e-7), cold=lambda: cold, which=which, more=(), fine=(1e-7, 1e-9), **few)
-
-
-@pytest.mark.slow
-def test_reference_values_equal_the_independent_ones(reference: dict[str, Any]) -> None:
-    """What errors are measured against agrees with the 80-bit Taylor series to 1e-11, and knows its own error."""
-    pytest.importorskip("scipy")
-    impact = reference["impact"]
-    scene = described(reference["scene"])
-    asked = scene.with_impact(stokes=impact["stokes"], angle=impact["angle"])
-    found = references.reference(scene, Impact(float(impact["stokes"]), asked.need_impact()[1]))
-    expected = reference["results"]
-    assert not found.problem
-    assert found.outcome == expected["outcome"]
-    assert found.restitution == pytest.approx(expected["restitution"], abs=1e-11 * max(1.0, reference["kappa"] or 1.0))
-    assert found.difference < 1e-8
 
 
 def test_impacts_are_the_same_in_every_run() -> None:
@@ -88,11 +70,6 @@ def test_the_page_is_that_of_its_records() -> None:
     assert document.page(bench, stress, folder.name, law) == folder.with_suffix(".md").read_text()
     front = document.README.read_text()
     assert document.fronted(front, bench) == front
-
-
-def test_tables_line_up() -> None:
-    """A Markdown table whose columns are as wide as their widest cell."""
-    assert table(["a", "long"], [["bcd", "1"]]) == "| a   | long |\n| --- | ---: |\n| bcd |    1 |"
 
 
 @pytest.mark.parametrize("preset", ["granulation", "pendulum"])

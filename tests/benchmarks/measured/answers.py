@@ -1,6 +1,6 @@
 """Input and output of the engines that are compared."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 from wetdoublet.solvers.engines.casadi.locate import EventSequence
 from wetdoublet.solvers.model.dimensionless import DimensionlessGroups, nondimensionalise
@@ -17,11 +17,10 @@ class Impact:
 
 @dataclass(frozen=True)
 class Answer:
-    """Result of a collision; the spins in units of `DimensionlessGroups.rate`, none of a stick."""
+    """Result of a collision."""
 
     outcome: str
     restitution: float
-    spins: dict[str, float] = field(default_factory=dict)
 
 
 def dimensionless(scene: Scene, impact: Impact) -> DimensionlessGroups:
@@ -32,4 +31,4 @@ def dimensionless(scene: Scene, impact: Impact) -> DimensionlessGroups:
 def answer(path: EventSequence) -> Answer:
     """The answer of a located trajectory."""
     outputs = path.model.values("outputs", path.y, path.p) if path.separated else {}
-    return Answer(path.outcome, outputs.get("restitution", 0.0), outputs)
+    return Answer(path.outcome, outputs.get("restitution", 0.0))

@@ -2,21 +2,16 @@
 
 import math
 import time
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from itertools import product
 from typing import Any
 
-from wetdoublet.solvers.engines.casadi import integrators
-from wetdoublet.solvers.engines.casadi.locate import locate
 from wetdoublet.solvers.errors import ComputationError
 from wetdoublet.solvers.formatting.markdown import table
-from wetdoublet.solvers.host import compiled
-from wetdoublet.solvers.model.model import load, select_model
 from wetdoublet.solvers.scene.scene import Scene
 
-from .answers import Answer, Impact, dimensionless
+from .answers import Answer, Impact
 from .peers.bulk import Bulk
 from .peers.engines import HEYOKA, Engine, engines
 
@@ -35,39 +30,7 @@ COPIES, FEW = 20, 2  # of the set in one call of taylor and of heyoka, which cre
 PATIENCE = 20_000  # steps of heyoka a collision
 REPEATS = 3  # the best of so many calls counts
 RESOLVED = 1e2  # times the tolerance: a trajectory nearer than that may end on the other side
-GENERATED = "rosenbrock, generated C"
 THROUGH = "rosenbrock, compiled"
-
-
-class _Clock:
-    """CPU time inside the integrators that are C."""
-
-    def __init__(self, call: Callable[..., Any]) -> None:
-        self.spent, self._call = 0.0, call
-
-    def __call__(self, *arguments: Any, **options: Any) -> Any:
-        start = time.process_time()
-        try:
-            return self._call(*arguments, **options)
-        finally:
-            if not options.get("counted"):  # those that refine a crossing are interpreted
-                self.spent += time.process_time() - start
-
-
-@contextmanager
-def _generated() -> Iterator[_Clock]:
-    """Integrators compiled as well as the compiler can, and the time in them alone."""
-    flags: Any = compiled
-    inner: Any = integrators
-    usual, call = flags.FLAGS, inner._call  # the one place where all integrators are called
-    clock = _Clock(call)
-    integrators.locator.cache_clear()
-    flags.FLAGS, inner._call = ("-O3", *usual[1:]), clock  # as above
-    try:
-        yield clock
-    finally:
-        flags.FLAGS, inner._call = usual, call  # as above
-        integrators.locator.cache_clear()
 
 
 @dataclass(frozen=True)
@@ -96,12 +59,6 @@ def near(tell: Callable[[str], None] = lambda _: None) -> list[Record]:
         tell(f"near the separatrix: {rtol:.0e}, {distance:.0e}")
         sides = beside(distance)
         rows += [_row(each.name, rtol, distance, sides, *_in_bulk(each, scene, sides, rtol)) for each in listed]
-    if any(each.name == THROUGH for each in listed):
-        with _generated() as clock:
-            for rtol, distance in product(RTOLS, DISTANCES):
-                tell(f"near the separatrix, {GENERATED}: {rtol:.0e}, {distance:.0e}")
-                sides = beside(distance)
-                rows.append(_row(GENERATED, rtol, distance, sides, *_inside(clock, scene, sides, rtol)))
     return rows
 
 
@@ -136,24 +93,6 @@ def _patient(scene: Scene, impacts: Sequence[Impact], rtol: float) -> Bulk:
     return Bulk(batch.run, lambda _: [Answer(each, math.nan) if each else "not decided" for each in batch.outcomes])
 
 
-def _inside(clock: _Clock, scene: Scene, sides: Sequence[Side], rtol: float) -> Timed:
-    """As `_in_bulk`, of the integrators in C alone."""
-    trajectories = [(load(select_model(scene, True)), dimensionless(scene, each.impact).groups) for each in sides]
-    best = math.inf
-    for _ in range(2):  # the first builds
-        clock.spent = 0.0
-        answers = [_located(model, groups, rtol) for model, groups in trajectories]
-        best = min(best, clock.spent)
-    return best / len(sides), answers
-
-
-def _located(model: Any, groups: dict[str, float], rtol: float) -> Answer | str:
-    try:
-        return Answer(locate(model, groups, rtol, machine_code=True).outcome, math.nan)
-    except ComputationError as error:
-        return str(error)
-
-
 def _row(
     engine: str, rtol: float, distance: float, sides: Sequence[Side], cpu: float, answers: Sequence[Answer | str]
 ) -> Record:
@@ -170,8 +109,7 @@ NOTE = (
     f"Granulation at {', '.join(f'{each:g}' for each in SEPARATRIX)} deg, both sides of the Stokes number at which a "
     "stick becomes something else (by bisection at rtol 1e-13). CPU time of a collision, mean of both sides, one core; "
     f"taylor gets the set {COPIES} times in one call, heyoka {FEW} times with {PATIENCE} steps a collision. "
-    f"`{GENERATED}` is the time inside the integrators, compiled with -O3 and called through buffers; `{THROUGH}` is "
-    f"`collide_many`, with the rules between them. Where the distance is below {RESOLVED:g} rtol no engine can tell "
+    f"`{THROUGH}` is `collide_many`. Where the distance is below {RESOLVED:g} rtol no engine can tell "
     "the side; there a wrong outcome does not count. One that heyoka gives up has lost the level that proves a "
     "stick."
 )
@@ -187,18 +125,8 @@ def near_text(rows: Sequence[Record]) -> str:
             here = {row["engine"]: row for row in rows if (row["rtol"], row["distance"]) == (rtol, distance)}
             cells.append([f"{distance:.0e}", *(_cell(here[name]) for name in names)])
         parts += [f"rtol {rtol:.0e}, CPU ms a collision:", table(["distance", *names], cells)]
-    ratios = [
-        other["cpu"] / row["cpu"]
-        for row in rows
-        for other in rows
-        if row["engine"] == "taylor" and other["engine"] == GENERATED and row["distance"] <= 1.1e-6
-        if (row["rtol"], row["distance"]) == (other["rtol"], other["distance"])
-    ]
-    if ratios:
-        parts.append(
-            f"Within 1e-6 of it, {GENERATED} takes {min(ratios):.2g} to {max(ratios):.2g} times as long as taylor; "
-            f"taylor fails {sum(row['failed'] for row in rows if row['engine'] == 'taylor')} times."
-        )
+    failed = sum(row["failed"] for row in rows if row["engine"] == "taylor")
+    parts += [f"Failures of taylor: {failed or 'none'}."] if rows else []
     return "\n\n".join(parts)
 
 

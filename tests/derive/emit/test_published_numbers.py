@@ -31,34 +31,24 @@ def _exponential(h: float, V: float, phi: float, slope: float, offset: float, ta
     return exp(A * h + B) + C
 
 
+WILLETT = (
+    ((-0.44507, 0.050832, -1.1466), (-0.1119, -0.000411, -0.1490), (-0.012101, -0.0036456, -0.01255),
+     (-0.0005, -0.0003505, -0.00029076)),
+    ((1.9222, -0.57473, -1.2918), (-0.0668, -0.1201, -0.22574), (-0.0013375, -0.0068988, -0.01137)),
+    ((1.268, -0.01396, -0.23566), (0.198, 0.092, -0.06418), (0.02232, 0.02238, -0.009853),
+     (0.0008585, 0.001318, -0.00053)),
+    ((-0.010703, 0.073776, -0.34742), (0.03345, 0.04543, -0.09056), (0.0018574, 0.004456, -0.006257)),
+)  # fmt: skip
+"""Of f1 to f4, by powers of ln V: coefficients of 1, phi and phi^2."""
+
+
 def _willett(h: float, V: float, phi: float) -> float:
     lnS, L = ln(h / (2 * sqrt(V))), ln(V)
 
     def term(p: float, q: float, r: float) -> float:
         return p + q * phi + r * phi**2
 
-    f1 = (
-        term(-0.44507, 0.050832, -1.1466)
-        + term(-0.1119, -0.000411, -0.1490) * L
-        + term(-0.012101, -0.0036456, -0.01255) * L**2
-        + term(-0.0005, -0.0003505, -0.00029076) * L**3
-    )
-    f2 = (
-        term(1.9222, -0.57473, -1.2918)
-        + term(-0.0668, -0.1201, -0.22574) * L
-        + term(-0.0013375, -0.0068988, -0.01137) * L**2
-    )
-    f3 = (
-        term(1.268, -0.01396, -0.23566)
-        + term(0.198, 0.092, -0.06418) * L
-        + term(0.02232, 0.02238, -0.009853) * L**2
-        + term(0.0008585, 0.001318, -0.00053) * L**3
-    )
-    f4 = (
-        term(-0.010703, 0.073776, -0.34742)
-        + term(0.03345, 0.04543, -0.09056) * L
-        + term(0.0018574, 0.004456, -0.006257) * L**2
-    )
+    f1, f2, f3, f4 = (sum(term(*row) * L**k for k, row in enumerate(rows)) for rows in WILLETT)
     return 2 * exp(f1 - f2 * exp(f3 * lnS + f4 * lnS**2))
 
 
@@ -258,31 +248,14 @@ def test_emitted_groups_are_the_published_ones():
         extra = {"rho": draw.uniform(700, 1300), "p": 10 ** draw.uniform(6, 8), "E": 2e11, "nu": 0.28, "b": 1e-6}
         a, m, mu, x0, v0 = (scene[key] for key in ("a", "m", "mu", "x0", "v0"))
         si = {
-            "reduced_radius": a,
-            "reduced_mass": m,
-            "viscosity": mu,
-            "film_thickness": x0,
-            "speed": v0,
-            "angle": scene["theta"],
-            "surface_tension": scene["sigma"],
-            "volume": scene["V"],
-            "contact_angle": scene["phi"],
-            "string_length": scene["l"],
-            "gravity": scene["g"],
-            "density": extra["rho"],
-            "glass_transition_pressure": extra["p"],
-            "youngs_modulus": extra["E"],
-            "poisson_ratio": extra["nu"],
-            "roughness": extra["b"],
-            "hamaker": 1e-19,
-            "radius_ratio": 2.5,
-            "initial_rate": 7.0,
-            "attraction_force": 3e-5,
-            "impact_spin": scene["spin"],
-            "impact_partner_spin": -2 / a,
-            "obliquity": 1.7,
-            "rate_scale": 11.0,
-        }
+            "reduced_radius": a, "reduced_mass": m, "viscosity": mu, "film_thickness": x0, "speed": v0,
+            "angle": scene["theta"], "surface_tension": scene["sigma"], "volume": scene["V"],
+            "contact_angle": scene["phi"], "string_length": scene["l"], "gravity": scene["g"],
+            "density": extra["rho"], "glass_transition_pressure": extra["p"], "youngs_modulus": extra["E"],
+            "poisson_ratio": extra["nu"], "roughness": extra["b"], "hamaker": 1e-19, "radius_ratio": 2.5,
+            "initial_rate": 7.0, "attraction_force": 3e-5, "impact_spin": scene["spin"],
+            "impact_partner_spin": -2 / a, "obliquity": 1.7, "rate_scale": 11.0,
+        }  # fmt: skip
         turns = {name: [draw.uniform(-300, 300) for _ in range(3)] for name in ("turning", "spin", "partner_spin")}
         si |= {f"impact_{name}_{axis}": value for name, own in turns.items() for axis, value in zip("xyz", own)}
         theta_e = 2 * (1 - extra["nu"] ** 2) / (pi * extra["E"])

@@ -19,19 +19,8 @@ FREE = [word for word in WORDS if word not in VOCABULARY]
 def test_the_list_has_every_kind_of_word():
     """Keywords of Python, C and C++, functions of mathematics, and arguments, variables and imports of emitted code."""
     c = {"double", "int", "register", "restrict", "template", "new", "namespace", "near", "linux"}
-    emitted = {
-        "gap_over_radius",
-        "film_force",
-        "state",
-        "groups",
-        "laws",
-        "distance",
-        "result",
-        "if_else",
-        "fmax",
-        "min",
-    }
-    assert {*keyword.kwlist, *c, *emitted, "sqrt", "exp", "viscosity"} <= taken().keys()
+    emitted = {"gap_over_radius", "film_force", "state", "groups", "laws", "distance", "result", "if_else", "fmax"}
+    assert {*keyword.kwlist, *c, *emitted, "min", "sqrt", "exp", "viscosity"} <= taken().keys()
 
 
 @pytest.mark.parametrize(
@@ -61,16 +50,18 @@ def test_a_law_may_bear_any_word():
 
 @pytest.mark.slow
 def test_parts_that_bear_reserved_words_are_the_same_law():
-    """Values of an emitted law whose every part has a word that means something, and with harmless names: equal."""
-    body = "".join(f'p{k} = let("{word}", {k + 2}*x/R + V)\n' for k, word in enumerate(FREE))
-    total = "+".join(f"p{k}*p{k - 1}" for k in range(1, len(FREE)))
-    plain = HEAD + "".join(f'p{k} = let("part_{k}", {k + 2}*x/R + V)\n' for k in range(len(FREE)))
-    end = f'law("bridge", "mine", force=pi*R*sigma*sqrt({total}))'
-    values = []
-    for text in (HEAD + body + end, plain + end):
-        space: dict = {}
-        exec(law_module(read(Path("mine.py"), text).laws[0]), space)  # what is emitted
-        values.append(float(casadi.DM(space["force"](0.3, 0.1, 0.2))))
-    assert values[0] == pytest.approx(values[1], rel=1e-13)  # the order of a sum's terms is that of their names
+    """Values of emitted laws whose every part has a word that means something, and with harmless names: equal."""
+    for first in range(0, len(FREE), 8):  # many laws of few parts take less than one of all
+        words = FREE[first : first + 8]
+        values = []
+        for names in (words, [f"part_{k}" for k in range(len(words))]):
+            parts = "".join(f'p{k} = let("{name}", {k + 2}*x/R + V)\n' for k, name in enumerate(names))
+            total = "+".join(f"p{k}*p{k - 1}" for k in range(len(names)))  # the first by the last
+            body = f'{parts}law("bridge", "mine", force=pi*R*sigma*sqrt({total}))'
+            body = body.replace("p-1", f"p{len(names) - 1}")
+            space: dict = {}
+            exec(law_module(read(Path("mine.py"), HEAD + body).laws[0]), space)  # what is emitted
+            values.append(float(casadi.DM(space["force"](0.3, 0.1, 0.2))))
+        assert values[0] == pytest.approx(values[1], rel=1e-13)  # the order of a sum's terms is that of their names
     with collecting(), pytest.raises(ModelFileError, match="'viscosity' is taken already: it is a quantity of the lib"):
         let("viscosity", x)

@@ -14,9 +14,6 @@ Record = dict[str, Any]
 BOUND = 1e-8  # of the largest error, at which costs are compared
 
 
-BY_HAND = "by hand"  # a kernel that is no part of this project; in records of runs that had it
-
-
 class Cost(NamedTuple):
     """Seconds, and the largest error of it."""
 
@@ -25,12 +22,11 @@ class Cost(NamedTuple):
 
 
 def cheapest(rows: list[tuple[str, Cost]], *names: str) -> Cost | None:
-    """The least cost of engines within the bound, of the kernel made by hand by any order; None if it never is.
+    """The least cost of engines within the bound; None if it never is.
 
     A peer without its callbacks is given both ways of its measurement: it costs no more than with them.
     """
-    named = [cost for own, cost in rows if own in names or (BY_HAND in names and own.startswith(BY_HAND))]
-    return min((cost for cost in named if cost.error <= BOUND), default=None)
+    return min((cost for own, cost in rows if own in names and cost.error <= BOUND), default=None)
 
 
 def of_collisions(task: Record) -> list[tuple[str, Cost]]:
@@ -53,19 +49,19 @@ def of_gradients(task: Record) -> list[tuple[str, Cost]]:
 
 
 def three_ways(record: Record) -> str:
-    """As a Python user gets it, without its callbacks, ours; and a kernel made by hand where one was measured."""
+    """As a Python user gets it, without its callbacks, ours."""
     rows = []
     for task in record["tasks"]:
-        names = ((HEYOKA,), (HEYOKA_ALONE, HEYOKA), ("taylor",), (KERNEL,), (BY_HAND,))
+        names = ((HEYOKA,), (HEYOKA_ALONE, HEYOKA), ("taylor",), (KERNEL,))
         costs = of_collisions(task)
         rows.append(_row(f"{task['preset']}, collision", [cheapest(costs, *each) for each in names]))
     for task in record["gradient_work"]:
         names = ((VARIATIONAL,), (VARIATIONAL_ALONE, VARIATIONAL), ("gradients_many",), (KERNEL,))
         costs = of_gradients(task)
         found = [cheapest(costs, *each) for each in names]
-        rows.append(_row(f"{task['preset']}, gradient to {len(task['parameters'])} parameters", [*found, None]))
+        rows.append(_row(f"{task['preset']}, gradient to {len(task['parameters'])} parameters", found))
     head = ["CPU us (largest error)", "heyoka in Python", "without callbacks", "ours", "our kernel alone"]
-    return table([*head, "made by hand", "heyoka in Python / ours", "without callbacks / ours"], rows)
+    return table([*head, "heyoka in Python / ours", "without callbacks / ours"], rows)
 
 
 def _row(what: str, costs: list[Cost | None]) -> list[str]:
@@ -92,8 +88,6 @@ a stick are a compiled function of heyoka's, called from there.
   Somebody who calls heyoka from C++ waits at least so long: what callbacks do costs something there as well. There is
   no driver in C++ here, as neither PyPI's nor Debian's packages hold heyoka's headers.
 * **Ours**: `collide_many` and `gradients_many` as a user calls them; "kernel alone" leaves out what these add.
-* **Made by hand**: a kernel for granulation alone, which is no part of this project; "-" where it was not measured. It
-  looks for events at four points of a step, and its parameters are computed beforehand, for nothing.
 
 All get the same collisions, none of which is decided at initial contact by any of our proofs. heyoka does not get our
 jump along the slow manifold, nor the bound of the impulse where a trajectory turns."""

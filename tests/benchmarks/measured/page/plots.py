@@ -24,7 +24,6 @@ _STYLES = {  # Okabe-Ito colours, a marker each, peers dashed
     "diffrax Tsit5": ("#7F7F7F", "<", "--"),
     "scipy LSODA": ("#CC79A7", "^", "--"),
     "scipy Radau": ("#202020", "v", "--"),
-    "rosenbrock, generated C": ("#D55E00", "s", "-"),
     "gradients_many": ("#E69F00", "*", "-"),
     "rosenbrock, forward": ("#D55E00", "s", "-"),
     "rosenbrock, adjoint": ("#0072B2", "o", "-"),

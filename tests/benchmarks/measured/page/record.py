@@ -2,8 +2,7 @@
 
     python -m tests.benchmarks.measured.page.record FOLDER
 
-Measures everything that is in it: some minutes, the first time longer, as integrators are compiled. The second folder
-holds a kernel made by hand (`peers/by_hand.py`), measured beside the others where it is named.
+Measures everything that is in it: some minutes, the first time longer, as integrators are compiled.
 """
 
 import argparse

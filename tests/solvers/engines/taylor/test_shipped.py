@@ -8,8 +8,9 @@ import sys
 from pathlib import Path
 
 import pytest
-from wetdoublet.solvers import Scene, compile_kernels
+from wetdoublet.solvers import Scene
 from wetdoublet.solvers.engines import machine, ship
+from wetdoublet.solvers.engines.kernels import needed
 from wetdoublet.solvers.engines.settings import RTOL
 from wetdoublet.solvers.engines.taylor import shipped
 from wetdoublet.solvers.engines.taylor.orders import order_backward
@@ -72,17 +73,8 @@ def built(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def build(folder: Path, *sets: str) -> Path:
-    command = [
-        sys.executable,
-        "-m",
-        ship.__name__,
-        str(folder),
-        *sets,
-        "--structure",
-        "head_on_bridge",
-        "--only-values",
-    ]
-    subprocess.run(command, env=without_flags(), check=True)
+    command = [sys.executable, "-m", ship.__name__, str(folder), *sets]
+    subprocess.run([*command, "--structure", "head_on_bridge"], env=without_flags(), check=True)
     return folder
 
 
@@ -166,8 +158,20 @@ def test_the_bytes_are_reproducible(built: Path, tmp_path: Path) -> None:
     assert {path.name for path in build(tmp_path / "again").iterdir()} == {path.name for path in built.iterdir()}
 
 
-@pytest.mark.skipif(not shipped.FOLDER.is_dir(), reason="an editable installation ships none")
-def test_an_installation_has_the_kernels_of_every_preset(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Of values at the default tolerance; a wheel that is published has derivatives, too (.ci/installed.py)."""
-    monkeypatch.delenv("WETDOUBLET_CFLAGS")
-    assert all(each.already for each in compile_kernels(PRESETS))
+@needs_compiler
+def test_beside_a_compiler_an_installation_has_the_kernels_of_its_first_questions(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Those of oblique collisions of granulation, without derivatives, which the README's commands ask for."""
+    wanted = {variant for _, oblique, variant in needed(Scene.load("granulation"), [RTOL], False) if oblique}
+    assert {*ship.values_for_here()} == wanted
+    if shipped.FOLDER.is_dir():
+        monkeypatch.delenv("WETDOUBLET_CFLAGS")  # with which nothing shipped is used
+        assert all(map(shipped.is_shipped, wanted))
+
+
+def test_without_a_compiler_an_installation_has_the_values_of_every_preset(monkeypatch: pytest.MonkeyPatch) -> None:
+    """At the default tolerance; a wheel that is published has derivatives, too (.ci/installed.py)."""
+    monkeypatch.setattr(ship, "compiler", lambda: None)
+    there = {*ship.values_for_here()}
+    assert {variant for name in PRESETS for _, _, variant in needed(Scene.load(name), [RTOL], False)} == there
