@@ -298,8 +298,10 @@ def _duplicates(data: Measurements) -> list[Finding]:
 
 
 def _telling(scene: Scene, data: Measurements, seen: _Predicted) -> dict[str, int]:
-    """Entry -> number of rows of which the outcome, or the restitution beyond its noise, differs if it is changed."""
-    noise = data.observed["restitution"][1] if "restitution" in data.observed else np.full(data.size, np.inf)
+    """Entry -> number of rows of which the outcome, or what was measured beyond its noise, differs if it is changed."""
+    impacts, measured = (np.arange(data.size), data.normal_speed, data.angle), tuple(data.observed)
+    noise = [np.where(np.isnan(values), np.inf, sd) for values, sd in data.observed.values()]
+    before = _as_it_is(scene, data).plain(measured, *impacts) if measured else np.zeros((0, data.size))
     counts = {}
     for name in (each for each in free_names(scene) if each not in data.columns):
         rows = rows_of(scene, (name,), data, RTOL)
@@ -308,9 +310,10 @@ def _telling(scene: Scene, data: Measurements, seen: _Predicted) -> dict[str, in
         for moved in (value - _PART, value + _PART) if bounded else (value / _FACTOR, value * _FACTOR):
             experiment = rows.at(np.array([moved])) if scene.fields[name].range.holds(moved) else None
             if experiment is not None:
-                other = _predicted(experiment, data)
-                differs |= (other.outcome != seen.outcome) & (other.outcome >= 0)
-                differs |= np.abs(np.nan_to_num(other.restitution - seen.restitution)) > noise
+                outcome = experiment.outcomes(*impacts, kernel_only=True)
+                differs |= (outcome != seen.outcome) & (outcome >= 0)
+                for after, of_seen, sd in zip(experiment.plain(measured, *impacts) if measured else (), before, noise):
+                    differs |= np.abs(np.nan_to_num(after - of_seen)) > sd
         counts[name] = int(np.count_nonzero(differs))
     return counts
 

@@ -87,10 +87,9 @@ def read_film(source: Any, particles: Any, solids: float, lengths: Units) -> Fil
     kind, columns, lines = _table(source)
     given = ", ".join(column.name for column in columns)
     words = [re.sub(r"\W+", "_", column.name.strip().lower()).strip("_") for column in columns]
-    for k, word in enumerate(words):
-        if word in words[:k]:
-            raise InputError("tracks, header", columns[k].name, "each column once", "is given twice")
-    by_word = dict(zip(words, columns))
+    by_word: dict[str, Column] = {}
+    for word, column in zip(words, columns):
+        by_word[word] = _same(by_word.get(word, column), column)
     known = {name: replace(by_word[word], name=name) for name, spelt in _SPELT.items()
              for word in [next((each for each in spelt.split() if each in by_word), None)] if word}  # fmt: skip
     if not kind:
@@ -199,9 +198,11 @@ def _one_header(text: str) -> tuple[str, str]:
     for k in rows:
         cells = [cell.strip().strip('"') for cell in lines[k].split(separator)]
         axes = [re.sub(r"\W.*", "", cell.lower()) for cell in cells]
+        axes = axes if "x" in axes else [axis.removeprefix("pixel") for axis in axes]  # Tracker's in pixels
         if k > rows[0] and axes.count("x") > 1 and axes.count("y") > 1:
-            names = [f"{body}_{cell}" if axis in ("x", "y") else "frame" if axis == "coords" else cell
-                     for body, cell, axis in zip(above, cells, axes)]  # fmt: skip
+            names = [f"{body}_{cell.lower().removeprefix('pixel')}" if axis in ("x", "y") else
+                     "frame" if axis == "coords" else cell if axis in ("t", "frame") else f"{cell}_{j}" * bool(cell)
+                     for j, (body, cell, axis) in enumerate(zip(above, cells, axes))]  # fmt: skip
             kind = _TRACKER if text.lstrip().lower().startswith("#multi") else "bodies side by side"
             return kind, "\n".join([*[""] * k, separator.join(names), *lines[k + 1 :]])
         filled = [next((each for each in cells[j::-1] if each), "") for j in range(len(cells))]
@@ -340,7 +341,7 @@ def _meeting(table: pd.DataFrame, solids: float) -> tuple[list[str], list[str]]:
         problem = (
             f"may be several that come near each other: {several}"
             if meet
-            else "are none: do their tracks break, or is the scale off?"
+            else "come near each other nowhere: do their tracks break, or is the scale off?"
         )
         raise InputError("particles", None, accepted, problem)
     return [meet[0][0]], [meet[0][1]]
@@ -352,6 +353,14 @@ def _calibrated(columns: dict[str, Column], solids: float) -> dict[str, Column]:
     nearest = np.nanmin(np.hypot(x2 - x1, y2 - y1), initial=math.inf)
     unit = {"time": "s"} | dict.fromkeys(PLACES if 0.5 < nearest / solids < 2 else (), "m")
     return {name: replace(each, unit=each.unit or unit.get(name)) for name, each in columns.items()}
+
+
+def _same(first: Column, again: Column) -> Column:
+    """A column that is written twice: trackpy's frame is index and column, and Tracker's stands with each mass."""
+    cells = [(each, other) if str(each).strip() else (other, each) for each, other in zip(first.cells, again.cells)]
+    if any(str(other).strip() not in ("", str(each).strip()) for each, other in cells):
+        raise InputError("tracks, header", again.name, "each column once", "is given twice, with different cells")
+    return replace(first, cells=[each for each, _ in cells])
 
 
 def _number(cell: Any) -> float:

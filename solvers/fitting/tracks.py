@@ -163,6 +163,8 @@ def tracks(
     if loaded.radius_ratio is None or loaded.pendulum is not None:
         raise InputError("tracks", loaded.name, "two spheres in free flight", "has a wall or strings")
     pixel = None if scale is None else _size(scale, "m", "scale", plain=None)
+    if not isinstance(scale_sd, (int, float)) or not 0 <= scale_sd < 1:
+        raise InputError("scale_sd", scale_sd, "a number from 0 to below 1, as 0.005")
     per_frame = None if rate is None else 1 / _size(rate, "1/s", "rate")
     radii = 2 * loaded.particles.reduced_radius * (1 + loaded.radius_ratio)
     found = read_film(film, particles, radii, lambda column: _factor(column, "m", pixel, "scale"))
@@ -214,7 +216,10 @@ def tracks(
         raise left_out[0]
     remarks.append(found.remark)
     if rate is not None and per_frame is None:
-        remarks.append(f"the rate {rate} is not used: the times are those of the column time")
+        why = "the times are those of the column time. With a column frame the rate counts"
+        remarks.append(f"the rate {rate} is not used: {why}")
+    if scale is not None and known["x1"].unit not in _PIXELS:
+        remarks.append(f"the scale {scale} is not used for the positions: these are in {known['x1'].unit}")
     gaps = f"x0 = {1e6 * loaded.liquid.film_thickness:.4g} um and x_f = {1e6 * loaded.rupture_gap:.4g} um"
     remarks.append(
         f"Speed, angle, e_n, e_t, contact time and rotation are those at the scene's gaps, {gaps}; no standard "
@@ -267,7 +272,7 @@ def _impact(
     def check_count() -> None:
         for part, side in ((before, "before the impact"), (after | sticks, "after the separation")):
             if part.sum() < LEAST:
-                problem = f"has {int(part.sum())} {side}"
+                problem = f"has {int(part.sum())} frames {side}: is the scale off?"
                 raise InputError(where, None, f"at least {LEAST} frames {side}", problem)
 
     check_count()
@@ -327,7 +332,7 @@ def _impact(
     first, last = int(np.flatnonzero(used[0])[-1]) + 1, int(np.flatnonzero(used[1])[0]) - 1 if not sticks else last
     sigma = noise or math.sqrt(sum(line[2] for line in lines) / sum(line[3] for line in lines))
     if sigma > _BLURRED * solids:
-        problem = f"scatter by {sigma / math.sqrt(2):.3g} m about their lines: look at the tracker's settings"
+        problem = f"scatter by {sigma / math.sqrt(2):.3g} m about their lines: look at the scale and the tracker"
         raise InputError(where, None, f"centres to {_BLURRED / math.sqrt(2):.2g} of the touching distance", problem)
     turned = np.unwrap(np.arctan2(relative[:, 1], relative[:, 0]))
     for part, reach, (course, *_) in zip((before, after), (touch, sure), lines):

@@ -103,7 +103,13 @@ _CSV = "a CSV file whose first line names the columns, such as speed [m/s],angle
 def text_of(source: str | Path, label: str, accepted: str = _CSV) -> str:
     """The text of a file; InputError if it cannot be read."""
     try:
-        return bounded.read(Path(source), _LARGEST).decode("utf-8-sig")
+        content = bounded.read(Path(source), _LARGEST)
+        try:
+            return content.decode("utf-8-sig")
+        except UnicodeDecodeError:
+            if b"\0" in content:
+                raise
+            return content.decode("cp1252")  # ° and µ as Excel and Fiji write them on Windows
     except FileNotFoundError:
         raise InputError(label, str(source), accepted, "is no file") from None
     except bounded.NotRead as reason:

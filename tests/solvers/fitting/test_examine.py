@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from wetdoublet.generated.automaton import OUTCOMES
-from wetdoublet.solvers import Scene, check_data, collide, fit
+from wetdoublet.solvers import Scene, check_data, collide, fit, tracks
 from wetdoublet.solvers.fitting.measurements import UNKNOWN, Measurements, read_data
 
 from tests.helpers.command import run
@@ -139,6 +139,32 @@ def test_outliers_and_duplicates_are_named() -> None:
     assert ("outlier", f"row {wrong + 1}") in found
     assert {("duplicate", f"row {copied + 1}"), ("duplicate", "row 61")} <= found
     assert len(found) == 4
+
+
+def test_entries_that_a_contact_time_tells() -> None:
+    """As many impacts as last visibly longer or shorter, by single collisions, at half or twice the entry."""
+    speeds = np.linspace(0.42, 1.2, 8)
+    expected = [collide(PENDULUM, speed=speed, angle=0.0).contact_time for speed in speeds]
+    data = {"speed": speeds, "angle": np.zeros(8), "contact_time": expected, "contact_time_sd": np.full(8, 2e-4)}
+    telling = check_data(data, PENDULUM).telling
+    for name in ("liquid.viscosity", "liquid.film_thickness", "particles.roughness"):
+        value = float(PENDULUM.entries[name])
+        differ = np.zeros(8, bool)
+        for factor in (0.5, 2.0):
+            scene = PENDULUM.with_entries({name: factor * value})
+            for k, speed in enumerate(speeds):
+                other = collide(scene, speed=speed, angle=0.0)
+                differ[k] |= other.outcome == "stick" or abs(other.contact_time - expected[k]) > 2e-4
+        assert telling[name] == differ.sum()
+    assert telling["liquid.viscosity"] > 0
+
+
+def test_a_film_is_checked_by_what_is_measured_in_free_flight() -> None:
+    """The viscosity, which a fit of these films finds to some percent, changes what they show."""
+    films = Path(__file__).parents[3] / "docs" / "data" / "films.csv"
+    checked = check_data(tracks(films, "granulation", rate=2e5, scale=2e-6).columns, "granulation")
+    assert checked.telling["liquid.viscosity"] == 10
+    assert checked.telling["particles.roughness"] == 0
 
 
 def test_entries_that_the_data_cannot_tell() -> None:

@@ -93,6 +93,29 @@ def tracker(film: Film, separator: str = "\t", comma: bool = False) -> str:
     return "\n".join(rows) + "\n"
 
 
+def tracker_with_frames(film: Film, pixels: bool = False) -> str:
+    """Of each mass the frame, empty where it is not marked, the position and that in pixels, or the latter alone."""
+    names = ["pixelx", "pixely"] if pixels else ["frame", "x", "y", "pixelx", "pixely"]
+    rows = ["#multi:", ",mass A" + "," * len(names) + "mass B" + "," * len(names), ",".join(["t", *names, *names, ""])]
+    for k, frame in enumerate(film["frame"]):
+        row = [f"{frame / 30:.6E}"]
+        for body in "12":
+            x, y = (film[axis + body][k] for axis in "xy")
+            own = {"frame": f"{frame:.6E}", "x": f"{PIXEL * x:.12E}", "y": f"{PIXEL * y:.12E}", "pixelx": f"{x:.3f}"}
+            row += ["" if k == 3 and body == "2" else (own | {"pixely": f"{480 - y:.3f}"})[name] for name in names]
+        rows.append(",".join([*row, ""]))
+    return "\n".join(rows) + "\n"
+
+
+def deeplabcut(film: Film) -> str:
+    """Three rows of names, a likelihood of each body."""
+    columns = {("DLC_resnet", body, name): film[f"{name}{k}"] if name in "xy" else [1 - 0.1 * k]
+               for k, body in ((1, "left"), (2, "right")) for name in ("x", "y", "likelihood")}  # fmt: skip
+    size = film["frame"].size
+    table = pd.DataFrame({name: np.resize(values, size) for name, values in columns.items()}, index=film["frame"])
+    return table.rename_axis(columns=["scorer", "bodyparts", "coords"]).to_csv()
+
+
 def imagej(film: Film, **csv: object) -> str:
     """Results: a blank first name, counting from 1, no particle; the larger spheres first on some frames."""
     table = long_table(film).sort_values(["frame", "y"])
@@ -127,6 +150,10 @@ SPELT: dict[str, tuple[str, Callable[[Film], str]]] = {
     "simple-xml": ("TrackMate's XML", simple_xml),
     "tracker": ("Tracker", tracker),
     "tracker;": ("Tracker", lambda film: tracker(film, ";", comma=True)),
+    "deeplabcut": ("bodies", deeplabcut),
+    "trackpy-filter-stubs": (
+        "trackpy", lambda film: long_table(film).assign(mass=9.5).set_index("frame", drop=False).to_csv()
+    ),
     "dltdv": ("DLTdv", lambda film: wide(film, DLTDV)),
     "imagej": ("ImageJ's Results", imagej),
     "imagej-tab": ("ImageJ's Results", lambda film: imagej(film, sep="\t")),
@@ -143,6 +170,55 @@ def test_the_film_of_a_tracker_is_that_film(tmp_path: Path, film: Film, kind: st
     same(found, film, 1e-6)
     said = [each for each in found.remarks if "taken for" in each and "table" in each]
     assert len(said) == 1 and name in said[0]
+
+
+def test_frames_and_pixels_of_tracker(tmp_path: Path, film: Film) -> None:
+    """A frame beside each mass, empty where one is not marked: it counts with a rate, the time does not.
+
+    Pixels alone are read with a scale; different cells under one name are refused.
+    """
+    path, rows = tmp_path / "film.csv", np.arange(film["frame"].size) != 3
+    path.write_text(text := tracker_with_frames(film))
+    found = read(path, scale=None)
+    same(found, {name: values[rows] for name, values in film.items()}, 1e-6)
+    assert any("Tracker" in each and "the times are not used" in each for each in found.remarks)
+    slow = tracks(path, "lactose-pvp").columns["speed"]
+    np.testing.assert_allclose(slow, np.array(found.columns["speed"]) * 30 / RATE, rtol=1e-4)
+    path.write_text(tracker_with_frames(film, pixels=True))
+    by_pixel = tracks(path, "lactose-pvp", scale=PIXEL)
+    np.testing.assert_allclose(by_pixel.columns["speed"], slow, rtol=1e-6)
+    assert any("Tracker" in each for each in by_pixel.remarks)
+    path.write_text(text.replace("7.000000E+00", "8.000000E+00", 1))
+    with pytest.raises(InputError, match='"frame" is given twice, with different cells'):
+        read(path)
+
+
+def test_text_of_windows(tmp_path: Path, film: Film) -> None:
+    """Fiji writes µ in the code page of Windows; a file that is no text is refused."""
+    path = tmp_path / "film.csv"
+    path.write_text(trackmate(film, "µm", 1e6 * PIXEL), encoding="cp1252")
+    found = read(path)
+    same(found, film, 1e-6)
+    assert any("positions in µm" in each for each in found.remarks)
+    assert any("scale" in each and "is not used for the positions" in each for each in found.remarks)
+    assert not any("is not used for the positions" in each for each in read(film).remarks)
+    for content in (bytes(range(256)), b"\xff\xfe" + "frame,x1,y1,x2,y2\n".encode("utf-16-le")):
+        path.write_bytes(content)
+        with pytest.raises(InputError, match="is not UTF-8 text"):
+            read(path)
+
+
+@pytest.mark.parametrize("spread", ["5 %", 5, -0.1, math.nan])
+def test_a_scale_is_uncertain_by_a_share(film: Film, spread: object) -> None:
+    with pytest.raises(InputError, match="scale_sd.*a number from 0"):
+        read(film, scale_sd=spread)
+
+
+@pytest.mark.parametrize("scale", [PIXEL / 10, 1000 * PIXEL])
+def test_a_wrong_scale_is_asked_for(film: Film, scale: float) -> None:
+    for source in (film, crowd(film)):
+        with pytest.raises(InputError, match="is the scale off|look at the scale"):
+            read(source, scale=scale)
 
 
 @pytest.mark.parametrize("kind", ["trackpy", "laptrack", "napari", "trackmate"])
