@@ -112,10 +112,11 @@ def read_film(source: Any, particles: Any, solids: float, lengths: Units) -> Fil
     linked = long and ("particle" not in known or len(every) == 1)  # TrackMate's track of two that merge
     if long and len(every) == 1:
         table, every = _linked(table), ["1", "2"]
-    pair = _chosen(every, particles)
+    pair, of_films = _chosen(every, particles), ""
     if pair is None:
         table = table if long else _as_long(known | by_word, bodies, None, lines)
-        pair = _meeting(table, solids / lengths(known["x"] if long else by_word[bodies[every[0]][0]]))
+        distance = solids / lengths(known["x"] if long else by_word[bodies[every[0]][0]])
+        table, pair, of_films = _meeting(table, distance)
     shared: dict[str, Column] = {name: known[name] for name in ("frame", "time", "impact") if name in known}
     if long:
         one, two = (table[table.particle.isin(each)] for each in pair)
@@ -131,7 +132,9 @@ def read_film(source: Any, particles: Any, solids: float, lengths: Units) -> Fil
         shared |= {place: replace(by_word[word], name=place) for place, word in zip(PLACES, four)}
     if kind == _TRACKER:
         shared = _calibrated(shared, solids)
-    which = ", particles " + " and ".join("+".join(each) for each in pair) if long or len(every) > 2 else ""
+    which = (
+        ", particles " + (of_films or " and ".join("+".join(each) for each in pair)) if long or len(every) > 2 else ""
+    )
     how = ", linked from frame to frame by their distance" if linked else ""
     where = f", positions in {shared['x1'].unit}" if shared["x1"].unit else ""
     remark = f"the table was taken for {kind or 'two paths side by side'}{which}{how}{where}"
@@ -252,7 +255,10 @@ def _below_names(known: dict[str, Column], lines: list[int]) -> tuple[dict[str, 
         unit = below[1] if below else column.unit
         known[name] = replace(column, cells=column.cells[names:], unit=_UNITS.get((unit or "").lower(), unit))
     time = known.get("time")
-    if time and (time.unit == "frame" or (time.unit is None and "frame" not in known and _whole(time.cells))):  # napari
+    whole = (
+        time and time.unit is None and "frame" not in known and not any(_number(cell) % 1 > 0 for cell in time.cells)
+    )
+    if time and (time.unit == "frame" or whole):  # napari
         del known["time"]
         known.setdefault("frame", replace(time, name="frame", unit=None))
     return known, lines[names:]
@@ -273,13 +279,12 @@ def _as_long(
     """A row for each particle and frame: film, at, particle, x, y, and the row of the table."""
     import pandas as pd
 
-    clock, rows = known.get("frame") or known.get("time"), range(len(lines))
-    at = [_number(cell) for cell in clock.cells] if clock else list(rows)
+    rows = range(len(lines))
+    clock = known.get("frame") or known.get("time") or Column("", None, list(rows))
+    at = [_number(cell) for cell in clock.cells]
     for k in (k for k in rows if not math.isfinite(at[k])):
-        raise InputError(
-            f"tracks, line {lines[k]}, column {clock.name if clock else ''}", clock and clock.cells[k], "a number"
-        )
-    films = [_name(cell) for cell in known["impact"].cells] if "impact" in known else ""
+        raise InputError(f"tracks, line {lines[k]}, column {clock.name}", clock.cells[k], "a number")
+    films = pd.factorize(np.array([_name(each) for each in known["impact"].cells]))[0] if "impact" in known else 0
     parts = [
         pd.DataFrame({"film": films, "at": at, "particle": body if names is None else [_name(each) for each in names],
                       **{axis: [_number(cell) for cell in known[word].cells] for axis, word in zip("xy", both)},
@@ -319,32 +324,36 @@ def _chosen(names: list[str], particles: Any) -> tuple[list[str], list[str]] | N
     return pair[0], pair[1]
 
 
-def _meeting(table: pd.DataFrame, solids: float) -> tuple[list[str], list[str]]:
-    """The pair that meets; InputError if none or several do."""
+def _meeting(table: pd.DataFrame, solids: float) -> tuple[pd.DataFrame, tuple[list[str], list[str]], str]:
+    """The pair that meets, in all films or in each its own, then renamed and told; InputError if none or several do."""
+    films = [_near(rows, solids) for _, rows in table.groupby("film")]
+    if len(meet := sorted(set().union(*films))) == 1:
+        return table, ([meet[0][0]], [meet[0][1]]), ""
+    if meet and all(len(each) == 1 for each in films) and table.particle.index.is_unique:
+        number = {(film, name): str(k + 1) for film, each in enumerate(films) for k, name in enumerate(each[0])}
+        names = [number.get(each, "") for each in zip(table.film, table.particle)]
+        told = "; ".join(" and ".join(each[0]) for each in films[:6]) + " ..." * (len(films) > 6)
+        return table.assign(particle=names), (["1"], ["2"]), told
+    accepted = 'two that meet, or particles="A,B" (--particles); "A+C,B" if the tracker goes on with A as C'
+    several = "; ".join(f"{a},{b}" for a, b in meet[:6]) + " ..." * (len(meet) > 6)
+    nowhere = "come near each other nowhere: do their tracks break, or is the scale off?"
+    problem = f"may be several that come near each other: {several}" if meet else nowhere
+    raise InputError("particles", None, accepted, problem)
+
+
+def _near(table: pd.DataFrame, solids: float) -> list[tuple[str, str]]:
+    """The pairs of a film that come near each other."""
     table = table[(table.particle != "") & np.isfinite(table.x) & np.isfinite(table.y)]
     low, high = (share * solids for share in _NEAR)
-    frames = table.groupby("particle").apply(lambda rows: set(zip(rows.film, rows["at"])), include_groups=False)
+    frames = {name: set(rows["at"]) for name, rows in table.groupby("particle")}
     nearest: dict[tuple[str, str], float] = {}
-    for _, rows in table.groupby(["film", "at"]):
+    for _, rows in table.groupby("at"):
         places, names = rows[["x", "y"]].to_numpy(), rows.particle.tolist()
         for j, k in KDTree(places).query_pairs(high):
             pair = (min(names[j], names[k]), max(names[j], names[k]))
             nearest[pair] = min(float(math.dist(places[j], places[k])), nearest.get(pair, math.inf))
-    meet = [
-        pair
-        for pair, distance in nearest.items()
-        if distance >= low and len(frames[pair[0]] & frames[pair[1]]) >= LEAST
-    ]
-    if len(meet) != 1:
-        accepted = 'two that meet, or particles="A,B" (--particles); "A+C,B" if the tracker goes on with A as C'
-        several = "; ".join(f"{a},{b}" for a, b in meet[:6]) + " ..." * (len(meet) > 6)
-        problem = (
-            f"may be several that come near each other: {several}"
-            if meet
-            else "come near each other nowhere: do their tracks break, or is the scale off?"
-        )
-        raise InputError("particles", None, accepted, problem)
-    return [meet[0][0]], [meet[0][1]]
+    meet = [pair for pair, distance in nearest.items() if distance >= low]
+    return [(one, two) for one, two in meet if len(frames[one] & frames[two]) >= LEAST]
 
 
 def _calibrated(columns: dict[str, Column], solids: float) -> dict[str, Column]:
@@ -368,10 +377,6 @@ def _number(cell: Any) -> float:
         return float(cell)
     except (TypeError, ValueError):
         return math.nan
-
-
-def _whole(cells: Iterable[Any]) -> bool:
-    return all(_number(cell) == round(_number(cell)) for cell in cells if math.isfinite(_number(cell)))
 
 
 def _name(cell: Any) -> str:

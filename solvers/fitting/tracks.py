@@ -168,8 +168,7 @@ def tracks(
     per_frame = None if rate is None else 1 / _size(rate, "1/s", "rate")
     radii = 2 * loaded.particles.reduced_radius * (1 + loaded.radius_ratio)
     found = read_film(film, particles, radii, lambda column: _factor(column, "m", pixel, "scale"))
-    rate_si = None if per_frame is None else 1 / per_frame
-    found = with_one_clock(found, rate_si, lambda column: _factor(column, "s", None, ""))
+    found = with_one_clock(found, per_frame and 1 / per_frame, lambda column: _factor(column, "s", None, ""))
     known, lines = found.columns, found.lines
     per_frame = None if "time" in known else per_frame
     coordinates = [_numbers(known[name], lines, "m", pixel, "scale", gaps=True) for name in PLACES]
@@ -203,8 +202,7 @@ def tracks(
                 )
         except (InputError, FloatingPointError, ZeroDivisionError) as reason:
             if not isinstance(reason, InputError):
-                where = f"tracks, impact {label}"
-                reason = InputError(where, None, "centres that move and meet", f"has {reason}")
+                reason = InputError(f"tracks, impact {label}", None, "centres that move and meet", f"has {reason}")
             left_out.append(reason)
             remarks.append(f"left out: {reason}")
             continue
@@ -272,7 +270,7 @@ def _impact(
     def check_count() -> None:
         for part, side in ((before, "before the impact"), (after | sticks, "after the separation")):
             if part.sum() < LEAST:
-                problem = f"has {int(part.sum())} frames {side}: is the scale off?"
+                problem = f"has {int(part.sum())} frames {side}" + ": is the scale off?" * (not part.any())
                 raise InputError(where, None, f"at least {LEAST} frames {side}", problem)
 
     check_count()
@@ -360,9 +358,7 @@ def _impact(
         if time.size - first < LEAST:
             problem = f"has {time.size - first} after they meet"
             raise InputError(where, None, f"at least {LEAST} frames after the films meet", problem)
-        remarks.append(
-            f"together to the end of the film, {time[-1] - time[first]:.3g} s after they met: taken for a stick"
-        )
+        remarks.append(f"together to the end, {time[-1] - time[first]:.3g} s after they met: taken for a stick")
         if apart_still or end < (1 - 2 * _RESTING) * solids - _CLEAR * sigma:
             remarks.append(
                 f"its distance no longer changes at {end:.4g} m, where solids touch at {solids:.4g} m and films at "
@@ -385,9 +381,8 @@ def _impact(
         free = [speed, sense * parameter]
         if not sticks:
             exit_speed, exit_parameter, time_after, direction_after = _flight(lines[1])
-            coming, going = (
-                math.remainder(each, 2 * math.pi) for each in (at - direction - math.pi, direction_after - then)
-            )
+            coming = math.remainder(at - direction - math.pi, 2 * math.pi)
+            going = math.remainder(direction_after - then, 2 * math.pi)
             free += [exit_speed, sense * exit_parameter, time_after - time_before, sense * (coming + turn + going)]
         return np.array([*free, *found])
 
@@ -398,8 +393,7 @@ def _impact(
     covariance = np.array(moved).T @ np.array(moved)
     sd = np.sqrt(np.diag(covariance))
     values = dict.fromkeys((name + suffix for name in (*_NAMES, *FLIGHT) for suffix in _WITH_SD), math.nan)
-    unknown: tuple[str, ...] = ()
-    count = 2 if sticks else len(FLIGHT)
+    unknown, count = tuple[str, ...](), 2 if sticks else len(FLIGHT)
     for name, value, error in zip([*list(FLIGHT)[:count], *_NAMES], results(centre), sd):
         values |= {name: float(value), f"{name}_sd": float(error)}
     correlation = (covariance / np.maximum(np.outer(sd, sd), _LITTLE))[:count, :count][np.tril_indices(count, -1)]

@@ -4,6 +4,7 @@ import csv
 import io
 import re
 from collections.abc import Mapping
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -104,12 +105,9 @@ def text_of(source: str | Path, label: str, accepted: str = _CSV) -> str:
     """The text of a file; InputError if it cannot be read."""
     try:
         content = bounded.read(Path(source), _LARGEST)
-        try:
+        with suppress(UnicodeDecodeError):
             return content.decode("utf-8-sig")
-        except UnicodeDecodeError:
-            if b"\0" in content:
-                raise
-            return content.decode("cp1252")  # ° and µ as Excel and Fiji write them on Windows
+        return content.decode("ascii" if b"\0" in content else "cp1252")  # ° and µ of Excel and Fiji on Windows
     except FileNotFoundError:
         raise InputError(label, str(source), accepted, "is no file") from None
     except bounded.NotRead as reason:

@@ -272,6 +272,19 @@ def test_of_several_the_two_that_meet_or_that_are_named(tmp_path: Path, film: Fi
     same(read(three, particles="1,2"), film)
 
 
+def test_films_in_one_table_each_with_its_own_particles(film: Film) -> None:
+    """Trackers number anew: in each film the two that meet are taken, films in the order of the table."""
+    tables = [crowd(film).assign(particle=lambda each, k=k: 10 * k + each.particle, film=k) for k in (2, 10, 1)]
+    found, alone = read(pd.concat(tables)), read(film).columns
+    assert found.labels == ("2", "10", "1")
+    for name in ("speed", "turn", "delay"):
+        assert found.columns[name] == pytest.approx(3 * alone[name], rel=1e-9)
+    assert any("particles 20 and 21; 100 and 101; 10 and 11" in each for each in found.remarks)
+    tables[1] = tables[1][tables[1].particle != 100]
+    with pytest.raises(InputError, match="10,11; 20,21"):
+        read(pd.concat(tables))
+
+
 def test_two_that_are_one_spot_while_they_touch(film: Film) -> None:
     """TrackMate gives both the number of one track, and frames of contact one row."""
     table = long_table(film)
