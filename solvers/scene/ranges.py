@@ -29,7 +29,10 @@ def parse_range(text: str, label: str, read: Ends, *, unit: str = "", most: int 
     if logarithmic:
         parts = parts[1:]
     if len(parts) == 1 and not logarithmic and parts[0].strip():
-        return [read(parts[0], parts[0])[0]]
+        try:
+            return [read(parts[0], parts[0])[0]]
+        except InputError as error:
+            raise InputError(label, text, f"{error.accepted}, or a range LO:HI:N, log:LO:HI:N", error.problem) from None
     if len(parts) != 3 or not re.fullmatch(r"\s*[0-9]{1,30}\s*", parts[2], re.ASCII):
         raise InputError(label, text, accepted, "is not a range")
     low, high = read(parts[0], parts[1])

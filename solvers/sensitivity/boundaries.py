@@ -151,12 +151,8 @@ class BoundarySensitivities(Drawn):
                 symbols = [_SYMBOLS[of] for of in one.shown]
                 rows = [["", *(f"d ln {symbol}" for symbol in symbols)]]
                 rows += [[name, *(_cell(one, of, name) for of in one.shown)] for name in self.parameters]
-                what = "v* the normal speed; elasticities, * d/dp of St*, v* or Ce* itself (SI) where p is zero"
-                tables.append(
-                    "\n".join(
-                        [f"{title}, by d ln p: {what}", *(f"  {text}".rstrip() for text in numbers_aligned(rows))]
-                    )
-                )
+                what = "elasticities by p (where it is zero *: dSt*/dp, dv*/dp, dCe*/dp, SI); v* is the normal speed"
+                tables.append("\n  ".join([f"{title}: {what}", *map(str.rstrip, numbers_aligned(rows))]))
         return tables
 
 

@@ -138,6 +138,7 @@ BAD = [
     ("verify --plot where.png", "--plot", '"where.png" needs a SCENE', "a SCENE with --plot"),
     ("verify --stokes 1", "--stokes", '"1" needs a SCENE', "a SCENE with --stokes"),
     ("generate --out /dev/null/x", "--out", "/dev/null", "a folder"),
+    ("averages granulation --speeds 1m/s --radii 50,200um", "--radii", "has a comma", "a range LO:HI:N, log:LO:HI:N"),
     ("verify --stress -1", "--stress", '"-1" is out of range', "1 to 10000000"),
     ("map granulation --stokes 1:2:2 --angle 0:1:2 --set impact.angle=3", "--set", "axis of the map", "impact.spin"),
     ("map granulation --stokes 0.1:0.2:1000000000", "--stokes", "has too many values", "N at most 10000000"),

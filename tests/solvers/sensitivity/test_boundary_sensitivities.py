@@ -231,6 +231,15 @@ def test_on_the_command_line() -> None:
         assert one == other
 
 
+def test_the_table_says_what_a_star_is() -> None:
+    """An entry that is zero has derivatives in place of elasticities, and the head of its table says of what."""
+    found = boundary_sensitivities("granulation", angle=0.9, wrt=["bridge.volume", "impact.spin"])
+    head, names, volume, spin = str(found).split("\n\n")[1].splitlines()
+    assert "where it is zero *: dSt*/dp, dv*/dp, dCe*/dp, SI" in head and "d ln St*" in names
+    assert "*" not in volume and spin.count("*") == 3
+    assert float(spin.split()[2]) == pytest.approx(found.changes[0][0].gradient["stokes"]["impact.spin"], rel=1e-3)
+
+
 def test_what_a_boundary_is_followed_in_is_no_parameter() -> None:
     """St* cannot be differentiated in the Stokes number; a misspelt name is told the nearest."""
     with pytest.raises(InputError, match="impact.stokes"):
