@@ -170,7 +170,7 @@ def with_one_clock(film: Film, rate: float | None, times: Units) -> Film:
     if frame is None and counts is not None:
         frame = Column("frame", None, counts.tolist())
     if frame is None or rate is None:
-        columns.pop("frame", None)
+        columns.pop("frame" if time.unit else "time", None)
         return replace(film, columns=columns)
     why = f" {problem} and" if problem else ""
     columns = {name: each for name, each in columns.items() if name != "time"} | {"frame": frame}

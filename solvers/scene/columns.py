@@ -135,9 +135,8 @@ def columns_from_text(text: str, label: str, source: str, accepted: str = _CSV) 
     for k, (row, line) in enumerate(zip(rows, lines, strict=True), 1):
         cells = [cell.split("#")[0] if j == len(row) - 1 else cell for j, cell in enumerate(row)]
         if any(cell.strip() for cell in cells[len(head) :]):
-            raise InputError(
-                f"{label} {source}, {row_name(k, line)}", len(row), f"{len(head)} cells", "cells are too many"
-            )
+            accepted = f"as many as the first line names: {len(head)} (# before a line that names none)"
+            raise InputError(f"{label} {source}, {row_name(k, line)}", len(row), accepted, "cells are too many")
         cells += [""] * (len(head) - len(cells))
         for column, cell in zip(columns, cells):
             column.cells.append(cell)

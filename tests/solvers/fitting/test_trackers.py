@@ -193,6 +193,27 @@ def test_frames_and_pixels_of_tracker(tmp_path: Path, film: Film) -> None:
         read(path)
 
 
+def test_what_a_file_lacks_can_be_supplied_as_it_is_asked_for(tmp_path: Path, film: Film) -> None:
+    """TrackMate before version 7 writes no units: first the scale is asked for, then the rate. Remarks above the names
+    are read with "#" before them.
+    """
+    path, table = tmp_path / "film.csv", long_table(film)
+    old = table.assign(TRACK_ID=table.particle, POSITION_X=1e6 * PIXEL * table.x, POSITION_Y=1e6 * PIXEL * table.y,
+                       POSITION_T=table.frame / RATE, FRAME=table.frame, VISIBILITY=1)  # fmt: skip
+    old[[name for name in old if name.isupper()]].to_csv(path)
+    with pytest.raises(InputError, match="accepted: scale"):
+        tracks(path, "lactose-pvp")
+    with pytest.raises(InputError, match='"frame" has no unit; accepted: rate'):
+        tracks(path, "lactose-pvp", scale="1 um")
+    same(read(path, scale="1 um"), film, 1e-6)
+    text = "\n".join(["Phantom v2512", "at 150 kHz", *wide(film, PLACES).splitlines()])
+    path.write_text(text)
+    with pytest.raises(InputError, match="as many as the first line names: 1 .# before"):
+        read(path)
+    path.write_text("#" + text.replace("at", "# at", 1).replace(",".join(PLACES), "x1,y1,x2,y2"))
+    same(read(path), film, 1e-6)
+
+
 def test_text_of_windows(tmp_path: Path, film: Film) -> None:
     """Fiji writes µ in the code page of Windows; a file that is no text is refused."""
     path = tmp_path / "film.csv"
