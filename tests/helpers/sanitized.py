@@ -30,6 +30,11 @@ from wetdoublet.solvers.engines.taylor.tangent import run_tangent
 from wetdoublet.solvers.host.compiler import compiler
 from wetdoublet.solvers.host.cores import usable_cores
 from wetdoublet.solvers.scene.groups import si_values
+from wetdoublet.solvers.verify.stress.sample import NUMBERS
+from wetdoublet.solvers.verify.stress.sample import scene_of as random_scene
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[2]))
+from tests.harness import structures
 
 # Compiled in a third of the time: checks are calls, and what AddressSanitizer sees anyway is not checked twice.
 FLAGS = (
@@ -39,10 +44,6 @@ FLAGS = (
 RTOL = 1e-7
 BUDGET = 3000  # steps: what creeps for longer shows nothing new
 REFERENCE: list[dict[str, Any]] = json.loads((Path(__file__).parents[1] / "data" / "collisions.json").read_text())
-WALL, PAIR = {"partner.wall": True}, {"partner.radius": "0.25 mm", "partner.mass": "60 ug"}
-PULL = {"attraction.hamaker": 1e-19}
-SPINS = {"impact.spin": "5000 rad/s", "impact.partner_spin": "-2000 rad/s"}
-RUBS = {"particles.friction": 0.3, "particles.contact_tangential_restitution": 0.4, "model.contact_friction": "all"}
 # Events of a user's: each happens in some of the random collisions.
 EVENTS = """from wetdoublet.derive.user import *
 
@@ -52,38 +53,9 @@ intact = event("let_go", guard=leaving - u, where="opening", meaning="the bridge
 event("brake", guard=2 * x0 - x, where="opening", jump={u: kept * u}, word="braked")
 law("bridge", "letting-go", force=intact * 4 * pi * a * sigma, source="a test")
 """
-# Scenes by name: a preset and what is changed. Each is integrated obliquely and head-on.
-FAMILIES: dict[str, tuple[str, dict[str, Any]]] = {
-    "granulation": ("granulation", {}),
-    "pendulum": ("pendulum", {}),
-    "film alone": ("granulation-dry-bridge", {}),
-    "film tangential": ("granulation", {"model.tangential": "film"}),
-    "small angle": ("pendulum", {"pendulum.law": "small-angle"}),
-    "corrected glass": ("pendulum", {"model.glass": "film-corrected"}),
-    "own rupture": ("granulation", {"bridge.law": "willett", "bridge.rupture": "own"}),
-    **{f"film {film}": ("granulation", {"model.film": film}) for film in ("infinite", "cavitating", "constant-volume")},
-    "wall": ("granulation-dry-bridge", WALL),
-    "wall with bridge": ("granulation", WALL),
-    "pair": ("granulation-dry-bridge", PAIR),
-    "pair with bridge": ("granulation", PAIR),
-    "attraction": ("granulation-dry-bridge", PULL),
-    "attraction and bridge": ("granulation", PULL),
-    "wall that attracts": ("granulation-dry-bridge", WALL | PULL | {"model.film": "cavitating"}),
-    "strings and bridge": ("granulation", {"pendulum.length": "0.5 m"}),
-    "equal spins": ("granulation", {"impact.spin": "5000 rad/s"}),
-    "spins": ("granulation", SPINS),
-    "spins of a film alone": ("granulation-dry-bridge", SPINS),
-    "spin beside a wall": ("granulation", WALL | {"impact.spin": "5000 rad/s"}),
-    "friction": ("granulation", RUBS),
-    "friction of a pair": ("granulation", PAIR | RUBS | SPINS),
-    "friction beside a wall": ("granulation", WALL | RUBS | {"impact.spin": "5000 rad/s"}),
-    "friction on strings": ("pendulum", RUBS),
-    "declared events": ("granulation", {}),
-    **{
-        f"bridge {law}": ("granulation", {"bridge.law": law})
-        for law in ("mikami-log10", "willett", "willett-simple", "rabinovich", "lambert", "soulie", "constant")
-    },
-}
+# Scenes by name: those of the harness, its pairwise structures with the laws in turn, at random; and these presets.
+PRESETS = {"granulation": "granulation", "pendulum": "pendulum", "film alone": "granulation-dry-bridge"}
+FAMILIES = (*PRESETS, "declared events", *map(structures.name, structures.STRUCTURES))
 Replay = Callable[[Impacts, bool], bool]  # False where there is no such kernel
 
 
@@ -126,20 +98,18 @@ KINDS: dict[str, Replay] = {
     "ledger in space": lambda impacts, _: _in_space(impacts, ledger=True),
 }
 IN_SPACE = ("in space", "ledger in space")
-SPATIAL = (
-    "film alone", "granulation", "attraction and bridge", "pair with bridge", "film cavitating", "friction of a pair",
-)  # fmt: skip
-LAWS_IN = ("plain", "ledger and trajectory", "forwards", "backwards")
 
 
 def scene_of(family: str) -> Scene:
-    preset, entries = FAMILIES[family]
+    if family in PRESETS:
+        return Scene.load(PRESETS[family])
     if family != "declared events":
-        return Scene.load(preset).with_entries(entries)
+        structure = structures.STRUCTURES[FAMILIES.index(family) - len(PRESETS) - 1]
+        return random_scene(family, structure, [0.5] * NUMBERS, moderate=True)
     with tempfile.TemporaryDirectory() as folder:
         model = Path(folder) / "events.py"
         model.write_text(EVENTS)
-        return Scene.load(preset, model=model)
+        return Scene.load("granulation", model=model)
 
 
 def random_impacts(scene: Scene, count: int, oblique: bool, seed: int) -> Impacts:
@@ -245,8 +215,8 @@ def _everything(count: int) -> Iterator[list[Any]]:
     yield [["reference", None]]
     for family in FAMILIES:
         for oblique in (True, False):
-            kinds = LAWS_IN if family.startswith("bridge ") else KINDS  # only the law is another
-            kinds = [kind for kind in kinds if kind not in IN_SPACE or (oblique and family in SPATIAL)]
+            spatial = oblique and not (scene_of(family).pendulum or (scene_of(family).wall and "solid" in family))
+            kinds = [kind for kind in KINDS if kind not in IN_SPACE or spatial]
             yield [["random", family, kind, oblique, count] for kind in kinds]
 
 

@@ -1,34 +1,11 @@
 """Eleven collisions through every kind of event, and derivatives by extrapolated differences of accurate values."""
 
-from collections.abc import Mapping
 from dataclasses import dataclass, field
-from itertools import pairwise
 
-import numpy as np
-from wetdoublet.solvers import Scene, collide
-from wetdoublet.solvers.sensitivity.parameters import known
+from wetdoublet.solvers import Scene
 
 GRANULATION, DRY, PENDULUM = (Scene.load(name) for name in ("granulation", "granulation-dry-bridge", "pendulum"))
 HARD = {"liquid.glass_transition_pressure": 1e13}
-DIMENSIONS = {  # exponents of length, mass, time of what is not a pure number
-    "particles.reduced_radius": (1, 0, 0),
-    "particles.reduced_mass": (0, 1, 0),
-    "particles.roughness": (1, 0, 0),
-    "particles.youngs_modulus": (-1, 1, -2),
-    "liquid.viscosity": (-1, 1, -1),
-    "liquid.film_thickness": (1, 0, 0),
-    "liquid.glass_transition_pressure": (-1, 1, -2),
-    "bridge.surface_tension": (0, 1, -2),
-    "pendulum.length": (1, 0, 0),
-    "pendulum.gravity": (1, 0, -2),
-    "impact.speed": (1, 0, -1),
-}
-
-
-def cancelling(elasticity: Mapping[str, float | None]) -> list[float]:
-    """What is left in each unit when all that carries it is rescaled; nothing, for a pure number."""
-    rows = [(DIMENSIONS[name], value or 0.0) for name, value in elasticity.items() if name in DIMENSIONS]
-    return [sum(exponents[unit] * value for exponents, value in rows) for unit in range(3)]
 
 
 @dataclass(frozen=True)
@@ -64,45 +41,6 @@ CASES = (
     Case("strings, glass", PENDULUM, 1.55, "35 deg", ("glass", "rupture")),
     Case("strings, small angles", PENDULUM, 1.2, "55 deg", ("turned", "rupture"), {"pendulum.law": "small-angle"}),
 )  # fmt: skip
-
-
-def varied(scene: Scene, name: str, value: float) -> Scene:
-    """The scene with one number changed and all others of the file as they are, at its own normal speed."""
-    if name.startswith("impact."):
-        return scene.with_impact(**{name.partition(".")[2]: value})
-    return scene.with_entries({name: value}).with_impact(speed=scene.speed)
-
-
-def differences(scene: Scene, of: tuple[str, ...], names: tuple[str, ...] | None = None, rtol: float = 1e-13,
-                step: float = 4e-3) -> dict[str, np.ndarray]:  # fmt: skip
-    """d(of)/d ln p for every parameter (dp where it is zero), by central differences with three steps, extrapolated.
-
-    Their error is of sixth order in the step, 1e-12 or so, and some 1e-13/step of rounding.
-    """
-    found = {}
-    for name in names or known(scene):
-        p = {"impact.stokes": scene.stokes, "impact.speed": scene.speed}.get(name) or float(scene.entries[name])
-
-        def value(part: float, name: str = name, p: float = p) -> np.ndarray:
-            changed = varied(scene, name, p * (1 + part) if p else part)
-            one = collide(changed, rtol=rtol, engine="rosenbrock", ledger=any("energy" in y for y in of))
-            return np.array([_read(one, y) for y in of])
-
-        low = {"bridge.contact_angle", "impact.angle"}
-        if p == 0 and name in low:  # nothing below zero: forward differences, from one step up
-            parts = step * np.arange(7)
-            found[name] = np.polyfit(parts / step, np.array([value(part) for part in parts]), 6)[-2] / step
-            continue
-        central = [(value(h) - value(-h)) / (2 * h) for h in (step, step / 2, step / 4)]
-        once = [(4 * fine - coarse) / 3 for coarse, fine in pairwise(central)]
-        found[name] = (16 * once[1] - once[0]) / 15
-    return found
-
-
-def _read(one: object, name: str) -> float:
-    for part in name.split("."):
-        one = getattr(one, part)
-    return float(one)  # type: ignore[arg-type]  # an attribute of the result
 
 
 def apart(one: dict[str, float | None], other: dict[str, float | None]) -> float:
