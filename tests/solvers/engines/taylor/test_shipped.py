@@ -159,13 +159,6 @@ def test_a_damaged_or_stale_library_is_not_loaded(built: Path, tmp_path: Path) -
         assert float.fromhex(said.split()[1]) == pytest.approx(whole, rel=1e-7)
 
 
-@pytest.mark.slow
-@needs_compiler
-def test_the_bytes_are_reproducible(built: Path, tmp_path: Path) -> None:
-    """Two builds give the same files: their names have digests of their contents."""
-    assert {path.name for path in build(tmp_path / "again").iterdir()} == {path.name for path in built.iterdir()}
-
-
 @pytest.mark.skipif(not shipped.FOLDER.is_dir(), reason="an editable installation ships none")
 def test_an_installation_has_the_kernels_of_every_preset(monkeypatch: pytest.MonkeyPatch) -> None:
     """Of values at the default tolerance; a wheel that is published has derivatives, too (.ci/installed.py)."""
