@@ -7,11 +7,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from wetdoublet.solvers import InputError, Scene, boundary, boundary_sensitivities, sensitivities
-from wetdoublet.solvers.paper.factors import DOUBLED
 from wetdoublet.solvers.sensitivity.boundaries import BoundarySensitivities, Moving, moving
 
 from ...helpers.command import run
-from ...helpers.sensitive import HARD, cancelling
+from ...helpers.sensitive import HARD
 
 pytestmark = pytest.mark.slow
 
@@ -19,9 +18,7 @@ pytestmark = pytest.mark.slow
 LINES = {
     "saddle": ("granulation", {}, 55, (0.02, 0.07)),
     "graze": ("granulation", {}, 45, (0.08, 0.2)),
-    "graze, head-on": ("granulation", {}, 0, (0.08, 0.2)),
     "rim, turned": ("pendulum", {}, 45, (0.9, 1.25)),
-    "rim, reversed": ("pendulum", {}, 20, (1.2, 1.6)),
     "graze, strings": ("pendulum", {}, 45, (1.25, 1.6)),
     "rim of a constant force": ("granulation", HARD | {"bridge.law": "constant"}, 45, (0.03, 0.1)),
 }
@@ -84,7 +81,6 @@ def test_boundaries_move_as_traced(line: str) -> None:
 @pytest.mark.parametrize(
     ("tables", "span", "kind", "name"),
     [
-        (DRAWN_IN, (1.8, 2.1), "escape", "liquid.viscosity"),
         (DRAWN_IN, (1.8, 2.1), "escape", "particles.roughness"),
         (DRAWN_IN, (4.0, 4.6), "escape reversed", "particles.dry_restitution"),
         (TURNS_TWICE, (0.115, 0.13), "escape", "liquid.film_thickness"),
@@ -127,74 +123,6 @@ def test_a_change_that_is_none_has_no_slope() -> None:
     wrong = moving(scene, math.radians(55), replace(one, stokes=one.stokes * 1.01), ("liquid.viscosity",))
     assert not wrong.gradient
     assert "end in" in wrong.reason
-
-
-@pytest.mark.parametrize("key", ["factor_film", "factor_radius"])
-def test_elasticities_add_up_to_a_doubling(key: str) -> None:
-    """Ce*(2p)/Ce*(p) is 2 to the mean of the elasticity along the way: the doubling table out of derivatives alone."""
-    scene, name = Scene.load("granulation").with_entries(HARD), DOUBLED[key]
-    nodes, weights = np.polynomial.legendre.leggauss(4)
-    elasticities = []
-    for node in nodes:
-        there = scene.with_entries({name: float(scene.entries[name]) * 2 ** ((node + 1) / 2)})
-        one = only(moved(there, 45, (0.01, 0.2), wrt=[name]))
-        elasticities.append(float(one.elasticity["centrifugal"][name] or 0.0))
-    # an independent prototype's, midgap, three digits; four nodes of a smooth function are exact beyond that
-    expected = {"factor_film": 0.762, "factor_radius": 1.136}[key]
-    assert 2 ** (weights @ elasticities / 2) == pytest.approx(expected, abs=6e-4)
-
-
-def test_direction_of_the_doubling_table() -> None:
-    """Every elasticity of Ce* has the sign of its doubling, and predicts its size to within 40 % of the change."""
-    scene = Scene.load("granulation").with_entries(HARD)
-    found = only(moved(scene, 45, (0.03, 0.09), wrt=list(DOUBLED.values())))
-    table = dict(zip(DOUBLED.values(), (1.038, 0.762, 0.983, 1.010, 1.010, 1.136), strict=True))  # the prototype's
-    for name, factor in table.items():
-        predicted = float(found.elasticity["centrifugal"][name] or 0.0)
-        assert predicted == pytest.approx(math.log2(factor), rel=0.4)
-
-
-def test_dimensional_analysis_of_a_boundary() -> None:
-    """St* is a pure number: its elasticities cancel in every unit (length, mass, time)."""
-    found = only(moved(Scene.load("granulation"), 55, (0.02, 0.07)))
-    # the saddle's neighbourhood is left at 1e-8 of St*
-    assert cancelling(found.elasticity["stokes"]) == pytest.approx([0.0] * 3, abs=1e-7)
-
-
-def test_head_on_graze_in_the_film_alone() -> None:
-    """Head-on without a bridge St* is in closed form: u = 1 - Lf(x)/St, and max u/x^2 = glass number ~ 1/St.
-
-    Lf(s) = ln(1/s) - 3/2 + 2s - s^2/2; dSt*/dp_gt by differences of that.
-    """
-    from scipy.optimize import brentq, minimize_scalar
-
-    scene = Scene.load("granulation-dry-bridge")
-    found = only(moved(scene, 0, (0.08, 0.2), wrt=["liquid.glass_transition_pressure"], rtol=1e-10))
-    particles, liquid = scene.particles, scene.liquid
-    a, m, mu, x0 = particles.reduced_radius, particles.reduced_mass, liquid.viscosity, liquid.film_thickness
-
-    def margin(stokes: float, pressure: float) -> float:
-        def minus(s: float) -> float:
-            return -(1 - (math.log(1 / s) - 1.5 + 2 * s - s * s / 2) / stokes) / s**2
-
-        peak = -minimize_scalar(minus, bounds=(0.1, 1), method="bounded", options={"xatol": 1e-9}).fun
-        speed = stokes * 6 * math.pi * mu * a**2 / m
-        return peak * 3 * mu * a * speed / x0**2 / pressure - 1
-
-    def edge(part: float) -> float:
-        return float(brentq(margin, 0.08, 0.2, args=(liquid.glass_transition_pressure * (1 + part),), xtol=1e-14))
-
-    assert found.change.stokes == pytest.approx(edge(0), rel=1e-8)
-    slope = math.log(edge(1e-3) / edge(-1e-3)) / 2e-3
-    assert found.elasticity["stokes"]["liquid.glass_transition_pressure"] == pytest.approx(slope, abs=1e-5)
-
-
-def test_what_no_boundary_depends_on_is_zero() -> None:
-    """A doublet that escapes unreversed knows nothing of the solids, nor of the glass."""
-    found = only(moved(Scene.load("granulation"), 55, (0.02, 0.07)))
-    for name in ("particles.roughness", "particles.dry_restitution", "liquid.glass_transition_pressure"):
-        assert found.gradient["stokes"][name] == 0.0
-        assert found.gradient["centrifugal"][name] == 0.0
 
 
 def test_the_angle_is_the_slope_of_the_curve() -> None:
