@@ -1,10 +1,6 @@
-"""The kernel under AddressSanitizer and UndefinedBehaviorSanitizer: what it is given, and processes in which it runs.
+"""The kernel under AddressSanitizer and UndefinedBehaviorSanitizer: what it is given, and the process in which it runs.
 
-    python tests/helpers/sanitized.py [COUNT]
-
-integrates the reference collisions and COUNT (1000) random ones through every kind of kernel of every family, some
-twenty minutes of compiling on two cores; the suite has a sample (test_sanitized.py). Kernels are compiled with
-WETDOUBLET_CFLAGS into a folder of their own and loaded into processes that have the sanitizers' library from the start.
+Kernels are compiled into a folder of their own and loaded into a process that has the sanitizers' library from the start.
 """
 
 # ruff: noqa: T201 -- a script that prints
@@ -13,28 +9,18 @@ import math
 import os
 import subprocess
 import sys
-import tempfile
-from collections.abc import Callable, Iterator
-from concurrent.futures import ThreadPoolExecutor
+from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from wetdoublet.generated.automaton import Purpose
 from wetdoublet.solvers import InputError, Scene, prove
 from wetdoublet.solvers.engines.taylor.call import Impacts, run_kernel
-from wetdoublet.solvers.engines.taylor.in_space import run_in_space
 from wetdoublet.solvers.engines.taylor.record import run_recorded
 from wetdoublet.solvers.engines.taylor.tangent import run_tangent
 from wetdoublet.solvers.host.compiler import compiler
-from wetdoublet.solvers.host.cores import usable_cores
 from wetdoublet.solvers.scene.groups import si_values
-from wetdoublet.solvers.verify.stress.sample import NUMBERS
-from wetdoublet.solvers.verify.stress.sample import scene_of as random_scene
-
-sys.path.insert(0, str(Path(__file__).resolve().parents[2]))
-from tests.harness import structures
 
 # Compiled in a third of the time: checks are calls, and what AddressSanitizer sees anyway is not checked twice.
 FLAGS = (
@@ -44,18 +30,6 @@ FLAGS = (
 RTOL = 1e-7
 BUDGET = 3000  # steps: what creeps for longer shows nothing new
 REFERENCE: list[dict[str, Any]] = json.loads((Path(__file__).parents[1] / "data" / "collisions.json").read_text())
-# Events of a user's: each happens in some of the random collisions.
-EVENTS = """from wetdoublet.derive.user import *
-
-leaving = quantity("leaving_speed", r"u_l", unit="m/s", default="0.1 m/s", meaning="speed at which the bridge lets go")
-kept = quantity("kept", r"k", default=0.5, bounds=">= 0", meaning="part of the speed that a brake leaves")
-intact = event("let_go", guard=leaving - u, where="opening", meaning="the bridge lets go")
-event("brake", guard=2 * x0 - x, where="opening", jump={u: kept * u}, word="braked")
-law("bridge", "letting-go", force=intact * 4 * pi * a * sigma, source="a test")
-"""
-# Scenes by name: those of the harness, its pairwise structures with the laws in turn, at random; and these presets.
-PRESETS = {"granulation": "granulation", "pendulum": "pendulum", "film alone": "granulation-dry-bridge"}
-FAMILIES = (*PRESETS, "declared events", *map(structures.name, structures.STRUCTURES))
 Replay = Callable[[Impacts, bool], bool]  # False where there is no such kernel
 
 
@@ -70,46 +44,13 @@ def _carried(backward: bool) -> Replay:
     return replay
 
 
-def _in_space(impacts: Impacts, ledger: bool) -> bool:
-    """The impacts with random vectors; of what varies only the speed."""
-    draw, speed = np.random.default_rng(impacts.angle.size), impacts.speed
-    names = ("initial_normal", "impact_turning", "impact_spin", "impact_partner_spin")
-    vectors = {name: draw.normal(size=(speed.size, 3)) for name in names}
-    normal = vectors["initial_normal"] / np.linalg.norm(vectors["initial_normal"], axis=1)[:, None]
-    vectors["initial_normal"] = normal
-    vectors["impact_turning"] -= (vectors["impact_turning"] * normal).sum(axis=1)[:, None] * normal
-    for name in names[1:]:
-        vectors[name] *= (speed / impacts.scene.reduced_radius)[:, None]
-    return run_in_space(impacts.scene, vectors, speed, RTOL, ledger=ledger) is not None
-
-
 KINDS: dict[str, Replay] = {
     "plain": lambda impacts, _: run_kernel(impacts, RTOL, budget=BUDGET, jumps=2) is not None,
-    "rotation": lambda impacts, _: run_kernel(impacts, RTOL, rotation=True, budget=BUDGET) is not None,
-    "ledger": _recorded(ledger=True, room=(4, 4)),
     "ledger and trajectory": _recorded(ledger=True, trajectory=True, room=(4, 4)),
-    "trajectory": _recorded(trajectory=True, room=(4, 4)),
     "steps not kept": _recorded(ledger=True, trajectory=True, keep=False, room=(1, 1)),
-    "approach": _recorded(trajectory=True, purpose=Purpose.APPROACH, keep=False, fold=False, peaks=True),
-    "escape": _recorded(trajectory=True, purpose=Purpose.ESCAPE),
     "forwards": _carried(backward=False),
     "backwards": _carried(backward=True),
-    "in space": lambda impacts, _: _in_space(impacts, ledger=False),
-    "ledger in space": lambda impacts, _: _in_space(impacts, ledger=True),
 }
-IN_SPACE = ("in space", "ledger in space")
-
-
-def scene_of(family: str) -> Scene:
-    if family in PRESETS:
-        return Scene.load(PRESETS[family])
-    if family != "declared events":
-        structure = structures.STRUCTURES[FAMILIES.index(family) - len(PRESETS) - 1]
-        return random_scene(family, structure, [0.5] * NUMBERS, moderate=True)
-    with tempfile.TemporaryDirectory() as folder:
-        model = Path(folder) / "events.py"
-        model.write_text(EVENTS)
-        return Scene.load("granulation", model=model)
 
 
 def random_impacts(scene: Scene, count: int, oblique: bool, seed: int) -> Impacts:
@@ -136,9 +77,9 @@ def random_impacts(scene: Scene, count: int, oblique: bool, seed: int) -> Impact
     return Impacts(scene, speed, angle, others)
 
 
-def replay(family: str, kind: str, oblique: bool, count: int) -> bool:
-    """Integrate random collisions of a family; False if it has no such kernel."""
-    impacts = random_impacts(scene_of(family), count, oblique, seed=len(family) + 7 * len(kind))
+def replay(preset: str, kind: str, oblique: bool, count: int) -> bool:
+    """Integrate random collisions of a preset; False if it has no such kernel."""
+    impacts = random_impacts(Scene.load(preset), count, oblique, seed=len(preset) + 7 * len(kind))
     return KINDS[kind](impacts, oblique)
 
 
@@ -176,7 +117,7 @@ def process(what: list[Any], folder: Path) -> subprocess.CompletedProcess[str]:
         "WETDOUBLET_CFLAGS": FLAGS,
         "WETDOUBLET_CACHE": str(folder),
     }
-    command = [sys.executable, __file__, "--inside", json.dumps(what)]
+    command = [sys.executable, __file__, json.dumps(what)]
     return subprocess.run(command, capture_output=True, text=True, check=False, env=environment)
 
 
@@ -211,32 +152,5 @@ def _inside(what: list[Any]) -> None:
     print("done")
 
 
-def _everything(count: int) -> Iterator[list[Any]]:
-    yield [["reference", None]]
-    for family in FAMILIES:
-        for oblique in (True, False):
-            spatial = oblique and not (scene_of(family).pendulum or (scene_of(family).wall and "solid" in family))
-            kinds = [kind for kind in KINDS if kind not in IN_SPACE or spatial]
-            yield [["random", family, kind, oblique, count] for kind in kinds]
-
-
-def main() -> int:
-    """Integrate everything; the number of processes in which something was found."""
-    if sys.argv[1:2] == ["--inside"]:
-        _inside(json.loads(sys.argv[2]))
-        return 0
-    if not libraries():
-        print("the compiler has no sanitizers")
-        return 1
-    jobs = list(_everything(int(sys.argv[1]) if len(sys.argv) > 1 else 1000))
-    with tempfile.TemporaryDirectory() as folder, ThreadPoolExecutor(usable_cores()) as pool:
-        failed = 0
-        for job, done in zip(jobs, pool.map(lambda job: process(job, Path(folder)), jobs), strict=True):
-            failed += done.returncode != 0
-            said = [line for line in done.stderr.splitlines() if "Python/" not in line][:12]
-            print(job[0][:2], job[0][3:4], *done.stdout.splitlines(), *said, sep="\n  ", flush=True)
-    return failed
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    _inside(json.loads(sys.argv[1]))

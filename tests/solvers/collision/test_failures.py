@@ -10,7 +10,6 @@ from collections.abc import Mapping
 from dataclasses import fields, replace
 from typing import Any
 
-import numpy as np
 import pytest
 from wetdoublet.solvers import CheckFailed, ComputationError, InputError, Scene, collide
 from wetdoublet.solvers.collision import by_casadi
@@ -19,7 +18,6 @@ from wetdoublet.solvers.engines.casadi.locate import EventLocator, EventSequence
 from wetdoublet.solvers.engines.casadi.replay import Replay, replay
 from wetdoublet.solvers.model.dimensionless import nondimensionalise
 from wetdoublet.solvers.model.model import Model
-from wetdoublet.solvers.model.phases import Flow
 
 # the command, made to collide the same spheres for ever, and to say when it has begun
 LONG = """
@@ -113,34 +111,6 @@ def test_an_open_ledger_is_an_error() -> None:
         by_casadi.by_casadi(scene, n, 1e-9, "cvodes", True, False, replay=falsified)
     lean = by_casadi.by_casadi(scene, n, 1e-9, "cvodes", False, False, replay=falsified)
     assert lean.restitution == pytest.approx(collide(scene).restitution, rel=1e-7)
-
-
-def test_nothing_extra_is_integrated() -> None:
-    """Without the ledger only the rotation rides along and no spin is kept; a trajectory only where asked for."""
-    scene = Scene.load("granulation").with_impact(stokes=0.03, angle="65 deg")
-    n = nondimensionalise(scene, *scene.need_impact())
-    flows: list[Flow] = []
-
-    def seen(path: EventSequence, plugin: str, tolerance: Tolerance, flow: Flow, start: np.ndarray, *_: Any) -> Replay:
-        flows.append(flow)
-        return replay(path, plugin, tolerance, flow, start)
-
-    for ledger in (False, True):
-        by_casadi.by_casadi(scene, n, 1e-9, "cvodes", ledger, False, replay=seen)
-    lean = collide("granulation", stokes=0.03, angle="65 deg", ledger=False)
-    full = collide("granulation", stokes=0.03, angle="65 deg")
-    assert (flows[0].extras, tuple(flows[0].model.state)) == (
-        ("rotation",),
-        ("gap", "normal_velocity", "orbital_momentum"),
-    )
-    assert set(flows[1].extras) == {"rotation", "normal_lubrication", "tangential_lubrication", "capillary"}
-    assert "spin" in flows[1].model.state
-    assert (lean.energy, lean.angular_momentum_drift) == (None, None)
-    assert lean.trajectory is None
-    assert full.trajectory is None
-    kept = collide("granulation", stokes=0.03, angle="65 deg", trajectory=True).trajectory
-    assert kept is not None
-    assert np.isfinite(kept.gap.values).all()
 
 
 @pytest.mark.parametrize(

@@ -87,12 +87,6 @@ def test_extreme_spans_are_bad_input(span: tuple[float, float]) -> None:
         boundary("granulation", angle=0.5, stokes=span)
 
 
-def test_a_spin_beyond_all_bounds_is_named() -> None:
-    """A spin that no double resolves beside the speed is refused by its own name."""
-    with pytest.raises(InputError, match=r"^impact.spin: 1e\+150 is too far off; accepted: "):
-        collide(Scene.load("granulation").with_entries({"impact.spin": 1e150}))
-
-
 def test_circling_is_decided_by_its_limit() -> None:
     """A doublet that dips ever less into its film has the outcome of its limit.
 

@@ -10,6 +10,7 @@ from wetdoublet.solvers import InputError, Scene, boundary, boundary_sensitiviti
 from wetdoublet.solvers.sensitivity.boundaries import BoundarySensitivities, Moving, moving
 
 from ...helpers.command import run
+from ...helpers.data import DATA
 from ...helpers.sensitive import HARD
 
 pytestmark = pytest.mark.slow
@@ -22,25 +23,7 @@ LINES = {
     "graze, strings": ("pendulum", {}, 45, (1.25, 1.6)),
     "rim of a constant force": ("granulation", HARD | {"bridge.law": "constant"}, 45, (0.03, 0.1)),
 }
-DRAWN_IN = {  # attraction at small gaps: beside both changes one doublet turns while the other is drawn into contact
-    "particles": {"radius": 0.000561750095, "mass": 4.54970879e-07, "roughness": 9.10281584e-08,
-                  "dry_restitution": 0.490339098},
-    "liquid": {"viscosity": 0.00226797994, "film_thickness": 4.33890186e-06,
-               "glass_transition_pressure": 534035.9224693321},
-    "impact": {"angle": 0.737017206, "spin": -676.823893, "partner_spin": 0.0},
-    "bridge": {"surface_tension": 1.07487873e-06, "volume": 0.0159955616, "rupture": "own"},
-    "attraction": {"hamaker": 1.87878726e-15},
-    "model": {"film": "infinite", "tangential": "film"},
-}  # fmt: skip
-TURNS_TWICE = {  # it turns, falls back, turns again, and leaves the film with too much spin for rigid rotation
-    "particles": {"radius": 0.000150467284, "mass": 4.09734487e-08, "roughness": 2.79074582e-09,
-                  "dry_restitution": 0.841650549},
-    "liquid": {"viscosity": 0.0198806804, "film_thickness": 1.40513549e-07},
-    "impact": {"angle": 1.45188141, "spin": -33444.5068, "partner_spin": 18766.634},
-    "partner": {"radius": 0.000177232893, "mass": 4.89652134e-08},
-    "bridge": {"surface_tension": 0.000733545652, "volume": 0.000382948768},
-    "model": {"tangential": "film"},
-}  # fmt: skip
+DRAWN_IN, TURNS_TWICE = json.loads((DATA / "moving_boundaries.json").read_text()).values()
 NAMES = ("liquid.film_thickness", "liquid.viscosity", "particles.reduced_radius")
 _STEP = 2e-3
 

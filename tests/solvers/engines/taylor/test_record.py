@@ -1,6 +1,5 @@
 """What the kernel's variants write beside answers: the energy ledger, and the steps' own series as a trajectory."""
 
-import subprocess
 from functools import cache
 from typing import Any
 
@@ -9,8 +8,7 @@ import pytest
 from wetdoublet.solvers import Collision, Scene, collide
 from wetdoublet.solvers.engines.taylor import build as library
 from wetdoublet.solvers.engines.taylor import call as engine
-from wetdoublet.solvers.engines.taylor import headers, layout, record
-from wetdoublet.solvers.engines.taylor import source as text
+from wetdoublet.solvers.engines.taylor import layout, record
 from wetdoublet.solvers.host.compiler import compiler
 from wetdoublet.solvers.model.model import select_model
 
@@ -139,19 +137,3 @@ def test_a_buffer_that_is_too_small_is_refused(short: str):
     with pytest.raises(MemoryError, match=f"{short}: too small"):
         task.run()
     assert (answers == np.zeros(9, layout.ANSWER)).all()
-
-
-@pytest.mark.parametrize("reduced", [True, False])
-def test_who_does_not_ask_does_not_pay(reduced: bool):
-    """What a compiler sees of the plain kernel has no field, constant or function of the variants."""
-    scene = Scene.load("granulation" if reduced else "pendulum")
-    variant = text.Variant(select_model(scene, True), 10)
-    paths = headers.headers(variant.choice)
-    found = compiler()
-    assert paths is not None
-    assert found is not None
-    command = [*found.command, "-E", "-P", "-x", "c", "-"]
-    seen = subprocess.run(command, input=text.source(variant, paths), capture_output=True, text=True, check=True).stdout
-    assert "static void run(" in seen
-    for name in ("loss", "ledger", "book_", "booked", "step_row", "keep_steps", "energies"):
-        assert name not in seen, name
