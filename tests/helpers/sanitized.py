@@ -1,7 +1,4 @@
-"""The kernel under AddressSanitizer and UndefinedBehaviorSanitizer: what it is given, and the process in which it runs.
-
-Kernels are compiled into a folder of their own and loaded into a process that has the sanitizers' library from the start.
-"""
+"""The kernel under AddressSanitizer and UndefinedBehaviorSanitizer, in a process with their library from the start."""
 
 # ruff: noqa: T201 -- a script that prints
 import json

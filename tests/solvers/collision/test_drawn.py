@@ -94,6 +94,7 @@ def test_a_verification_is_a_table() -> None:
         report.plot()
 
 
+@pytest.mark.slow
 def test_without_pandas_it_says_what_to_install() -> None:
     """A DataFrame without pandas is an error in one line, and nothing else needs it."""
     code = (

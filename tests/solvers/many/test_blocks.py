@@ -59,6 +59,7 @@ def test_blocks_cover_a_map_once(shape, engine):
         assert (count == 1).all()
 
 
+@pytest.mark.slow
 def test_a_stored_map_is_the_map(tmp_path, serial):
     """The store that a map is written to has the Dataset that is made in memory; a second one takes its place."""
     same(regime_map("granulation", **GRID, store=tmp_path / "map.zarr"), serial)

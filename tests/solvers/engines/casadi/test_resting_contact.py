@@ -35,7 +35,10 @@ def test_chatter_rests(entries: dict[str, object], criterion: str, monkeypatch: 
 
 @pytest.mark.parametrize(
     ("stokes", "angle", "kind", "variable", "value"),
-    [(0.3, 30, "rotation reverses", "rotation_rate", 0.0), (1.0, 45, "half turn", "rotation", math.pi)],
+    [
+        (0.3, 30, "rotation reverses", "rotation_rate", 0.0),
+        pytest.param(1.0, 45, "half turn", "rotation", math.pi, marks=pytest.mark.slow),
+    ],
 )
 def test_cut_offs(
     stokes: float, angle: float, kind: str, variable: str, value: float, monkeypatch: pytest.MonkeyPatch
