@@ -61,7 +61,7 @@ MUTANTS = {
         "test_sticks_and_boundaries.py::test_a_certified_stick_followed_on_never_separates",
     ),
     "a length that is none": Mutant(
-        "generated/taylor/shared/scale_oblique.h",
+        "generated/taylor/shared/scale_oblique_bridge.h",
         "vec_exp(0.6*vec_log(q[SI_REDUCED_RADIUS]))",
         "vec_exp(0.61*vec_log(q[SI_REDUCED_RADIUS]))",
         "test_symmetries.py::test_similarity",

@@ -11,7 +11,7 @@ from .scenes import scenes
 from .settings import examples, few
 from .structures import STRUCTURES
 
-FEW = few(STRUCTURES)
+FEW = few(STRUCTURES, 8)  # one of which always parts
 OF = ("outcome", "restitution", "tangential_restitution", "rotation", "contact_time", "smallest_gap")
 
 pytestmark = pytest.mark.filterwarnings("ignore::wetdoublet.solvers.ModelWarning")

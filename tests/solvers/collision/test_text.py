@@ -5,7 +5,7 @@ from dataclasses import replace
 import pytest
 from wetdoublet.solvers import Scene
 from wetdoublet.solvers.collision.outcome import Event
-from wetdoublet.solvers.collision.text import name_of, plain, quantity, table
+from wetdoublet.solvers.collision.text import name_of, plain, prefix, quantity, table
 
 from ...helpers.own_arm import surface
 from ...helpers.reference import collide
@@ -176,3 +176,23 @@ def test_repr_of_many_events_is_cut_in_the_middle(collisions):
     assert repr(many.events[0]) in text
     assert repr(many.events[-1]) in text
     assert len(many.to_dict()["events"]) == 100_000
+
+
+def test_a_stick_without_proof_says_so(collisions):
+    """A stick found by the level test where angular momentum drifts is not called proved."""
+    unproved = table(replace(collisions["sticks later"], certified=False))
+    assert "decided, not proved: energy below the barrier" in unproved
+
+
+def test_many_events_are_shortened(collisions):
+    """A chatter's hundreds of events do not fill the screen: first and last stand, the others are counted."""
+    events = (*(Event("rough", 1e-6 * count) for count in range(300)), Event("rests", 4e-4))
+    text = table(replace(collisions["escapes"], events=events))
+    assert len(text.splitlines()) < 50
+    assert row(text, "...") == "289 more"
+    assert row(text, "rests") == "400 us"
+
+
+def test_no_prefix_beyond_reason():
+    """Sizes no prefix fits stay in the unit itself."""
+    assert prefix(1e-20) == prefix(1e9) == prefix(float("inf")) == (1.0, "")

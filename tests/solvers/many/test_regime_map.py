@@ -14,7 +14,7 @@ from wetdoublet.solvers.many import by_casadi
 from wetdoublet.solvers.many.plot_map import draw_map
 from wetdoublet.solvers.many.regime_map import write
 from wetdoublet.solvers.many.results import QUANTITIES
-from wetdoublet.solvers.many.text_map import failures
+from wetdoublet.solvers.many.text_map import failures, table
 
 from ...helpers.command import run
 
@@ -258,3 +258,15 @@ def test_a_relative_speed_is_an_axis():
     one = regime_map("granulation", speed=[0.25, 0.5], angle=["60 deg"])
     assert data.restitution.values[1] == pytest.approx(one.restitution.values[0], rel=1e-9, nan_ok=True)
     assert data.centrifugal.values[1] == pytest.approx(one.centrifugal.values[0], rel=1e-12)
+
+
+def test_large_character_maps_are_subsampled():
+    """What does not fit is left out, evenly and with a note that says so."""
+    sizes = {"angle": 300, "stokes": 100, "liquid.viscosity": 9}
+    axes = {name: np.linspace(0.1, 1.2, size) for name, size in sizes.items()}
+    data = xr.Dataset({"outcome": (tuple(sizes), np.zeros(tuple(sizes.values()), dtype=np.int8))}, axes)
+    data.attrs["scene"] = Scene.load("granulation").to_toml()
+    lines = table(data).splitlines()
+    assert max(map(len, lines)) <= 88
+    assert len(lines) < 160
+    assert lines[-2] == "shown: 32 of 100 rows, 78 of 300 columns, 4 of 9 maps"

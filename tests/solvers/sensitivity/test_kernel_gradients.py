@@ -3,12 +3,13 @@
 import numpy as np
 import pytest
 from wetdoublet.generated.automaton import LAST_ANSWER
-from wetdoublet.solvers import InputError, Scene, gradients_many, sensitivities
+from wetdoublet.solvers import ComputationError, InputError, Scene, gradients_many, sensitivities
 from wetdoublet.solvers.engines.choice import gradient_engine
 from wetdoublet.solvers.engines.taylor.call import Impacts
 from wetdoublet.solvers.engines.taylor.tangent import run_tangent
 from wetdoublet.solvers.host.compiler import compiler
 from wetdoublet.solvers.scene.groups import si_values
+from wetdoublet.solvers.sensitivity import gradients_many as many
 from wetdoublet.solvers.sensitivity.by_kernel import KNOWN
 from wetdoublet.solvers.sensitivity.gradients_many import STICK
 
@@ -105,3 +106,33 @@ def test_bad_input() -> None:
         gradients_many("granulation", of="restitutio")
     with pytest.raises(InputError, match="differs in length"):
         gradients_many("granulation", stokes=[0.1, 0.2], angle=[0.1, 0.2, 0.3])
+
+
+@pytest.mark.parametrize("distance", [6e-4, 5e-5])
+def test_first_touch_needs_no_measuring(distance: float, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Just past the speed at which initial contact is glassy, many say what one says: derivative, or why none.
+
+    The pressure at initial contact is proportional to the speed, so the distance is the speed's own; the limit is 1e-4.
+    """
+    rtol, angle, names = 1e-8, 0.3554, "liquid.viscosity"
+    scene = Scene.load("granulation")
+    probe = 0.2356 / scene.stokes_per_speed
+    seen = run_tangent(Impacts(scene, np.array([probe]), np.array([angle]), {}), True, rtol, False)
+    assert seen is not None
+    assert seen.near[0, 1] == 7
+    speed = probe * np.exp(distance - seen.near[0, 0])
+    one, said = None, ""
+    try:
+        one = sensitivities(scene, ["restitution"], [names], speed=speed, angle=angle, rtol=rtol)
+    except ComputationError as error:
+        said = str(error)
+    monkeypatch.setattr(many, "sensitivities", None)  # that nothing is done alone
+    found = gradients_many(scene, speed=speed, angle=angle, wrt=names, rtol=rtol, engine="taylor")
+    assert found.reason.values[0] == said
+    if distance > 1e-4:
+        assert one is not None
+        expected = one.gradient["restitution"]["liquid.viscosity"]
+        np.testing.assert_allclose(found.gradient.values.item(), expected, rtol=1e-6)
+    else:
+        assert f"glass criterion met at initial contact at a relative distance of {distance:.2g}" in said
+        assert np.isnan(found.gradient.values).all()

@@ -221,3 +221,14 @@ def test_input_errors(arguments: list[str], says: str) -> None:
     assert shown.exit_code == 2
     assert says in shown.stderr
     assert shown.stderr.count("\n") == 1
+
+
+def test_labelled_result() -> None:
+    """As a Dataset: the same numbers under the same names; as text: every parameter once."""
+    found = sensitivities(PENDULUM, ["restitution", "contact_time"])
+    data = found.to_dataset()
+    assert float(data.gradient.sel(quantity="restitution", parameter="impact.angle")) == pytest.approx(
+        found.gradient["restitution"]["impact.angle"]
+    )
+    assert data.gradient.dims == ("quantity", "parameter")
+    assert all(str(found).count(f"\n{name} ") == 1 for name in found.parameters)
