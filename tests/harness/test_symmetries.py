@@ -58,7 +58,7 @@ def test_a_partner_equal_to_the_sphere_is_the_sphere(scene: Scene) -> None:
 
 
 @examples(12)
-@given(scenes([STRUCTURES[9] | {"bridge": ""}]))
+@given(scenes(STRUCTURES[9:10]))
 def test_which_sphere_is_named_first_does_not_matter(scene: Scene) -> None:
     """Outcome and restitution are those of the exchanged pair."""
     entries = dict(scene.entries)
@@ -75,7 +75,6 @@ def test_which_sphere_is_named_first_does_not_matter(scene: Scene) -> None:
     if "bridge.volume" in entries:  # V/R^3 is of the pair
         exchanged["bridge.volume"] = entries["bridge.volume"]
     computed = Conditioned(scene)
-    assume(computed.collision.restitution > 1e-3)  # not a creep that rounding ends
     speed, _ = scene.need_impact()
     other = decided(scene.with_entries(exchanged), speed=speed, rtol=1e-11)
     computed.agree(other, 1e-8, ("restitution", "tangential_restitution", "rotation", "contact_time"))
