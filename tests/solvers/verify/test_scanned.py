@@ -5,7 +5,7 @@ import math
 import pytest
 from wetdoublet.solvers import Scene, boundary, collide
 
-from ...helpers.scanned import Scan, scanned
+from ...helpers.scanned import scan_of, scanned
 
 
 @pytest.mark.parametrize(
@@ -42,7 +42,7 @@ def test_a_graze_is_where_a_dense_scan_has_it() -> None:
     low, high = 0.1165, 0.1175
     for _ in range(20):
         middle = (low + high) / 2
-        scan = Scan(scene.with_impact(stokes=middle))
+        scan = scan_of(scene.with_impact(stokes=middle))
         scan.phase()
         low, high = (low, middle) if scan.result.reversal else (middle, high)
     changes = boundary(scene, angle=math.radians(45), stokes=(0.1, 0.13)).changes[0]
