@@ -9,8 +9,6 @@ from pathlib import Path
 import pytest
 from wetdoublet.solvers.host.compiler import compiler
 
-from ...helpers.command import run
-
 LATER = """
 from wetdoublet.solvers import collide, collide_many, compile_kernels, regime_map
 scene, impacts = "granulation-dry-bridge", {"speed": [0.4, 0.5], "angle": [0.0, 1.0]}
@@ -50,11 +48,3 @@ def test_a_cache_that_cannot_be_written(tmp_path: Path) -> None:
     said = done.stderr.splitlines()[-1]
     assert said.startswith(f"kernels cannot be kept in the cache {file / 'cache'}: ")
     assert "WETDOUBLET_CACHE" in said.partition(";")[2]
-
-
-def test_bad_input() -> None:
-    """A scene is required, and each tolerance is checked; nothing is compiled before."""
-    for line, field in (([], "SCENE"), (["granulation", "--rtol", "1"], "--rtol"), (["granulatio"], "scene")):
-        done = run("compile", *line)
-        assert (done.exit_code, done.stdout, done.stderr.count("\n")) == (2, "", 1)
-        assert done.stderr.startswith(f"{field}: ")
