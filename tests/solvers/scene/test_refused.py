@@ -58,7 +58,7 @@ PARTNER = {"partner.diameter": "320 um", "partner.density": "2 g/cm^3", "partner
         (BASE, {"particles.mass": "1 g"}, "particles.mass", "together with particles.reduced_mass"),
         (BASE, {"particles.reduced_radius": None}, "particles.reduced_radius", "or particles.radius"),
         (BASE, {"particles.reduced_mass": None}, "particles.reduced_mass", "or particles.density"),
-        (BASE, {"particles.reduced_mass": "1e-320 kg", "liquid.viscosity": "1e20 Pa s"}, "particles.reduced_mass", "too"),
+        (BASE, {"particles.reduced_mass": "1e-320 kg", "liquid.viscosity": "1e20 Pa s"}, "particles.reduced_mass", ""),
         (BASE, {"particles.youngs_modulus": "70 GPa"}, "particles.poisson_ratio", "while particles.youngs_modulus"),
         (BASE, {"particles.poisson_ratio": 0.2}, "particles.youngs_modulus", "while particles.poisson_ratio"),
         (BASE, {"liquid.glass_transition_pressure": None, "particles.roughness": "0 um"}, "particles.roughness", ""),

@@ -85,7 +85,7 @@ WRONG = (
     ("nan m", "m", "is not finite"), ("-inf m", "m", "is not finite"), ("1e999 m", "m", "is not finite"),
     ("1e308 km", "m", "is not finite"), ("wide", "m", "is not a number"), ("", "m", "is not a number"),
     ("1" * 500 + " m", "m", "is not a number"), ("1_000 m", "m", "unknown unit"), ("1 m^9^9^9^9", "m", "unknown unit"),
-    ("1 degC", "m", "not a length"), ("1 (m", "m", "unknown unit"), ("0,02 mm", "m", "comma in place of a decimal point"),
+    ("1 degC", "m", "not a length"), ("1 (m", "m", "unknown unit"), ("0,02 mm", "m", "comma in place of a decimal"),
     # what pint reads as a grain, a style sheet's pixel, an angle of artillery, counts per second
     ("2.5 gr/cm3", "kg/m^3", "a gram is g"), ("3 kgr", "kg", "a gram is g"), ("150 px", "m", "scale"),
     ("2 mil", "m", "thou"), ("2 mil", "rad", "thou"), ("7 cps", "Pa s", "cP"),
