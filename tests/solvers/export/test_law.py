@@ -188,7 +188,7 @@ def test_in_pieces_a_contact_is_the_collision(law: Law):
 def test_a_contact_is_where_the_trajectory_is(law: Law, stokes: float):
     """At times of a trajectory by CasADi, that of a stick also long after its proof."""
     speed, sticks = SPHERES.speed_of(stokes), stokes < 1
-    until = 2e-2 if sticks else None
+    until = 2e-3 if sticks else None
     path = collide(SPHERES, stokes=stokes, angle=1.0, engine="rosenbrock", trajectory=True, until=until).trajectory
     contact = law.begin(law.impacts(speed=speed, angle=1.0))
     for k in range(1, path.time.size - 1, 7):

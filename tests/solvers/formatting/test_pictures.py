@@ -11,7 +11,6 @@ from matplotlib.contour import QuadContourSet
 from matplotlib.figure import Figure
 from matplotlib.legend import Legend
 from wetdoublet.solvers import Scene, atlas, band, boundary, collide, fit, plot, regime_map, sensitivities
-from wetdoublet.solvers.verify.budget import restitution_budget
 
 NAME = "a-very-long-name-of-a-scene-that-somebody-has-given-to-say-all-about-it-and-its-liquid"
 LONG = Scene.load("granulation").with_entries({"name": NAME})
@@ -79,19 +78,6 @@ def test_a_band_does_not_join_outcomes() -> None:
     spans = joined(plot(data).axes[0])
     assert len(spans) > 30
     assert over(spans, np.degrees(angle), data.outcome.values) == []
-
-
-@pytest.mark.slow
-def test_a_budget_does_not_join_outcomes() -> None:
-    """Each panel of terms is broken where the outcome changes."""
-    stokes = np.geomspace(0.01, 0.5, 12)
-    data = restitution_budget("granulation", stokes=stokes, angle=np.radians([60, 75]))
-    panels = [axes for axes in plot(data).axes if "terms" in axes.get_title()]
-    for axes, row in zip(panels, (1, 0), strict=True):
-        outcome = data.outcome.values[row]
-        assert np.unique(outcome).size == 3
-        of_curves = [span for span in joined(axes) if span[0] > 0]  # not the line at zero, which has no outcome
-        assert over([span for span in of_curves if span[1] < 0.5], stokes, outcome) == []
 
 
 @pytest.mark.slow

@@ -187,50 +187,6 @@ def test_a_full_disk(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
             assert [path.name for path in temporary.iterdir()] == ([Path(place).name] if killed else [])
 
 
-def test_no_folder_at_all(tmp_path: Path):
-    """A cache whose place is a file: everything works, and one line names it."""
-    (tmp_path / "file").write_text("")
-    done = in_process(
-        "from wetdoublet.solvers.host import user_cache as cache; print(cache.kept('a.b', lambda: b'own'))",
-        WETDOUBLET_CACHE=str(tmp_path / "file" / "cache"),
-    )
-    assert done.stdout == "b'own'\n"
-    assert done.stderr.startswith(f"{tmp_path / 'file' / 'cache'}: Not a directory; ")
-
-
-_MAKING = """
-import time
-from wetdoublet.solvers.host import user_cache as cache
-with cache.room() as place:
-    (place / "half.o").write_text("")
-    print("made", flush=True)
-    time.sleep(600)
-"""
-
-
-@posix
-def test_what_a_kill_leaves_is_swept(shelf: Path):
-    """Folders of a process that was killed are removed by the next that makes something, nobody else's."""
-    running = [
-        subprocess.Popen([sys.executable, "-c", _MAKING], stdout=subprocess.PIPE, text=True, start_new_session=True)
-        for _ in range(2)
-    ]
-    try:
-        for process in running:
-            assert process.stdout is not None
-            assert process.stdout.readline() == "made\n"
-        assert len(list(shelf.iterdir())) == 2
-        running[0].kill()
-        running[0].wait()
-        assert in_process(f"{_CACHE}; cache.kept('a.b', bytes)").returncode == 0
-        assert len(list(shelf.glob(".making-*"))) == 1
-        assert len(list(shelf.glob(".making-*/half.o"))) == 1
-    finally:
-        for process in running:
-            process.kill()
-            process.communicate()
-
-
 _SWEEPING = """
 import sys
 from pathlib import Path

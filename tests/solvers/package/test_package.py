@@ -80,7 +80,7 @@ except SystemExit as done:
 HEAVY = {"sympy", "pint", "xarray", "matplotlib", "scipy", "dask", "distributed", "zarr", "loky", "jax", "torch"}
 LOADING: dict[str, tuple[str, set[str], set[str]]] = {  # program, what it needs, what it must not load
     "import": ("import wetdoublet", {"wetdoublet"}, HEAVY | {"numpy", "casadi", "click"}),
-    "public names": ("import wetdoublet as wd\nfor name in wd.__all__: getattr(wd, name)", {"numpy"}, HEAVY - {"scipy"}),
+    "public names": ("import wetdoublet as w\nfor name in w.__all__: getattr(w, name)", {"numpy"}, HEAVY - {"scipy"}),
     "collide": (COMMAND.format('"collide", "pendulum", "--json"'), {"casadi", "numpy"}, HEAVY),
     "map": (
         COMMAND.format('"map", "granulation", "--stokes", "0.02:0.1:2", "--angle", "60"'),

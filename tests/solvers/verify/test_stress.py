@@ -207,7 +207,7 @@ TURNING = {  # at rest on each other on strings, turned by more than half a turn
 
 
 def test_scenes_at_the_edge_of_what_doubles_hold() -> None:
-    """Each was found by the stress test: a peer's slip, a pull of 1e13 m v0^2/x0, a long step, a pressure of rounding."""
+    """Each was found by the stress test: a peer's slip, a pull of 1e13 m v0^2/x0, a long step."""
     scene = Scene.from_dict(SLIDING)
     found, expected = checking.by_scipy(scene, RTOL / 10), scanned(scene)
     assert "slides" in [kind for kind, _ in expected.events]

@@ -218,7 +218,7 @@ SILICA = {"particles.roughness": 1.5e-7, "liquid.film_thickness": 2e-6, "liquid.
     "entries", [{"impact.stokes": 20.0, "impact.angle": 0.0}, {**SILICA, "attraction.hamaker": 6.5e-19}]
 )
 def test_closed_forms_where_others_act(entries: dict[str, float]) -> None:
-    """Elasticity stops it at a third of the film, beneath which none is asked for; attraction is taken away for them."""
+    """Elasticity stops it at a third of the film, beneath which none is asked for; attraction is taken away."""
     scene = Scene.load("granulation").with_entries(entries)
     for check in (closed.film_alone, closed.straight_line, closed.spin_relaxes):
         figure, where = check(scene, "rosenbrock")
