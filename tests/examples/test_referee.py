@@ -118,6 +118,7 @@ def test_a_dry_restitution_that_yade_cannot_have_is_refused():
         translate.uncut_restitution(0.13)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("e_dry", [0.9, 0.5])
 def test_yade_rebounds_with_the_dry_restitution(e_dry):
     """YADE itself, without surface tension."""
@@ -142,7 +143,7 @@ def soulie_work(scene):
     return math.pi * scene.bridge.surface_tension * R**2 * np.trapezoid(np.exp(A * x + B) + C, x)
 
 
-@pytest.mark.parametrize("degrees", [0.0, 20.0, 60.0])
+@pytest.mark.parametrize("degrees", [0.0, 60.0])
 def test_liggghts_has_the_contact_angle(degrees):
     """Half the product of both angles, in rad, is the scene's; LIGGGHTS's bridge takes the work of Soulie's force."""
     import hosts

@@ -253,8 +253,8 @@ def test_the_names_of_a_model_file_are_listed_with_units():
     assert run("generate", "--names", "--template").exit_code == 2
 
 
-def test_generate_and_verify(module, tmp_path):
-    """`generate` lists what it wrote, `--check` what differs; `verify` prints its report; both exit 1 on a failure."""
+def test_generate(module, tmp_path):
+    """`generate` lists what it wrote, `--check` what differs, with exit 1."""
     differences = ["--- generated/a.py", "extra: generated/b.py"]
     module("wetdoublet.derive.emit.write", emitted=lambda: {"a.py": "A = 1\n"}, check=lambda: differences)
     out = tmp_path / "new" / "folder"
@@ -270,25 +270,6 @@ def test_generate_and_verify(module, tmp_path):
     differences.clear()
     result = run("generate", "--check")
     assert (result.exit_code, result.output) == (0, "")
-
-    class Report:
-        ok = False
-        budget = None
-        failed = (SimpleNamespace(line="angular momentum (granulation): 1e-3, bound 1e-9, at St 1"),)
-
-        def __str__(self):
-            return "L is not conserved"
-
-        def to_markdown(self):
-            return "# L"
-
-    module(
-        "wetdoublet.solvers.verify", verify=lambda scene, progress, recompute: Report(), Finding=object, Report=Report
-    )
-    result = run("verify", "-o", str(tmp_path / "report.md"))
-    assert (result.exit_code, result.stdout) == (1, "L is not conserved\n") and len(result.stderr.splitlines()) == 1
-    assert "angular momentum (granulation): 1e-3, bound 1e-9, at St 1" in result.stderr
-    assert (tmp_path / "report.md").read_text() == "# L\n"
 
 
 def test_a_reader_that_leaves():

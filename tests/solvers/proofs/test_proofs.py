@@ -231,28 +231,16 @@ def test_boxes_of_pairs_that_fall_back_are_proved() -> None:
     assert contradicted == 0
 
 
-MUTANTS = {
-    "a part of the set is below the barrier": (
-        "return iv_negative(margin(p, b, s, iv_point(b->gap)));",
-        "return iv_lo(margin(p, b, s, iv_point(b->gap))) < 0.0;",
-    ),
-    "the margin of the centre": ("above[n] = d_add(", "above[n] = d_add(n ? d_value(above[0].v) : "),
-    "twice the work of the bridge": (
-        "return iv_sub(energy, work(b, x[GAP], gap));",
-        "return iv_sub(energy, iv_mul(iv_point(2.0), work(b, x[GAP], gap)));",
-    ),
-}
-
-
 @pytest.mark.slow
-@pytest.mark.parametrize("change", MUTANTS.values(), ids=MUTANTS)
-def test_mutants_of_the_barrier_are_contradicted(change: tuple[str, str]) -> None:
-    """Collisions near the change of outcome contradict a barrier that is wrong."""
+def test_a_barrier_that_is_wrong_is_contradicted() -> None:
+    """Collisions near the change of outcome contradict one that holds twice the work of the bridge."""
     inputs = Inputs.of(NEAR, {"impact.stokes": 1e-6, "impact.angle": 1e-6})
     key = select_model(NEAR, True, fold=True)
     text, known = source(key, False, 2), engine(key, False, 2)
-    assert text.count(change[0]) == 1
-    mutant = loaded(library(text.replace(*change), (*here()[0].flags, *FLAGS)), ctypes.CDLL)
+    right = "return iv_sub(energy, work(b, x[GAP], gap));"
+    assert text.count(right) == 1
+    doubled = text.replace(right, "return iv_sub(energy, iv_mul(iv_point(2.0), work(b, x[GAP], gap)));")
+    mutant = loaded(library(doubled, (*here()[0].flags, *FLAGS)), ctypes.CDLL)
     assert mutant.interval_start()
     mutant.interval_prove.argtypes, mutant.interval_prove.restype = [ctypes.c_void_p] * 5, None
     assert wrong(Engine(mutant, known.quantities, known.room), 0.005, inputs)[1] > 0

@@ -174,24 +174,6 @@ def test_the_template_runs(tmp_path: Path):
     assert all(check.ok for check in checks)
 
 
-def test_a_film_may_depend_on_the_speed(tmp_path: Path):
-    """A shear-thinning film is a law over the normal velocity; without thinning it is the library's."""
-    file = tmp_path / "thin.py"
-    file.write_text(
-        "from wetdoublet.derive.user import *\n"
-        'k = quantity("time_constant", unit="s", default="0 s", bounds=">= 0", over=x0/v0)\n'
-        "rate = sqrt((u/x0)**2)\n"
-        'law("film", "thinning", resistance=6*pi*mu*a**2*u/x*(1 - x/x0)**2/(1 + k*rate))\n'
-    )
-    done = run("generate", str(file), "--out", str(tmp_path / "thin"))
-    assert done.exception is None, done.exception
-    scene = Scene.load("granulation", model=tmp_path / "thin")
-    same, thin = (scene, scene.with_entries({"custom.time_constant": "10 us"}))
-    pair = [collide(each, engine="rosenbrock", ledger=False).restitution for each in (same, "granulation", thin)]
-    assert pair[0] == pytest.approx(pair[1], rel=1e-9)
-    assert pair[2] > pair[1]
-
-
 def test_a_default_of_another_dimension_is_no_example(tmp_path: Path):
     """A pressure as the default of a viscosity is refused, and what is accepted is the viscosity's unit."""
     file = tmp_path / "mine.py"
