@@ -83,7 +83,7 @@ def without_compiler(monkeypatch: pytest.MonkeyPatch, empty: Path) -> None:
 def test_a_page_opens_without_a_compiler(monkeypatch: pytest.MonkeyPatch, tmp_path: Path):
     """Its modules come with the package, as the files are named."""
     without_compiler(monkeypatch, tmp_path)
-    page = explore("granulation", "lactose-pvp").html
+    page = explore("granulation").html
     assert {*embedded(page).values()} <= {gzip.decompress(path.read_bytes()) for path in FOLDER.glob("*.wasm.gz")}
 
 

@@ -166,6 +166,7 @@ def test_progress_never_falls_and_ends_at_the_total(compute):
     assert calls[-1][0] == calls[-1][1] > 0
 
 
+@pytest.mark.slow
 def test_an_interrupted_fit_says_what_is_most_likely_so_far():
     def interrupt(done: int, total: int) -> None:
         if done > 0.9 * total:
