@@ -13,6 +13,12 @@ SPHERES = Scene.load("glass-beads-water").with_entries(
         "partner.coating_thickness": "3 um", "liquid.viscosity": "20 mPa s",
     }
 )  # fmt: skip
+OWN = Scene.load("granulation").with_entries(  # equal masses, which is far from the presets
+    {
+        "particles.reduced_radius": "0.2 mm", "particles.reduced_mass": "3e-5 g", "particles.dry_restitution": 0.8,
+        "liquid.viscosity": 0.3, "partner.radius": "0.3 mm", "partner.mass": "3e-5 g", "bridge.volume": 0.02,
+    }
+)  # fmt: skip
 STRICT = ("-O0", "-pedantic", "-Wall", "-Wextra", "-Werror")
 
 

@@ -101,9 +101,7 @@ def test_the_command_shows_terms_and_what_they_do():
 def test_folders_of_other_versions_are_compared(tmp_path: Path):
     """Two folders that `generate` made, one of them by other equations: the term is shown, nothing is computed."""
     for name in ("old", "new"):
-        (tmp_path / name / "laws").mkdir(parents=True)
-        for file in ("laws/shear_film.py", "manifest.json"):
-            shutil.copy(GENERATED / file, tmp_path / name / file)
+        shutil.copytree(GENERATED, tmp_path / name, ignore=shutil.ignore_patterns("__pycache__"))
     law = tmp_path / "new" / "laws" / "shear_film.py"
     law.write_text(law.read_text().replace("-log(gap)", "-log(gap) + aspect"))
     done = run("diff", str(tmp_path / "old"), str(tmp_path / "new"), "--markdown")

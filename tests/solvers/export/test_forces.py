@@ -10,15 +10,10 @@ from wetdoublet.solvers.space.pairs import Bodies
 
 from ...helpers.exported_law import FOUND, Law, written
 from ...helpers.host_of_forces import Host
+from .conftest import OWN
 from .test_law_in_space import GRANULATION, arrivals
 
 pytestmark = [pytest.mark.slow, pytest.mark.skipif("gcc" not in FOUND, reason="needs gcc and g++")]
-OWN = GRANULATION.with_entries(
-    {
-        "particles.reduced_radius": "0.2 mm", "particles.reduced_mass": "3e-5 g", "particles.dry_restitution": 0.8,
-        "liquid.viscosity": 0.3, "partner.radius": "0.3 mm", "partner.mass": "3e-5 g", "bridge.volume": 0.02,
-    }
-)  # fmt: skip
 FILM_ALONE = Scene.load("granulation-dry-bridge")
 ROUGH = {"particles.friction": 0.2, "particles.contact_tangential_restitution": 0.5}
 COUNT = 60

@@ -11,7 +11,7 @@ from wetdoublet.solvers.export.law.space import declarations
 from wetdoublet.solvers.space.pairs import Bodies
 
 from ...helpers.exported_law import FOUND, Law, written
-from .conftest import SPHERES, STRICT
+from .conftest import OWN, SPHERES, STRICT
 
 pytestmark = pytest.mark.skipif("gcc" not in FOUND, reason="needs gcc and g++")
 GRANULATION = Scene.load("granulation")
@@ -73,11 +73,10 @@ def test_two_spheres_are_those_of_collide_pair(law: Law):
 
 RUBS = {"particles.friction": 0.2, "particles.contact_tangential_restitution": 0.5, "model.contact_friction": "all"}
 RESTS = {"particles.friction": 0.1, "particles.dry_restitution": 0.2, "liquid.viscosity": "1 mPa s"}
-UNEQUAL = {"partner.radius": "150 um", "partner.mass": "2e-5 g", "bridge.volume": 0.05}
 OTHERS = {
     "a wall that moves": WALL,
-    "in solid contact": GRANULATION.with_entries({**UNEQUAL, **RESTS, "liquid.glass_transition_pressure": "1e12 Pa"}),
-    "rubbing": GRANULATION.with_entries({**UNEQUAL, **RUBS}),
+    "in solid contact": OWN.with_entries({**RESTS, "liquid.glass_transition_pressure": "1e12 Pa"}),
+    "rubbing": OWN.with_entries(RUBS),
 }
 
 
@@ -87,56 +86,6 @@ def test_others_are_those_of_collide_pair(name: str, tmp_path: Path):
     """Sliding, rolling and twist beside a wall; solid contact until rotation opens it; friction at every rebound."""
     scene = OTHERS[name]
     agree(Law(scene, written(scene, tmp_path), *STRICT), scene, 60)
-
-
-@pytest.mark.slow
-def test_a_stick_depends_on_the_pair_alone(law: Law, folder: Path):
-    """Another compilation, lanes and tolerance change when its integration stops, and nothing of what is returned."""
-    rows = law.pairs(*arrivals(SPHERES, 150, seed=7))
-    plain = Law(SPHERES, folder, "-O1", "-DGLASS_BEADS_WATER_LANES=1")
-    tight, loose, other = law.collide_pairs(rows, 1e-11), law.collide_pairs(rows, 1e-6), plain.collide_pairs(rows, 1e-9)
-    sticks = (tight["outcome"] == 0) & (loose["outcome"] == 0) & (other["outcome"] == 0)
-    assert np.count_nonzero(sticks) > 30
-    for name in ("restitution", "time", "gap", "position", "velocities", "spins", "angular_velocity"):
-        size = np.abs(tight[name]).max(axis=tuple(range(1, tight[name].ndim)), keepdims=True)
-        assert np.array_equal(tight[name][sticks], loose[name][sticks])
-        assert np.all(np.abs(tight[name] - other[name])[sticks] <= 1e-14 * size[sticks]), name
-
-
-def test_what_is_conserved(law: Law):
-    """Momentum and angular momentum to rounding, sticks' too; energy is never created."""
-    normal, velocities, spins = arrivals(SPHERES, 100, seed=2)
-    found, bodies = law.collide_pairs(law.pairs(normal, velocities, spins)), Bodies.of(SPHERES)
-    mass, inertia = np.array(bodies.mass)[:, None], np.array(bodies.inertia)[:, None]
-    before, after = ((mass * each).sum(axis=1) for each in (velocities, found["velocities"]))
-    close(after, before, (mass * np.abs(velocities)).sum(axis=1), 1e-14)
-
-    def momentum(apart: np.ndarray, moving: np.ndarray, turning: np.ndarray) -> np.ndarray:
-        orbital = bodies.reduced_mass * np.cross(apart, moving[:, 1] - moving[:, 0])
-        return np.asarray(orbital + (inertia * turning).sum(axis=1))
-
-    def energy(moving: np.ndarray, turning: np.ndarray) -> np.ndarray:
-        return np.asarray((mass * moving**2 + inertia * turning**2).sum(axis=(1, 2)))
-
-    first = momentum(law.contact_distance() * normal, velocities, spins)
-    size = np.abs(inertia * spins).sum(axis=1)
-    size += bodies.reduced_mass * law.contact_distance() * np.abs(velocities).sum(axis=1)
-    close(momentum(found["position"], found["velocities"], found["spins"]), first, size, 1e-12)
-    assert np.all(energy(found["velocities"], found["spins"]) <= energy(velocities, spins))
-
-
-def test_a_turned_picture_gives_a_turned_answer(law: Law):
-    """Whichever way the axes point, and however fast the frame moves."""
-    normal, velocities, spins = arrivals(SPHERES, 60, seed=3)
-    turn, _ = np.linalg.qr(np.random.default_rng(4).normal(size=(3, 3)))
-    turn *= np.sign(np.linalg.det(turn))
-    found = law.collide_pairs(law.pairs(normal, velocities, spins))
-    drift = np.array([1.0, -2.0, 0.5])
-    other = law.collide_pairs(law.pairs(normal @ turn.T, velocities @ turn.T + drift, spins @ turn.T))
-    assert np.array_equal(found["outcome"], other["outcome"])
-    away = found["outcome"] > 0
-    close((other["velocities"] - drift)[away] @ turn, found["velocities"][away], velocities[away] + drift)
-    close(other["spins"][away] @ turn, found["spins"][away], np.abs(spins[away]).max(axis=1, keepdims=True) + 1.0)
 
 
 def test_one_by_one_is_the_batch(law: Law):

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from wetdoublet.solvers import InputError, Scene, band, collide, collide_many, gradients_many, sensitivities
+from wetdoublet.solvers import InputError, Scene, collide, collide_many, gradients_many, sensitivities
 from wetdoublet.solvers.sensitivity.uncertainty import deviations
 
 from ...helpers.entries import BASE, BRIDGE, PEOPLE, tables
@@ -112,17 +112,6 @@ def test_many_gradients_hold_what_the_scene_gives():
         np.testing.assert_allclose(many.gradient.values[:, k], expected, rtol=1e-6)
 
 
-def test_relative_speed_is_kept_and_replaced():
-    """An angle alone keeps the relative speed; a normal speed or Stokes number replaces it."""
-    said = scene(PEOPLE, {"bridge.volume": 0.05})
-    assert said.speed == 6 * math.cos(math.radians(50))
-    assert said.with_impact(angle="60 deg").speed == pytest.approx(3.0)
-    assert said.with_impact(speed=1.5).speed == 1.5
-    assert "impact.relative_speed" not in said.with_impact(stokes=0.1).entries
-    many = collide_many(said, angle=[0.0, 1.0])
-    assert many.speed.values == pytest.approx([6.0, 6 * math.cos(1.0)], rel=1e-15)
-
-
 def test_a_coating_says_what_is_assumed():
     """How much of the coating flows into the bridge is shown with the result, and where that is from."""
     said = str(collide(scene(PEOPLE, {"bridge.volume": "from coating"})))
@@ -153,23 +142,3 @@ def test_a_volume_is_meant_as_the_scene_gives_it():
     for volumes in ([1e-9, 0.1], ["1e-12 mm^3", "1e-4 mm^3"]):
         found = collide_many(granulation, stokes=0.1, angle=1.0, vary={"bridge.volume": volumes})
         assert found.outcome.values.tolist() == [-1, 1]
-
-
-def test_an_entry_left_to_its_default_is_uncertain_all_the_same():
-    """The band of a contact angle that the scene leaves out is that of 0 deg written down."""
-    given = {name: value for name, value in Scene.load("granulation").given if name != "bridge.contact_angle"}
-    left_out = Scene("", tuple(given.items()))
-    bands = [
-        band(one, {"bridge.contact_angle": "5 deg"}, "impact.stokes", [0.1, 0.2], samples=8)
-        for one in (left_out, left_out.with_entries({"bridge.contact_angle": "0 deg"}))
-    ]
-    for name in bands[0].data_vars:
-        np.testing.assert_array_equal(bands[0][name], bands[1][name])
-
-
-def test_the_entries_of_a_result_make_its_scene_again():
-    """The scene of a JSON object collides to the same numbers where the volume is given in its unit."""
-    given = Scene.load("granulation").with_entries({"bridge.volume": "5e-14 m^3"})
-    one = collide(given, stokes=0.1, angle="75 deg")
-    again = Scene.load("granulation").with_entries(one.to_dict()["scene"])
-    assert collide(again).restitution == one.restitution

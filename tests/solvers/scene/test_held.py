@@ -4,7 +4,7 @@ import json
 import math
 
 import pytest
-from wetdoublet.solvers import Scene, band, collide, collide_many, regime_map, sensitivities
+from wetdoublet.solvers import Scene, collide, collide_many, regime_map, sensitivities
 from wetdoublet.solvers.errors import InputError
 
 from ...helpers.command import run
@@ -79,13 +79,6 @@ def test_a_step_in_viscosity_is_what_the_derivative_says() -> None:
             for side in (-1, 1)
         )
         assert (high - low) / (2 * step) == pytest.approx(exact, rel=1e-3, abs=1e-4)
-
-
-def test_bands_sample_what_is_held() -> None:
-    """The samples' scatter is that of the first order, which differs by a factor of 700 with the number held."""
-    for hold in ("speed", "stokes"):
-        found = band(GRANULATION, {"liquid.viscosity": "0.1 %"}, "impact.stokes", [0.03], samples=64, hold=hold)
-        assert found.sampled.item() == pytest.approx(found.first_order.item(), rel=0.15)
 
 
 def test_commands_hold_and_say_so() -> None:

@@ -17,11 +17,8 @@ from wetdoublet.solvers import (
     sensitivities,
 )
 from wetdoublet.solvers.boundaries.on_map import map_curves
-from wetdoublet.solvers.engines.taylor import source as text
-from wetdoublet.solvers.engines.taylor.call import variant
 from wetdoublet.solvers.export.law.texts import texts as law_texts
 from wetdoublet.solvers.host.compiler import compiler
-from wetdoublet.solvers.model.model import select_model
 
 from ...helpers.command import run
 from ...helpers.reference import collide
@@ -197,19 +194,6 @@ def test_no_rotation_beside_a_wall(tmp_path: Path):
     )
     with pytest.raises(InputError, match="partner.wall: .* has no rotation, of which this event speaks; accepted"):
         collide(Scene.load("granulation", model=path).with_entries({"partner.wall": True}))
-
-
-def test_kernels_without_events_are_untouched(snaps: Path):
-    """What only declared events need is no part of another kernel's source, and so not of its name in the cache."""
-    plain, own = Scene.load("granulation"), scene(snaps)
-    texts = []
-    for one in (plain, own):
-        choice = select_model(one, True)
-        wanted = variant(one, choice, 1e-9, False)
-        texts.append(text.source(wanted, ("#define MODEL\n",)))
-    assert "own_event" not in texts[0].lower()
-    assert "OWN_EVENTS" not in texts[0]
-    assert "own_event_jumps" in texts[1]
 
 
 def test_commands_tell_of_declared_events(snaps: Path, tmp_path: Path):

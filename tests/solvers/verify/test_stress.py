@@ -12,11 +12,9 @@ from typing import Any
 import numpy as np
 import pytest
 from wetdoublet.solvers import Scene, boundary, collide, collide_many
-from wetdoublet.solvers.collision.by_casadi import by_casadi
 from wetdoublet.solvers.commands.cli import main
 from wetdoublet.solvers.commands.verify import command as verify
-from wetdoublet.solvers.engines.casadi.locate import CHATTERS, locate
-from wetdoublet.solvers.engines.casadi.replay import Stopped
+from wetdoublet.solvers.engines.casadi.locate import CHATTERS
 from wetdoublet.solvers.errors import ComputationError
 from wetdoublet.solvers.host.compiler import compiler
 from wetdoublet.solvers.model.dimensionless import nondimensionalise
@@ -241,24 +239,6 @@ def test_a_collision_is_located_once_for_both_engines() -> None:
     before = located.spared
     assert checking.chained(scene, RTOL).cpu == located.spared - before > 0.0
     assert checking.chained(scene, RTOL).restitution == collide(scene, rtol=RTOL, engine="cvodes").restitution
-
-
-def test_no_tolerance_is_tried_twice() -> None:
-    """Where an engine never meets its events: 100 times tighter down to 1e-13, then the trajectory that is located."""
-    asked: list[tuple[float, bool]] = []
-
-    def find(model: Any, groups: dict[str, float], rtol: float, extras: tuple[str, ...], **_: Any) -> Any:
-        asked.append((rtol, bool(extras)))
-        return locate(model, groups, rtol, extras)
-
-    def missed(path: Any, *_: Any) -> Any:
-        raise Stopped("misses", path.steps[0], 0.0, path.y, missed=True)
-
-    scene = Scene.load("granulation")
-    n = nondimensionalise(scene, *scene.need_impact())
-    found = by_casadi(scene, n, RTOL, "cvodes", False, False, find, replay=missed)
-    assert found.engine == "rosenbrock"
-    assert asked == [(pytest.approx(10.0**-k), False) for k in (9, 11)] + [(1e-13, False), (RTOL, True)]
 
 
 @pytest.mark.skipif(sys.platform != "linux" or compiler() is None, reason="a library is compiled and preloaded")
