@@ -14,7 +14,7 @@ from wetdoublet.solvers.planning.search import Criterion, search
 from ...helpers.command import run
 
 FREE = ["liquid.viscosity", "liquid.film_thickness"]
-OVER = {"stokes": (0.06, 0.3), "angle": "30 deg"}
+OVER = {"stokes": (0.06, 0.3), "angle": 0.0}
 
 POLYMER = """
 [particles]
