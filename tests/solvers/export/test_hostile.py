@@ -96,9 +96,8 @@ def test_hostile_numbers_under_sanitizers(tmp_path: Path) -> None:
     text = HOSTILE.replace("LAW_", f"{name.upper()}_").replace("law_", f"{name}_").replace("NAME", name)
     (folder / "hostile.c").write_text(text)
     warned = ["-pedantic", "-Wall", "-Wextra", "-Wconversion", "-Wshadow", "-Werror"]
-    for compiler in (["gcc", "-std=c99", "-march=native"], ["g++", "-x", "c++", "-std=c++20"]):
-        command = [*compiler, *warned, "-fsyntax-only", f"{name}.c", "hostile.c", "check.c"]
-        subprocess.run(command, cwd=folder, check=True)
+    command = ["gcc", "-std=c99", *warned, "-fsyntax-only", f"{name}.c", "hostile.c", "check.c"]
+    subprocess.run(command, cwd=folder, check=True)
     flags = ["-std=c99", *SANITIZED["gcc"], f"-D{name.upper()}_LANES=2"]
     built = subprocess.run(["gcc", *flags, "-c", f"{name}.c"], cwd=folder, check=False, capture_output=True, text=True)
     assert built.returncode == 0, built.stderr

@@ -10,7 +10,19 @@ from matplotlib.axes import Axes
 from matplotlib.contour import QuadContourSet
 from matplotlib.figure import Figure
 from matplotlib.legend import Legend
-from wetdoublet.solvers import Scene, atlas, band, boundary, collide, fit, plot, regime_map, sensitivities
+from wetdoublet.solvers import (
+    ComputationError,
+    ModelWarning,
+    Scene,
+    atlas,
+    band,
+    boundary,
+    collide,
+    fit,
+    plot,
+    regime_map,
+    sensitivities,
+)
 
 NAME = "a-very-long-name-of-a-scene-that-somebody-has-given-to-say-all-about-it-and-its-liquid"
 LONG = Scene.load("granulation").with_entries({"name": NAME})
@@ -106,6 +118,18 @@ def test_a_legend_of_a_map_has_what_occurs(scene: Scene | str) -> None:
     names = [text.get_text().partition(": ")[2] for text in legend.get_texts()]
     words = np.array(["stick", "stick-rotate-separate", "bounce"])
     assert [name for name in names if name] == words[np.unique(data.outcome)].tolist()
+
+
+def test_a_map_goes_without_boundaries_that_take_minutes(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The cells are drawn without them, and a warning says why."""
+
+    def long(*_: object) -> None:
+        raise ComputationError("thousands of collisions")
+
+    monkeypatch.setattr(on_map, "curves_of", long)
+    data = regime_map("granulation", stokes=[0.05, 0.1], angle=[0.5, 1.0])
+    with pytest.warns(ModelWarning, match="lacks boundaries: thousands of collisions"):
+        assert on_map.map_curves(data) == {0: []}
 
 
 @pytest.mark.parametrize("vary", [{}, {"liquid.viscosity": [1.0, 2.0]}])

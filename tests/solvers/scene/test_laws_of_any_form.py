@@ -4,8 +4,7 @@ from pathlib import Path
 from random import Random
 
 import pytest
-from wetdoublet.solvers import ModelWarning, Scene, collide, regime_map, sensitivities
-from wetdoublet.solvers.boundaries.on_map import map_curves
+from wetdoublet.solvers import Scene, collide, sensitivities
 from wetdoublet.solvers.scene.user_model_derived import derived_package
 
 from ...helpers.random_laws import random_law
@@ -38,14 +37,6 @@ def by_kernel(given: Scene, **impact: object) -> float:
     found = collide(given, rtol=1e-11, engine="taylor", ledger=False, **impact)
     assert found.engine == "taylor"
     return float(found.restitution)
-
-
-def test_a_picture_goes_without_boundaries_that_take_minutes(tmp_path: Path):
-    """Beside a boundary with many undecided collisions the map is drawn without it, and says so."""
-    given = scene(tmp_path, POWER.format("Abs(u)"), custom__flow_index="0.6")
-    data = regime_map(given, stokes=[0.01, 0.03, 0.1, 0.3], angle=[0.6, 0.9, 1.2])
-    with pytest.warns(ModelWarning, match="lacks boundaries"):
-        assert map_curves(data, given.package) == {0: []}
 
 
 def test_an_arm_with_a_quantity(tmp_path: Path):
