@@ -23,6 +23,7 @@ from wetdoublet.solvers import (
     regime_map,
     sensitivities,
 )
+from wetdoublet.solvers.boundaries import on_map
 
 NAME = "a-very-long-name-of-a-scene-that-somebody-has-given-to-say-all-about-it-and-its-liquid"
 LONG = Scene.load("granulation").with_entries({"name": NAME})
