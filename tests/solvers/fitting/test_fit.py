@@ -70,10 +70,11 @@ def test_what_it_writes_and_draws(pendulum, tmp_path):
     files = found.report(tmp_path / "report")
     assert [path.name for path in files] == ["report.md", "report.html", "fit.png"]
     assert all(name in files[0].read_text() for name in found.estimates)
-    (axes,) = [each for each in found.plot().axes if each.get_xlabel() == "viscosity (Pa s)"]
+    drawn = found.plot().axes
+    (axes,) = [each for each in drawn if each.get_xlabel() == "viscosity (Pa s)"]
     x, y = axes.lines[0].get_data()
     assert np.interp([estimate.low, estimate.high], x, y) == pytest.approx(-1.92, abs=0.3)
-    (axes,) = [each for each in found.plot().axes if each.get_ylabel() == "restitution $e_n$"]
+    (axes,) = [each for each in drawn if each.get_ylabel() == "restitution $e_n$"]
     assert axes.collections[0].get_paths()  # the band of the interval
 
 
