@@ -34,7 +34,7 @@ SHOWN: dict[str, tuple[str, ...]] = {
     "check": (),
     "fit": ("--free", "liquid.viscosity"),
 }
-DRAWN = {"collide", "sensitivity", "sensitivity band", "boundary", "critical"}
+DRAWN = {"collide", "sensitivity", "sensitivity band", "boundary", "critical", "fit"}
 SILENT = {  # why the others show no speed
     "prove": "names in SI and Stokes numbers", "reproduce": "the paper's figures are over Stokes numbers and angles",
     "verify": "residuals of laws", "bench": "CPU times and errors", "export": "functions, whose headers name arguments",
