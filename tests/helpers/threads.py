@@ -1,38 +1,51 @@
-"""Public functions from several threads at once, beside the same calls in one thread.
+"""Every public function from several threads at once, beside the same calls in one thread.
 
-    python -X faulthandler tests/helpers/threads.py [SECONDS] [THREADS]
+    python -X faulthandler tests/helpers/threads.py [--seconds 60] [--threads 8] [--quick]
 
 Threads start together in a cold process, each at another place of the list of calls, and go round it until the time is
 over; then one thread makes the same calls, once each. What it gives, every thread must have given, to the last bit;
-exit status 1 if one has not, or fails.
+exit status 1 if one has not, or fails. `--quick` leaves out what takes more than a second.
 """
 
 # ruff: noqa: T201 -- a script that prints
+import argparse
+import atexit
+import hashlib
 import io
 import math
+import os
+import shutil
 import sys
+import tempfile
 import threading
 import time
 import warnings
 from collections import defaultdict
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import xarray as xr
 from wetdoublet import solvers
-from wetdoublet.solvers import Scene, boundary, collide, collide_many, gradients_many, regime_map, sensitivities
+from wetdoublet.solvers import Scene, atlas, boundary, collide, collide_many, gradients_many, regime_map, sensitivities
 from wetdoublet.solvers.engines.casadi.integrators import IntegrationFailed, Tolerance, plain
+from wetdoublet.solvers.host.compiler import compiler
 from wetdoublet.solvers.model.model import load, select_model
 from wetdoublet.solvers.model.phases import Flow, Region
+from wetdoublet.solvers.verify.backward import backward
+from wetdoublet.solvers.verify.budget import restitution_budget
+from wetdoublet.solvers.verify.conserved import conserved
+from wetdoublet.solvers.verify.sample import collisions
+from yielding import LAW  # beside this script
 
-GRANULATION = "granulation"
+GRANULATION, PENDULUM = "granulation", "pendulum"
 IMPACT: dict[str, Any] = {"stokes": 0.05, "angle": "60 deg"}
 MANY = {"stokes": np.geomspace(0.01, 0.3, 300), "angle": np.linspace(0.0, 1.4, 300)}
+FEW = {"stokes": np.geomspace(0.02, 0.3, 6), "angle": 0.9}
 WRT = ("liquid.viscosity", "bridge.volume", "impact.angle")
-FILE = Path(solvers.__file__).parent / "scene" / "presets" / "pendulum.toml"
-VARIED = {"liquid.viscosity": "3 Pa s", "particles.reduced_radius": "0.06 mm"}
+MODEL = Path(tempfile.gettempdir()) / f"wetdoublet-threads-{os.getpid()}" / "mine.py"
+SCENE = Path(solvers.__file__).parent / "scene" / "presets" / "pendulum.toml"
 
 
 def _png(figure: Any) -> bytes:
@@ -41,11 +54,24 @@ def _png(figure: Any) -> bytes:
     return into.getvalue()
 
 
-def _refused() -> Any:
-    try:
-        return Scene.load(GRANULATION).with_entries({"liquid.viscosity": "2 furlongs"})
-    except solvers.InputError as error:
-        return str(error)
+def _traced(**options: Any) -> Any:
+    return boundary(GRANULATION, angle=np.array([0.6, 0.9]), rtol=1e-8, **options)
+
+
+def _drawn_boundary() -> bytes:
+    from wetdoublet.solvers.boundaries import plot as boundary_plot
+
+    return _png(boundary_plot.draw(Scene.load(GRANULATION), boundary(GRANULATION, angle=0.9, rtol=1e-8)))
+
+
+def _drawn_map() -> bytes:
+    from wetdoublet.solvers.many.plot_map import draw_map
+
+    return _png(draw_map(_mapped()))
+
+
+def _mapped(**options: Any) -> xr.Dataset:
+    return regime_map(GRANULATION, stokes=np.geomspace(0.01, 0.3, 12), angle=np.linspace(0.2, 1.3, 10), **options)
 
 
 def _failing() -> str:
@@ -59,61 +85,149 @@ def _failing() -> str:
     return "done"
 
 
-CALLS: dict[str, Callable[[], Any]] = {
-    "collide by cvodes": lambda: collide(GRANULATION, engine="cvodes", **IMPACT),
+def _refused() -> str:
+    try:
+        Scene.load(GRANULATION).with_entries({"liquid.viscosity": "2 furlongs"})
+    except solvers.InputError as error:
+        return str(error)
+    return "accepted"
+
+
+def _remarked() -> str:
+    with_remark = Scene.load(GRANULATION).with_entries({"bridge.law": "willett", "bridge.volume": 0.5})
+    return " ".join(collide(with_remark, **IMPACT).validity)
+
+
+def _varied() -> Scene:
+    return Scene.load(GRANULATION).with_entries({"liquid.viscosity": "3 Pa s", "particles.reduced_radius": "0.06 mm"})
+
+
+QUICK: dict[str, Callable[[], Any]] = {
+    "collide by cvodes": lambda: collide(GRANULATION, **IMPACT),
     "collide by rosenbrock": lambda: collide(GRANULATION, engine="rosenbrock", trajectory=True, **IMPACT),
-    "collide by the kernel": lambda: collide(GRANULATION, **IMPACT),
-    "collide on strings": lambda: collide("pendulum", stokes=1.3, angle="45 deg"),
+    "collide by taylor": lambda: collide(GRANULATION, engine="taylor", trajectory=True, **IMPACT),
+    "collide on strings": lambda: collide(PENDULUM, stokes=1.3, angle="45 deg"),
     "collide, drawn": lambda: _png(collide(GRANULATION, trajectory=True, **IMPACT).plot()),
-    "a scene from a file": lambda: Scene.load(FILE).to_toml(),
-    "a scene with units": lambda: Scene.load(GRANULATION).with_entries(VARIED).to_dict(),
+    "a scene from a file": lambda: Scene.load(SCENE).to_toml(),
+    "a scene with units": lambda: _varied().to_dict(),
     "a refused unit": _refused,
+    "a remark": _remarked,
     "an integration that fails": _failing,
-    "many": lambda: collide_many(GRANULATION, of=("rotation", "contact_time"), **MANY),
-    "a map": lambda: regime_map(GRANULATION, stokes=np.geomspace(0.01, 0.3, 12), angle=np.linspace(0.2, 1.3, 10)),
-    "boundary": lambda: boundary(GRANULATION, angle=np.array([0.6, 0.9])),
+    "few by rosenbrock": lambda: collide_many(GRANULATION, engine="rosenbrock", **FEW),
+    "many by taylor": lambda: collide_many(GRANULATION, of=("rotation", "contact_time"), **MANY),
+    "a map": _mapped,
+    "boundary": _traced,
     "sensitivities": lambda: sensitivities(GRANULATION, wrt=WRT, engine="rosenbrock", **IMPACT),
-    "gradients": lambda: gradients_many(GRANULATION, wrt=WRT, stokes=MANY["stokes"], angle=0.9),
+    "gradients": lambda: gradients_many(GRANULATION, wrt=WRT, engine="taylor", stokes=MANY["stokes"], angle=0.9),
+}
+LONG: dict[str, Callable[[], Any]] = {
+    "atlas": lambda: atlas(GRANULATION, span=(0.6, 0.7), stokes=(0.03, 0.3), lines=2),
+    "few by cvodes": lambda: collide_many(GRANULATION, engine="cvodes", **FEW),
+    "a small map": lambda: regime_map(GRANULATION, stokes=FEW["stokes"], angle=[0.4, 0.9], engine="rosenbrock"),
+    "adjoint": lambda: sensitivities(GRANULATION, wrt=WRT, method="adjoint", engine="cvodes", **IMPACT),
+    "collide with a partner": lambda: collide(
+        Scene.load(GRANULATION).with_entries({"partner.radius": "0.2 mm", "partner.mass": "40 ug"}), **IMPACT
+    ),
+    "many by loky": lambda: collide_many(GRANULATION, engine="rosenbrock", **MANY),
+    "gradients one by one": lambda: gradients_many(GRANULATION, wrt=WRT, engine="rosenbrock", **FEW),
+    "tornado": lambda: _png(sensitivities(GRANULATION, engine="rosenbrock", **IMPACT).plot()),
+    "boundary sensitivities": lambda: solvers.boundary_sensitivities(GRANULATION, angle=0.9, wrt=WRT),
+    "boundary, drawn": _drawn_boundary,
+    "map, drawn": _drawn_map,
+    "a model of one's own": lambda: collide(Scene.load(GRANULATION, model=MODEL), stokes=0.1, angle=0.9),
+    "a structure derived": lambda: collide_many(
+        Scene.load(GRANULATION).with_entries({"attraction.hamaker": 1e-19, "model.film": "constant-volume"}), **FEW
+    ),
+    "band": lambda: solvers.band(GRANULATION, {"liquid.viscosity": "5 %"}, "impact.stokes", [0.03, 0.2], samples=8),
+    "budget": lambda: restitution_budget(GRANULATION, stokes=[0.05, 0.1], angle=[0.5, 0.9]),
+    "conserved": lambda: [str(one) for one in conserved(collisions(Scene.load(GRANULATION), (0.9,)))],
+    "integrated back": lambda: [str(one) for one in backward(collisions(Scene.load(GRANULATION), (0.9,)))],
 }
 
 
-def _said(found: Any) -> str:
+def _digest(found: Any) -> str:
     """What a result says, to the last bit."""
-    if isinstance(found, xr.Dataset):
-        found = {str(name): found[name].values.tolist() for name in found.variables} | {"attrs": found.attrs}
-    if hasattr(found, "to_dict"):
-        trajectory = getattr(found, "trajectory", None)
-        found = found.to_dict(), None if trajectory is None else _said(trajectory)
-    return repr(found)
+    whole = hashlib.sha256()
+
+    def take(value: Any) -> None:
+        if isinstance(value, xr.Dataset):
+            take({name: value[name].values for name in value.variables} | {"attrs": value.attrs})
+        elif isinstance(value, np.ndarray):
+            whole.update(repr(value.tolist()).encode())
+        elif isinstance(value, Mapping):
+            for key in value:
+                take(key)
+                take(value[key])
+        elif isinstance(value, bytes):
+            whole.update(value)
+        elif isinstance(value, (list, tuple)):
+            for each in value:
+                take(each)
+        elif hasattr(value, "to_dict"):
+            take(value.to_dict())
+            take(getattr(value, "trajectory", None))
+        else:
+            whole.update(repr(value).encode())
+
+    take(found)
+    return whole.hexdigest()
 
 
-def main(seconds: float = 60.0, count: float = 8) -> int:
-    warnings.simplefilter("ignore", solvers.ModelWarning)
-    found: dict[str, set[str]] = defaultdict(set)
-    names, ready, before, threads = list(CALLS), threading.Barrier(int(count)), sys.stderr, int(count)
+def together(calls: Mapping[str, Callable[[], Any]], count: int, seconds: float) -> dict[str, dict[str, int]]:
+    """What the calls gave in so many threads: by name, how often each digest; a failure is its message."""
+    found: dict[str, dict[str, int]] = defaultdict(lambda: defaultdict(int))
+    names, guard, ready = list(calls), threading.Lock(), threading.Barrier(count)
     end = time.monotonic() + seconds
 
     def go(own: int) -> None:
         ready.wait()
+        place = own * len(names) // count
         done = 0
-        while time.monotonic() < end or done < len(names) / threads:  # together at least once round
-            name = names[(own * len(names) // threads + done) % len(names)]
+        while time.monotonic() < end or done < len(names) / count:  # together at least once round
+            name = names[(place + done) % len(names)]
             try:
-                found[name].add(_said(CALLS[name]()))
-            except Exception as error:  # noqa: BLE001 # told
-                found[name].add(f"{type(error).__name__}: {error}")
+                said = _digest(calls[name]())
+            except Exception as error:  # noqa: BLE001 # counted, and told
+                said = f"{type(error).__name__}: {error}"
+            with guard:
+                found[name][said] += 1
             done += 1
 
-    running = [threading.Thread(target=go, args=(own,)) for own in range(threads)]
-    for thread in running:
+    threads = [threading.Thread(target=go, args=(own,)) for own in range(count)]
+    for thread in threads:
         thread.start()
-    for thread in running:
+    for thread in threads:
         thread.join()
-    wrong = {name: said for name, said in found.items() if said != {_said(CALLS[name]())}}
-    for name, said in wrong.items():
-        print("WRONG", name, *(each[:300] for each in said), sep="\n     ")
-    return int(bool(wrong) or len(found) < len(names) or sys.stderr is not before)
+    return found
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--seconds", type=float, default=60.0)
+    parser.add_argument("--threads", type=int, default=8)
+    parser.add_argument("--quick", action="store_true")
+    asked = parser.parse_args()
+    warnings.simplefilter("ignore", solvers.ModelWarning)
+    calls = QUICK if asked.quick else QUICK | LONG
+    MODEL.parent.mkdir(mode=0o700)
+    atexit.register(shutil.rmtree, MODEL.parent)
+    MODEL.write_text(LAW)
+    if compiler() is None:
+        calls = {name: call for name, call in calls.items() if "taylor" not in name}
+    before = sys.stderr
+    found, wrong = together(calls, asked.threads, asked.seconds), 0
+    for name, said in found.items():
+        good = set(said) == {_digest(calls[name]())}
+        wrong += not good
+        print("ok   " if good else "WRONG", name, sum(said.values()))
+        for each in [] if good else said:
+            print("     ", each[:300])
+    if sys.stderr is not before:
+        print("WRONG sys.stderr is not what it was")
+        wrong += 1
+    print(f"{sum(sum(said.values()) for said in found.values())} calls of {len(found)} kinds, {wrong} wrong")
+    return min(wrong, 1)
 
 
 if __name__ == "__main__":
-    sys.exit(main(*map(float, sys.argv[1:])))
+    sys.exit(main())
