@@ -167,17 +167,6 @@ def test_without_a_count_there_are_as_many_scenes_as_the_help_says() -> None:
 
 
 WEAK = {"model.glass": "film-corrected"}  # its pressure starts at 0 at x0
-SLIDING = {  # a peer whose step leaps from rolling contact beyond its release finds that it slides first
-    "particles": {
-        "reduced_radius": 0.00400025, "density": 6390.69, "roughness": 6.46687e-12, "dry_restitution": 0.0,
-        "youngs_modulus": 1.28379e9, "poisson_ratio": 0.0775354, "friction": 2.0426,
-    },
-    "partner": {"radius": 0.00687061, "density": 1933.86},
-    "liquid": {"viscosity": 0.00148133, "film_thickness": 4.01241e-6, "glass_transition_pressure": 4.27251e10},
-    "bridge": {"surface_tension": 0.466911, "volume": 0.0166999, "contact_angle": 1.27228, "law": "lambert"},
-    "model": {"glass": "film-corrected"},
-    "impact": {"stokes": 3574.88, "angle": 0.0, "spin": 38.1254, "partner_spin": -4.67286},
-}  # fmt: skip
 PULLING = {  # let go almost at rest: together in a quarter of the pendulum's period, the film takes little
     "particles": {"reduced_radius": 2.78663e-3, "density": 12787.3, "roughness": 3.84872e-9, "dry_restitution": 0.3826},
     "liquid": {"viscosity": 5.81449e-05, "film_thickness": 0.00184799, "glass_transition_pressure": 67044200.0},
@@ -194,11 +183,7 @@ TURNING = {  # at rest on each other on strings, turned by more than half a turn
 
 
 def test_scenes_at_the_edge_of_what_doubles_hold() -> None:
-    """Each was found by the stress test: a peer's slip, a pull of 1e13 m v0^2/x0, a long step."""
-    scene = Scene.from_dict(SLIDING)
-    found, expected = checking.by_scipy(scene, RTOL / 10), scanned(scene)
-    assert "slides" in [kind for kind, _ in expected.events]
-    assert (found.outcome, found.restitution) == ("bounce", pytest.approx(expected.restitution, rel=1e-6))
+    """Each was found by the stress test: a pull of 1e13 m v0^2/x0, a long step."""
     first = collide(Scene.from_dict(PULLING), engine="rosenbrock").events[0]
     assert (first.kind, first.time) == ("rough", pytest.approx(math.pi / 2 * math.sqrt(10.2548 / 2.76018), rel=1e-3))
     turned = collide(Scene.from_dict(TURNING), engine="rosenbrock")
