@@ -420,7 +420,7 @@ class Scan:
             for inertia, where in zip(b.inertias, (SPIN, PARTNER)):
                 kinetic += inertia * dot(at(y, where), at(y, where)) / 2
                 momentum = plus(momentum, inertia, at(y, where))
-        reserve = 1e-9 if b.arm == "midgap" or b.wall else 0.05  # that arm lets the momentum drift
+        reserve = 1e-7 if b.arm == "midgap" or b.wall else 0.05  # of the accuracy; that arm lets the momentum drift
         scale = kinetic + abs(b.potential(x))
         return bool(kinetic + b.potential(x) + reserve * scale < b.barrier(x, math.hypot(*momentum)))
 
