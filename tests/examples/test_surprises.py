@@ -90,6 +90,7 @@ def test_the_page_has_every_row_and_its_command() -> None:
 # ---- head-on
 
 
+@pytest.mark.slow
 def test_1_a_thicker_liquid_sticks_less() -> None:
     expected = {0.1: 1.932081, 0.5608: 2.704629, 2.0: 2.090142, 8.0: 0.859622}
     for viscosity, speed in expected.items():
@@ -148,6 +149,7 @@ def loss(s: float) -> float:
     return math.log(1 / s) - 1.5 + 2 * s - s * s / 2
 
 
+@pytest.mark.slow
 def test_15_glass_makes_e_n_larger_than_roughness_does() -> None:
     """In closed form: the gap at which the pressure is met, and the film's loss to there and back."""
     one, liquid = PENDULUM.particles, PENDULUM.liquid
@@ -167,6 +169,7 @@ def test_15_glass_makes_e_n_larger_than_roughness_does() -> None:
     assert expected / rough == pytest.approx(2.5, rel=0.01)
 
 
+@pytest.mark.slow
 def test_16_surface_tension_makes_it_stick_less() -> None:
     """Between the critical speeds of one and four times the surface tension the weaker bridge sticks."""
     for scene, expected in ((GRANULATION, -0.0017056), (WALL, -0.0024590)):
@@ -226,6 +229,7 @@ def test_21_viscosity_raises_e_n() -> None:
 # ---- at an angle
 
 
+@pytest.mark.slow
 def test_2_a_separation_lasts_a_thousand_times_longer() -> None:
     first, second = stokes(GRANULATION, STEEP)
     near = collide(GRANULATION, stokes=1.01 * first, angle=STEEP)
@@ -246,6 +250,7 @@ def test_2_a_separation_lasts_a_thousand_times_longer() -> None:
     assert np.mean(found.rotation.values[apart] > math.tau) == pytest.approx(0.3405, abs=2e-3)
 
 
+@pytest.mark.slow
 def test_collide_says_that_a_contact_is_not_instantaneous() -> None:
     """By the way that a particle of the relative speed travels meanwhile; a bounce, a stick and strings say nothing."""
     first = stokes(GRANULATION, STEEP)[0]
@@ -322,6 +327,7 @@ def test_4_by_the_toolkit() -> None:
         assert boundary(scene, angle=STEEP).changes[0][0].centrifugal == pytest.approx(expected, rel=1e-5)
 
 
+@pytest.mark.slow
 def test_5_restitution_jumps() -> None:
     second = stokes(GRANULATION, STEEP)[1]
     for side, expected, accuracy in ((-1e-6, 0.737332, 1e-4), (1e-6, 0.867856, 3e-3)):
@@ -338,6 +344,7 @@ def test_5_restitution_jumps() -> None:
         assert found.restitution == pytest.approx(expected, abs=6e-4)
 
 
+@pytest.mark.slow
 def test_6_with_backspin_faster_can_stick() -> None:
     scene = GRANULATION.with_entries({"impact.spin": -2e4})
     assert stokes(scene, STEEP) == pytest.approx([0.0190840, 0.0756485, 0.118652], rel=1e-5)
@@ -351,12 +358,14 @@ def test_6_with_backspin_faster_can_stick() -> None:
         assert (end.outcome == "stick") == outcome
 
 
+@pytest.mark.slow
 def test_9_on_strings_the_boundary_is_a_speed() -> None:
     for entries, expected in (({"pendulum.length": 0.5}, 0.1046290), ({"pendulum.length": 2.0}, 0.0525433),
                               ({"liquid.viscosity": 48.0}, 0.105391)):  # fmt: skip
         assert critical(PENDULUM.with_entries(entries), angle=STEEP).rows[0].speed == pytest.approx(expected, rel=2e-4)
 
 
+@pytest.mark.slow
 def test_11_the_ceiling_of_rebounds_without_glass() -> None:
     one, liquid = GRANULATION.particles, GRANULATION.liquid
     ceiling = (
@@ -391,6 +400,7 @@ def test_14_spheres_overspin() -> None:
     assert found.tangential_restitution < rigid
 
 
+@pytest.mark.slow
 def test_22_smaller_spheres_stick_to_hardly_higher_speeds() -> None:
     larger = GRANULATION.with_entries({"particles.reduced_radius": 1e-4, "particles.reduced_mass": 4.16e-8})
     for angle, expected in ((0.0, 0.499900), (STEEP, 0.761166)):
@@ -408,6 +418,7 @@ def test_23_a_graze_comes_off_along_the_line_of_centres() -> None:
 # ---- walls, unequal spheres, friction, space
 
 
+@pytest.mark.slow
 def test_24_and_25_a_wall_lets_go_sooner_and_with_a_jump() -> None:
     sphere, wall = at(GRANULATION), at(WALL)
     assert wall / sphere == pytest.approx(0.683763, rel=1e-5)
@@ -419,6 +430,7 @@ def test_24_and_25_a_wall_lets_go_sooner_and_with_a_jump() -> None:
         assert start.restitution == pytest.approx(expected, rel=0.05)  # it rises as a square root from there
 
 
+@pytest.mark.slow
 def test_26_to_28_a_wall_stops_a_sphere_and_forgets_its_spin() -> None:
     speed, angle = at(WALL), math.radians(45)
     for factor, expected in ((1.5, 1.8529e-5), (3.0, 4.38091e-3)):
@@ -439,6 +451,7 @@ def test_26_to_28_a_wall_stops_a_sphere_and_forgets_its_spin() -> None:
         assert collide(thicker, speed=normal, angle=angle).restitution == pytest.approx(closed, rel=1e-8)
 
 
+@pytest.mark.slow
 def test_29_a_larger_partner_sticks_less() -> None:
     expected = {
         1.0: (2.090142, 28.49221),
@@ -493,6 +506,7 @@ def twisted(number: float, twist: float) -> tuple[object, Arrival]:
     return collide_pair(GRANULATION, [1, 0, 0], velocities, spins), Arrival((1.0, 0.0, 0.0), velocities, spins)
 
 
+@pytest.mark.slow
 def test_13_twist_parts_a_stick() -> None:
     """In closed form: all of L in rigid rotation at the roughness, where the bridge just holds."""
     body, number = bodies_of(GRANULATION), 0.02

@@ -106,7 +106,6 @@ BAD = [
     ("diff library", "B", "missing", "library"),
     ("diff library granulatio", "B", "did you mean granulation?", "library, granulation"),
     ("diff librry granulation", "A", "did you mean library?", "library, granulation"),
-    ("diff library library --latex --markdown", "--markdown", "", "only one of --latex, --markdown"),
     ("export granulation --to latx", "--to", "did you mean latex?", "c, casadi, latex"),
     ("export granulation --to c", "--out", "missing", ""),
     ("generate -o x", "-o", "did you mean --out?", "--check"),

@@ -90,9 +90,11 @@ def test_the_command_writes_what_fit_reads(tmp_path: Path) -> None:
     pd.concat([pd.DataFrame({"impact": label, **film}) for label in "ab"]).to_csv(tmp_path / "films.csv", index=False)
     words = ("tracks", tmp_path / "films.csv", "lactose-pvp", "--rate", rate, "--scale", "2 um")
     assert run(*words, "-o", tmp_path / "impacts.csv").exit_code == 0
-    found = tracks(film, scene, rate=rate, scale=PIXEL).columns["speed"]
-    assert json.loads(run(*words, "--json").stdout)["speed"] == pytest.approx(2 * list(found))
-    assert read_data(tmp_path / "impacts.csv", scene).speed == pytest.approx(2 * list(found), rel=1e-5)
+    found = tracks(film, scene, rate=rate, scale=PIXEL).columns
+    assert json.loads(run(*words, "--json").stdout)["speed"] == pytest.approx(2 * list(found["speed"]))
+    data = read_data(tmp_path / "impacts.csv", scene)
+    assert data.relative
+    assert data.speed == pytest.approx(2 * list(found["relative_speed"]), rel=1e-5)
 
 
 def test_a_film_that_ends_before_contact_is_left_out() -> None:
