@@ -64,17 +64,8 @@ def cooling() -> object:
 def test_constant_restitution_cools_by_haffs_law(cooling, tmp_path: Path) -> None:
     """T falls as exp(-(1 - e^2) C/3) with the collisions C of a sphere, and as 1/(1 + t/tau)^2 with Enskog's tau."""
     (tmp_path / "granulation.h").write_text(CONSTANT)
-    command = [
-        *compiler().command,
-        "-std=c99",
-        "-O2",
-        f"-I{tmp_path}",
-        str(FOLDER / "cooling.c"),
-        "-lm",
-        "-o",
-        "cooling",
-    ]
-    subprocess.run(command, check=True, cwd=tmp_path)
+    flags = f"-std=c99 -O1 -I{tmp_path} {FOLDER}/cooling.c -lm -o cooling"
+    subprocess.run([*compiler().command, *flags.split()], check=True, cwd=tmp_path)
     count, share = 3000, 0.02
     rows, _ = cooling.simulate(tmp_path / "cooling", count, share, 1.0, 30)
     part = rows["temperature"] / rows["temperature"][0]
@@ -118,7 +109,7 @@ def test_agglomerates_are_the_same_whoever_compiles(cooling, tmp_path: Path, mon
             folder = tmp_path / f"{name}{flag}"
             folder.mkdir()
             monkeypatch.setenv("CC", f"{name} {flag}")
-            rows, sizes = cooling.agglomerate(cooling.build(folder, "-O2", "agglomerates"), 400, 3, 60)
+            rows, sizes = cooling.agglomerate(cooling.build(folder, "-O0", "agglomerates"), 300, 3, 60)
             last = rows[-1]
             assert last["agglomerates"] < 50
             assert last["rotate"] + last["bounce"] > 200

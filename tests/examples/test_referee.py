@@ -63,26 +63,6 @@ def test_a_host_tends_to_its_law_and_the_parts_make_the_difference(host, law):
     assert parts == pytest.approx(row["e_n_host"] - row["e_n_ours"], abs=1e-12)
 
 
-def test_damping_in_liggghts_follows_the_stokes_number_of_the_moment():
-    """LIGGGHTS itself rebounds as the equation that the two numbers are fitted with, and not as its manual's law."""
-    import hosts
-    import one_number
-
-    if hosts.command("liggghts") is None:
-        pytest.skip(f"liggghts is not installed: {hosts.INSTALL['liggghts']}")
-    radius, mass, mu, critical, most = 1e-4, 5.2e-9, 1.0, 0.115, 0.99
-    speed = 5.0
-    ratio = critical / (mass * speed / (6 * math.pi * mu * (radius / 2) ** 2))
-    parameters = {
-        "radius": radius, "density": 2 * mass / (4 / 3 * math.pi * radius**3), "youngs_modulus": 5e7,
-        "poisson_ratio": 0.2, "viscosity": mu, "critical_stokes": critical, "maximum_restitution": most, "speed": speed,
-    }  # fmt: skip
-    job = {"law": "viscous", "parameters": parameters, "start": 1e-6, "end": 1e-6, "longest": 2e-5}
-    (found,) = hosts.run("liggghts", job | {"collisions": [[speed, 0.0, 5e-9]]})["found"]
-    assert found["velocity"][0] / speed == pytest.approx(one_number.rebound(ratio, most), abs=2e-3)
-    assert abs(one_number.exponential(ratio, most) - found["velocity"][0] / speed) > 0.05
-
-
 def pair_at_rest(e_dry: float) -> dict[str, float | str]:
     """Two millimetre spheres in YADE's or LIGGGHTS's words, without a liquid that does anything."""
     return {
@@ -118,6 +98,7 @@ def test_a_dry_restitution_that_yade_cannot_have_is_refused():
         translate.uncut_restitution(0.13)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("e_dry", [0.9, 0.5])
 def test_yade_rebounds_with_the_dry_restitution(e_dry):
     """YADE itself, without surface tension."""
@@ -132,34 +113,14 @@ def test_yade_rebounds_with_the_dry_restitution(e_dry):
     assert found["velocity"][0] == pytest.approx(e_dry, abs=2e-3)
 
 
-def soulie_work(scene):
-    """Work of Soulie's force from contact to rupture at the scene's contact angle, J: integrated here."""
-    V, theta = scene.bridge.volume, scene.bridge.contact_angle
-    R = 2 * scene.reduced_radius
-    A, C = -1.1 * V**-0.53, 0.0018 * math.log(V) + 0.078
-    B = (-0.148 * math.log(V) - 0.96) * theta**2 - 0.0082 * math.log(V) + 0.48
-    x = np.linspace(0.0, (1 + theta / 2) * V ** (1 / 3), 20001)
-    return math.pi * scene.bridge.surface_tension * R**2 * np.trapezoid(np.exp(A * x + B) + C, x)
-
-
-@pytest.mark.parametrize("degrees", [0.0, 20.0, 60.0])
+@pytest.mark.parametrize("degrees", [0.0, 60.0])
 def test_liggghts_has_the_contact_angle(degrees):
-    """Half the product of both angles, in rad, is the scene's; LIGGGHTS's bridge takes the work of Soulie's force."""
-    import hosts
+    """Half the product of both angles, in rad, is the scene's."""
     import translate
 
-    beads = Scene.load(FOLDER / "beads-glycerol.toml")
-    scene = beads.with_entries({"bridge.contact_angle": math.radians(degrees)})
+    scene = Scene.load(FOLDER / "beads-glycerol.toml").with_entries({"bridge.contact_angle": math.radians(degrees)})
     words = translate.liggghts_easo(scene, None, 1.0)
     assert math.radians(words.parameters["contact_angle"]) ** 2 / 2 == pytest.approx(math.radians(degrees))
-    if hosts.command("liggghts") is None:
-        pytest.skip(f"liggghts is not installed: {hosts.INSTALL['liggghts']}")
-    speed = 0.15
-    elastic = words.parameters | {"viscosity": 1e-9, "restitution": 1.0}
-    job = {"law": "easo", "parameters": elastic, "start": 6e-5, "end": words.end, "longest": 1e-2}
-    (found,) = hosts.run("liggghts", job | {"collisions": [[speed, 0.0, words.step]]})["found"]
-    expected = math.sqrt(1 - 2 * soulie_work(scene) / (scene.reduced_mass * speed**2))
-    assert found["velocity"][0] / speed == pytest.approx(expected, abs=3e-4)
 
 
 def test_without_viscosity_the_equation_has_the_maximum_restitution():

@@ -61,7 +61,7 @@ MUTANTS = {
         "test_sticks_and_boundaries.py::test_a_certified_stick_followed_on_never_separates",
     ),
     "a length that is none": Mutant(
-        "generated/taylor/shared/scale_oblique.h",
+        "generated/taylor/shared/scale_oblique_bridge.h",
         "vec_exp(0.6*vec_log(q[SI_REDUCED_RADIUS]))",
         "vec_exp(0.61*vec_log(q[SI_REDUCED_RADIUS]))",
         "test_symmetries.py::test_similarity",
@@ -92,5 +92,47 @@ MUTANTS = {
         'return f", did you mean {name}?" if name else ""',
         'return f", did you mean {name[::-1]}?" if name else ""',
         "test_spoilt_scenes.py::test_a_misspelt_entry_is_told_the_nearest",
+    ),
+    "a restitution that is too large": Mutant(
+        "solvers/collision/assemble.py",
+        'restitution=outputs["restitution"] if separated',
+        'restitution=1.3*outputs["restitution"] if separated',
+        "test_conservation.py::test_restitution_stays_below_its_ceiling",
+    ),
+    "a pair of heavier spheres": Mutant(
+        "derive/physics/partners/bodies.py",
+        "sp.factor(equal_sphere * mass * radius**2)",
+        "sp.factor(sp.Rational(101, 100) * equal_sphere * mass * radius**2)",
+        "test_symmetries.py::test_a_partner_equal_to_the_sphere_is_the_sphere",
+    ),
+    "a heavier wall": Mutant(
+        "solvers/scene/quantities.py",
+        'result["reduced_mass"] * over_equal(mass_ratio)',
+        'result["reduced_mass"] * over_equal(mass_ratio) * (1.01 if ways.wall else 1.0)',
+        "test_symmetries.py::test_a_wall_is_a_huge_partner",
+    ),
+    "spins with a sense": Mutant(
+        "solvers/scene/quantities.py",
+        'result.setdefault("impact_spin", 0.0)\n',
+        'result["impact_spin"] = (spin := result.get("impact_spin", 0.0)) + 0.01*abs(spin)\n',
+        "test_symmetries.py::test_a_reflection_changes_nothing",
+    ),
+    "a change that is not reported": Mutant(
+        "solvers/boundaries/trace.py",
+        "changes[k] = tuple(outcome_changes)",
+        "changes[k] = tuple(outcome_changes[1:])",
+        "test_sticks_and_boundaries.py::test_nothing_changes_between_boundaries",
+    ),
+    "strings that pull too much": Mutant(
+        "generated/taylor/laws/strings_exact.h",
+        "c->combination_offset = (c->string_ratio*c->string_ratio);",
+        "c->combination_offset = 0.9*(c->string_ratio*c->string_ratio);",
+        "test_reference.py::test_equals_the_reference",
+    ),
+    "a film that proofs alone have": Mutant(
+        "generated/interval/laws/film_finite.h",
+        "c->k1 = d_ratio(-2.0, 1.0);",
+        "c->k1 = d_ratio(-2.01, 1.0);",
+        "test_sticks_and_boundaries.py::test_a_proof_holds_the_collision",
     ),
 }

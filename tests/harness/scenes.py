@@ -1,5 +1,6 @@
 """Random scenes of the covering structures, as hypothesis draws and shrinks them."""
 
+import pytest
 from hypothesis import assume
 from hypothesis import strategies as st
 from wetdoublet.solvers import InputError, Scene
@@ -7,7 +8,12 @@ from wetdoublet.solvers.verify.stress.sample import NUMBERS, scene_of
 
 from .structures import STRUCTURES, Structure, name
 
-PAIRS_IN_SPACE = [each for each in STRUCTURES if not each["strings"]]
+QUICK = STRUCTURES[::3]  # each structure has its kernels
+parts = pytest.mark.parametrize(
+    "structures",
+    [QUICK, pytest.param([each for each in STRUCTURES if each not in QUICK], marks=pytest.mark.slow)],
+    ids=["some", "the others"],
+)
 
 
 @st.composite

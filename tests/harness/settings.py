@@ -1,9 +1,12 @@
 """How many examples a property is tried on: the same in every run; WETDOUBLET_EXAMPLES=50 tries 50 times as many."""
 
 import os
+from collections.abc import Sequence
+from typing import TypeVar
 
 from hypothesis import HealthCheck, Phase, settings
 
+_Any = TypeVar("_Any")
 _MORE = int(os.environ.get("WETDOUBLET_EXAMPLES", "1"))
 _INVALID = [HealthCheck.filter_too_much, HealthCheck.too_slow]
 _PHASES = [Phase.explicit, Phase.generate]
@@ -21,3 +24,8 @@ def examples(count: int) -> settings:
         phases=_PHASES,
         database=None,
     )
+
+
+def few(structures: Sequence[_Any], step: int = 6) -> list[_Any]:
+    """A few of some structures, where what is shown depends little on them; all where more examples are tried."""
+    return list(structures[:: step if _MORE == 1 else 1])

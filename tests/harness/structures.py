@@ -10,7 +10,7 @@ Structure = dict[str, str]
 
 CHOICES: dict[str, tuple[str, ...]] = {
     "partner": ("", "sphere", "wall"),
-    "spins": ("", "one", "both"),
+    "spins": ("", "both"),
     "friction": ("", "yes"),
     "attraction": ("", "yes"),
     "bridge": ("", "law"),

@@ -9,20 +9,26 @@ from hypothesis import strategies as st
 from wetdoublet.solvers import ComputationError, Scene, collide_many, sensitivities
 
 from .scenes import scenes
-from .settings import examples
+from .settings import examples, few
 from .structures import STRUCTURES
 
 STEP = 2e-4  # relative, of an entry
 RESULTS = ("restitution", "contact_time")
+# beyond which no step goes
+ENDS = {"particles.dry_restitution": 1.0, "particles.poisson_ratio": 0.5, "bridge.contact_angle": math.pi / 2}
 
 pytestmark = pytest.mark.filterwarnings("ignore::wetdoublet.solvers.ModelWarning")
 
 
 @examples(12)
-@given(scenes(STRUCTURES[::3]), st.integers(0, 2**32 - 1), st.sampled_from(["forward", "adjoint"]))
+@given(scenes(few(STRUCTURES, 11)), st.integers(0, 2**32 - 1), st.sampled_from(["forward", "adjoint"]))
 def test_a_derivative_is_the_extrapolated_difference(scene: Scene, seed: int, method: str) -> None:
     """Of restitution and contact time by three entries at random, the impact's among them."""
-    entries = [name for name, value in scene.si if isinstance(value, float) and value != 0.0 and "impact" not in name]
+    entries = [
+        name
+        for name, value in scene.si
+        if isinstance(value, float) and value not in (0.0, ENDS.get(name)) and "impact" not in name
+    ]
     draw = np.random.default_rng(seed)
     names = [str(name) for name in draw.choice(entries, 2, replace=False)] + ["impact.speed"]
     speed, angle = scene.need_impact()

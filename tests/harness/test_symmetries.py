@@ -9,8 +9,9 @@ from hypothesis import strategies as st
 from wetdoublet.solvers import Scene
 from wetdoublet.solvers.scene.schema import FIELDS
 
+from ..helpers.entries import tables
 from .conditioning import Conditioned, decided
-from .scenes import scenes
+from .scenes import QUICK, scenes
 from .settings import examples
 from .structures import STRUCTURES
 
@@ -28,7 +29,7 @@ def powers(entry: str) -> dict[str, float]:
 
 
 @examples(20)
-@given(scenes(), factors, factors, factors)
+@given(scenes(QUICK), factors, factors, factors)
 def test_similarity(scene: Scene, length: float, mass: float, time: float) -> None:
     """A scene measured in other units of length, mass and time collides alike."""
     scales = {"length": length, "mass": mass, "time": time}
@@ -46,7 +47,7 @@ def test_similarity(scene: Scene, length: float, mass: float, time: float) -> No
 
 
 @examples(12)
-@given(scenes([each for each in STRUCTURES if not (each["partner"] or each["strings"])][:3]))
+@given(scenes([STRUCTURES[0] | {"bridge": ""}]))  # which always parts
 def test_a_partner_equal_to_the_sphere_is_the_sphere(scene: Scene) -> None:
     """The equations of unequal spheres give at ratio 1 what those of equal ones give."""
     entries = scene.entries
@@ -57,7 +58,7 @@ def test_a_partner_equal_to_the_sphere_is_the_sphere(scene: Scene) -> None:
 
 
 @examples(12)
-@given(scenes([each for each in STRUCTURES if each["partner"] == "sphere" and not each["friction"]]))
+@given(scenes(STRUCTURES[9:10]))
 def test_which_sphere_is_named_first_does_not_matter(scene: Scene) -> None:
     """Outcome and restitution are those of the exchanged pair."""
     entries = dict(scene.entries)
@@ -79,8 +80,9 @@ def test_which_sphere_is_named_first_does_not_matter(scene: Scene) -> None:
     computed.agree(other, 1e-8, ("restitution", "tangential_restitution", "rotation", "contact_time"))
 
 
+@pytest.mark.slow
 @examples(12)
-@given(scenes([each for each in STRUCTURES if each["partner"] == "wall" and not each["friction"]][:2]))
+@given(scenes([each for each in STRUCTURES if each["partner"] == "wall" and not each["friction"]][1:2]))
 def test_a_wall_is_a_huge_partner(scene: Scene) -> None:
     """Restitution tends to that beside a wall as 1/ratio: ratios of 4,000 and 8,000, extrapolated, give it."""
     computed = Conditioned(scene)
@@ -93,7 +95,7 @@ def test_a_wall_is_a_huge_partner(scene: Scene) -> None:
     found = []
     for ratio in (4e3, 8e3):
         partner = {"partner.radius": ratio * radius, "partner.mass": ratio * mass, "impact.partner_spin": 0.0}
-        huge = Scene.from_dict(_tables({**entries, **partner}))
+        huge = Scene.from_dict(tables({**entries, **partner}))
         found.append(decided(huge, speed=speed, rtol=1e-11))
     assert {other.outcome for other in found} == {computed.collision.outcome}
     limit = 2 * found[1].restitution - found[0].restitution
@@ -102,17 +104,9 @@ def test_a_wall_is_a_huge_partner(scene: Scene) -> None:
 
 
 @examples(12)
-@given(scenes([each for each in STRUCTURES if each["head-on"]]))
+@given(scenes([STRUCTURES[1] | {"attraction": ""}]))
 def test_a_reflection_changes_nothing(scene: Scene) -> None:
     """Along the line of centres the sense of the spins is arbitrary."""
     spins = {name: -value for name, value in scene.entries.items() if name in ("impact.spin", "impact.partner_spin")}
     computed = Conditioned(scene)
     computed.agree(decided(scene.with_entries(spins), rtol=1e-11), 1e-9, ("restitution", "contact_time"))
-
-
-def _tables(entries: dict[str, object]) -> dict[str, dict[str, object]]:
-    found: dict[str, dict[str, object]] = {}
-    for name, value in entries.items():
-        table, _, key = name.partition(".")
-        found.setdefault(table, {})[key] = value
-    return found

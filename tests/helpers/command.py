@@ -16,4 +16,9 @@ def run(*arguments: object) -> Result:
     return result
 
 
+def quiet(stderr: str) -> str:
+    """What a process said on standard error, without what it says where the machine is slow."""
+    return AT_WORK.sub(b"", stderr.encode()).decode()
+
+
 PATIENCE = 900  # s: of a test that waits for a process; none shall fail because the machine is slow

@@ -13,6 +13,11 @@ BASE = {  # granulation, as a file has it
     "liquid.film_thickness": "8 um",
     "liquid.glass_transition_pressure": "20 MPa",
 }
+PEOPLE = {  # spheres in a coating, as a laboratory has them
+    "particles.diameter": "200 um", "particles.density": "2.5 g/cm^3", "particles.roughness": "0.2 um",
+    "particles.dry_restitution": 0.9, "liquid.viscosity": "20 mPa s", "liquid.coating_thickness": "4 um",
+    "bridge.surface_tension": "50 mN/m", "impact.relative_speed": "6 m/s", "impact.angle": "50 deg",
+}  # fmt: skip
 BRIDGE = {"bridge.surface_tension": "0.025 N/m", "bridge.volume": 0.1, "bridge.contact_angle": "0 deg"}
 
 CIRCLES = {  # a doublet that dips ever less into its film

@@ -34,11 +34,11 @@ class Law:
     def __init__(self, scene: Scene, folder: Path, *flags: str, compiler: str = "gcc") -> None:
         self.name = law_name(scene)
         self._folder = folder
-        library = folder / f"{self.name}-{len(list(folder.glob('*.so')))}.so"
+        self.library = folder / f"{self.name}-{len(list(folder.glob('*.so')))}.so"
         source = str(folder / f"{self.name}.c")
         command = [compiler, "-std=c99", "-O1", "-fno-math-errno", *flags, "-fPIC", "-shared"]
-        subprocess.run([*command, "-o", str(library), source, "-lm"], check=True)
-        self._library = ctypes.CDLL(str(library))
+        subprocess.run([*command, "-o", str(self.library), source, "-lm"], check=True)
+        self._library = ctypes.CDLL(str(self.library))
 
     def function(self, name: str) -> Any:
         """NAME_name, of ctypes."""
@@ -96,19 +96,24 @@ class Law:
             rows[name] = column
         return rows
 
-    def collide(
-        self, impacts: np.ndarray, rtol: float = 1e-9, material: np.ndarray | None = None, budget: int = 0
-    ) -> np.ndarray:
-        """The results of impacts, by one call for all."""
-        found = np.zeros(impacts.size, self.dtype("collision"))
+    def _many(self, name: str, rows: np.ndarray, structure: str, rtol: float, material: Any, budget: int) -> np.ndarray:
+        """The results of rows, by one call for all."""
+        found = np.zeros(rows.size, self.dtype(structure))
         material = self.material() if material is None else material
-        function = self.function("collide_many")
+        function = self.function(name)
         function.restype = ctypes.c_long
-        pointers = (ctypes.c_void_p(each.ctypes.data) for each in (material, impacts))
-        settings = ctypes.c_long(impacts.size), ctypes.c_double(rtol), ctypes.c_int(budget)
-        failed = function(*pointers, *settings, ctypes.c_void_p(found.ctypes.data))
-        assert failed == np.count_nonzero(found["status"])
+        given = (ctypes.c_void_p(each.ctypes.data) for each in (material, rows))
+        settings = ctypes.c_long(rows.size), ctypes.c_double(rtol), ctypes.c_int(budget)
+        assert function(*given, *settings, ctypes.c_void_p(found.ctypes.data)) == np.count_nonzero(found["status"])
         return found
+
+    def collide(self, impacts: np.ndarray, rtol: float = 1e-9, material: Any = None, budget: int = 0) -> np.ndarray:
+        """The results of impacts."""
+        return self._many("collide_many", impacts, "collision", rtol, material, budget)
+
+    def collide_pairs(self, pairs: np.ndarray, rtol: float = 1e-9, material: Any = None, budget: int = 0) -> np.ndarray:
+        """The results of pairs in space."""
+        return self._many("collide_pair_many", pairs, "pair_after", rtol, material, budget)
 
     def one(self, impact: np.ndarray, rtol: float = 1e-9, material: np.ndarray | None = None) -> np.ndarray:
         """The result of a single impact, by the call for one."""
@@ -145,20 +150,6 @@ class Law:
         for name, given in (("velocities", velocities), ("spins", spins)):
             rows[name][:, : np.shape(given)[1]] = given
         return rows
-
-    def collide_pairs(
-        self, pairs: np.ndarray, rtol: float = 1e-9, material: np.ndarray | None = None, budget: int = 0
-    ) -> np.ndarray:
-        """The results of pairs in space, by one call for all."""
-        found = np.zeros(pairs.size, self.dtype("pair_after"))
-        material = self.material() if material is None else material
-        function = self.function("collide_pair_many")
-        function.restype = ctypes.c_long
-        pointers = (ctypes.c_void_p(each.ctypes.data) for each in (material, pairs))
-        settings = ctypes.c_long(pairs.size), ctypes.c_double(rtol), ctypes.c_int(budget)
-        failed = function(*pointers, *settings, ctypes.c_void_p(found.ctypes.data))
-        assert failed == np.count_nonzero(found["status"])
-        return found
 
     def collide_particles(
         self, particles: np.ndarray, tolerance: float = 1e-9, rtol: float = 1e-9, material: np.ndarray | None = None

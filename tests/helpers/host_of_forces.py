@@ -107,13 +107,13 @@ angular momentum over its size; how much further apart the host has them than th
 
 
 class Host:
-    """The host of a law in a folder, compiled with flags."""
+    """The host of a law, beside its library in a folder."""
 
-    def __init__(self, scene: Scene, law: Law, folder: Path, *flags: str) -> None:
+    def __init__(self, scene: Scene, law: Law, folder: Path) -> None:
         self._law, self._bodies = law, Bodies.of(scene)
         (folder / "host.c").write_text(LOOP.format(name=law.name))
-        command = ["gcc", "-std=c99", "-O1", *flags, "-fPIC", "-shared", "-o", "host.so", "host.c", f"{law.name}.c"]
-        subprocess.run([*command, "-lm"], cwd=folder, check=True)
+        command = ["gcc", "-std=c99", "-O1", "-fPIC", "-shared", "-o", "host.so", "host.c", str(law.library), "-lm"]
+        subprocess.run(command, cwd=folder, check=True)
         self._library = ctypes.CDLL(str(folder / "host.so"))
 
     def fly(

@@ -5,12 +5,12 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from .in_space import OTHER_SPIN, OTHER_VELOCITY, SPIN, VELOCITY, Arrival, Spatial, Vector, at
-from .phases import End
+from .scanned import PARTNER, SPIN, Arrival, N, Outcome, Vector, W, X, at, plus
 from .two_bodies import Bodies
 
 FASTEST = 5.0  # surface speed of a spin, over the approach speed
 STEEPEST = 85.0  # degrees, of the direction of arrival
+Numbers = dict[str, np.ndarray]
 
 
 def _vector(values: np.ndarray) -> Vector:
@@ -54,40 +54,36 @@ def request(bodies: Bodies, arrived: Sequence[Arrival]) -> tuple[np.ndarray, np.
     return normals, velocities, np.array([each.spins[:moving] for each in arrived])
 
 
-Numbers = dict[str, np.ndarray]
-
-
-def quantities(bodies: Bodies, arrival: Arrival, end: End) -> Numbers:
+def quantities(bodies: Bodies, arrival: Arrival, end: Outcome) -> Numbers:
     """What is compared of a reference's end, SI; nothing of a stick's."""
     if end.outcome == "stick":
         return {}
     y, moving = end.state, 1 if bodies.wall else 2
-    course = Spatial(bodies, arrival)
-    opening, _ = course.opening(y, y)
+    share = 1.0 if bodies.wall else bodies.m / bodies.masses[0]
+    centre = plus(arrival.velocities[0], share, arrival.relative)
+    velocities = plus(centre, -share, at(y, W)), plus(centre, 1 - share, at(y, W))
     return {
-        "restitution": np.array([opening / arrival.speed]),
+        "restitution": np.array([end.restitution]),
         "time": np.array([end.time]),
-        "normal": np.array(course.normal(y)),
-        "velocities": np.array([at(y, VELOCITY), at(y, OTHER_VELOCITY)][:moving]),
-        "spins": np.array([at(y, SPIN), at(y, OTHER_SPIN)][:moving]),
+        "gap": np.array([y[X]]),
+        "normal": np.array(at(y, N)),
+        "velocities": np.array(velocities[:moving]),
+        "spins": np.array([at(y, SPIN), at(y, PARTNER)][:moving]),
     }
 
 
 def differences(bodies: Bodies, arrival: Arrival, one: Mapping[str, np.ndarray], other: Numbers) -> dict[str, float]:
-    """Of speeds over the largest at initial contact, of restitution and time over themselves."""
+    """Of speeds over the largest at initial contact, of restitution, time and gap over themselves."""
     fast = arrival.speed + max(
         *(math.hypot(*each) for each in arrival.velocities),
         *(math.hypot(*spin) * radius for spin, radius in zip(arrival.spins, bodies.radii) if any(spin)),
         0.0,
     )
     radii = np.array([radius for radius in bodies.radii if math.isfinite(radius)])
-    scale = {
-        "restitution": max(1e-3, abs(float(other["restitution"][0]))) if other else 1.0,
-        "time": float(other["time"][0]) or 1.0 if other else 1.0,
-        "normal": 1.0,
-        "velocities": fast,
-        "spins": (fast / radii)[:, None],
-    }
+    scale = {"normal": 1.0, "velocities": fast, "spins": (fast / radii)[:, None]}
+    if other:
+        scale |= {name: abs(float(other[name][0])) or 1.0 for name in ("time", "gap")}
+        scale["restitution"] = max(1e-3, abs(float(other["restitution"][0])))
     return {
         name: float(np.max(np.abs(np.reshape(one[name], -1)[: value.size].reshape(value.shape) - value) / scale[name]))
         for name, value in other.items()

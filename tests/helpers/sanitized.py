@@ -1,11 +1,4 @@
-"""The kernel under AddressSanitizer and UndefinedBehaviorSanitizer: what it is given, and processes in which it runs.
-
-    python tests/helpers/sanitized.py [COUNT]
-
-integrates the reference collisions and COUNT (1000) random ones through every kind of kernel of every family, some
-twenty minutes of compiling on two cores; the suite has a sample (test_sanitized.py). Kernels are compiled with
-WETDOUBLET_CFLAGS into a folder of their own and loaded into processes that have the sanitizers' library from the start.
-"""
+"""The kernel under AddressSanitizer and UndefinedBehaviorSanitizer, in a process with their library from the start."""
 
 # ruff: noqa: T201 -- a script that prints
 import json
@@ -13,22 +6,17 @@ import math
 import os
 import subprocess
 import sys
-import tempfile
-from collections.abc import Callable, Iterator
-from concurrent.futures import ThreadPoolExecutor
+from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from wetdoublet.generated.automaton import Purpose
 from wetdoublet.solvers import InputError, Scene, prove
 from wetdoublet.solvers.engines.taylor.call import Impacts, run_kernel
-from wetdoublet.solvers.engines.taylor.in_space import run_in_space
 from wetdoublet.solvers.engines.taylor.record import run_recorded
 from wetdoublet.solvers.engines.taylor.tangent import run_tangent
 from wetdoublet.solvers.host.compiler import compiler
-from wetdoublet.solvers.host.cores import usable_cores
 from wetdoublet.solvers.scene.groups import si_values
 
 # Compiled in a third of the time: checks are calls, and what AddressSanitizer sees anyway is not checked twice.
@@ -39,51 +27,6 @@ FLAGS = (
 RTOL = 1e-7
 BUDGET = 3000  # steps: what creeps for longer shows nothing new
 REFERENCE: list[dict[str, Any]] = json.loads((Path(__file__).parents[1] / "data" / "collisions.json").read_text())
-WALL, PAIR = {"partner.wall": True}, {"partner.radius": "0.25 mm", "partner.mass": "60 ug"}
-PULL = {"attraction.hamaker": 1e-19}
-SPINS = {"impact.spin": "5000 rad/s", "impact.partner_spin": "-2000 rad/s"}
-RUBS = {"particles.friction": 0.3, "particles.contact_tangential_restitution": 0.4, "model.contact_friction": "all"}
-# Events of a user's: each happens in some of the random collisions.
-EVENTS = """from wetdoublet.derive.user import *
-
-leaving = quantity("leaving_speed", r"u_l", unit="m/s", default="0.1 m/s", meaning="speed at which the bridge lets go")
-kept = quantity("kept", r"k", default=0.5, bounds=">= 0", meaning="part of the speed that a brake leaves")
-intact = event("let_go", guard=leaving - u, where="opening", meaning="the bridge lets go")
-event("brake", guard=2 * x0 - x, where="opening", jump={u: kept * u}, word="braked")
-law("bridge", "letting-go", force=intact * 4 * pi * a * sigma, source="a test")
-"""
-# Scenes by name: a preset and what is changed. Each is integrated obliquely and head-on.
-FAMILIES: dict[str, tuple[str, dict[str, Any]]] = {
-    "granulation": ("granulation", {}),
-    "pendulum": ("pendulum", {}),
-    "film alone": ("granulation-dry-bridge", {}),
-    "film tangential": ("granulation", {"model.tangential": "film"}),
-    "small angle": ("pendulum", {"pendulum.law": "small-angle"}),
-    "corrected glass": ("pendulum", {"model.glass": "film-corrected"}),
-    "own rupture": ("granulation", {"bridge.law": "willett", "bridge.rupture": "own"}),
-    **{f"film {film}": ("granulation", {"model.film": film}) for film in ("infinite", "cavitating", "constant-volume")},
-    "wall": ("granulation-dry-bridge", WALL),
-    "wall with bridge": ("granulation", WALL),
-    "pair": ("granulation-dry-bridge", PAIR),
-    "pair with bridge": ("granulation", PAIR),
-    "attraction": ("granulation-dry-bridge", PULL),
-    "attraction and bridge": ("granulation", PULL),
-    "wall that attracts": ("granulation-dry-bridge", WALL | PULL | {"model.film": "cavitating"}),
-    "strings and bridge": ("granulation", {"pendulum.length": "0.5 m"}),
-    "equal spins": ("granulation", {"impact.spin": "5000 rad/s"}),
-    "spins": ("granulation", SPINS),
-    "spins of a film alone": ("granulation-dry-bridge", SPINS),
-    "spin beside a wall": ("granulation", WALL | {"impact.spin": "5000 rad/s"}),
-    "friction": ("granulation", RUBS),
-    "friction of a pair": ("granulation", PAIR | RUBS | SPINS),
-    "friction beside a wall": ("granulation", WALL | RUBS | {"impact.spin": "5000 rad/s"}),
-    "friction on strings": ("pendulum", RUBS),
-    "declared events": ("granulation", {}),
-    **{
-        f"bridge {law}": ("granulation", {"bridge.law": law})
-        for law in ("mikami-log10", "willett", "willett-simple", "rabinovich", "lambert", "soulie", "constant")
-    },
-}
 Replay = Callable[[Impacts, bool], bool]  # False where there is no such kernel
 
 
@@ -98,48 +41,13 @@ def _carried(backward: bool) -> Replay:
     return replay
 
 
-def _in_space(impacts: Impacts, ledger: bool) -> bool:
-    """The impacts with random vectors; of what varies only the speed."""
-    draw, speed = np.random.default_rng(impacts.angle.size), impacts.speed
-    names = ("initial_normal", "impact_turning", "impact_spin", "impact_partner_spin")
-    vectors = {name: draw.normal(size=(speed.size, 3)) for name in names}
-    normal = vectors["initial_normal"] / np.linalg.norm(vectors["initial_normal"], axis=1)[:, None]
-    vectors["initial_normal"] = normal
-    vectors["impact_turning"] -= (vectors["impact_turning"] * normal).sum(axis=1)[:, None] * normal
-    for name in names[1:]:
-        vectors[name] *= (speed / impacts.scene.reduced_radius)[:, None]
-    return run_in_space(impacts.scene, vectors, speed, RTOL, ledger=ledger) is not None
-
-
 KINDS: dict[str, Replay] = {
     "plain": lambda impacts, _: run_kernel(impacts, RTOL, budget=BUDGET, jumps=2) is not None,
-    "rotation": lambda impacts, _: run_kernel(impacts, RTOL, rotation=True, budget=BUDGET) is not None,
-    "ledger": _recorded(ledger=True, room=(4, 4)),
     "ledger and trajectory": _recorded(ledger=True, trajectory=True, room=(4, 4)),
-    "trajectory": _recorded(trajectory=True, room=(4, 4)),
     "steps not kept": _recorded(ledger=True, trajectory=True, keep=False, room=(1, 1)),
-    "approach": _recorded(trajectory=True, purpose=Purpose.APPROACH, keep=False, fold=False, peaks=True),
-    "escape": _recorded(trajectory=True, purpose=Purpose.ESCAPE),
     "forwards": _carried(backward=False),
     "backwards": _carried(backward=True),
-    "in space": lambda impacts, _: _in_space(impacts, ledger=False),
-    "ledger in space": lambda impacts, _: _in_space(impacts, ledger=True),
 }
-IN_SPACE = ("in space", "ledger in space")
-SPATIAL = (
-    "film alone", "granulation", "attraction and bridge", "pair with bridge", "film cavitating", "friction of a pair",
-)  # fmt: skip
-LAWS_IN = ("plain", "ledger and trajectory", "forwards", "backwards")
-
-
-def scene_of(family: str) -> Scene:
-    preset, entries = FAMILIES[family]
-    if family != "declared events":
-        return Scene.load(preset).with_entries(entries)
-    with tempfile.TemporaryDirectory() as folder:
-        model = Path(folder) / "events.py"
-        model.write_text(EVENTS)
-        return Scene.load(preset, model=model)
 
 
 def random_impacts(scene: Scene, count: int, oblique: bool, seed: int) -> Impacts:
@@ -166,9 +74,9 @@ def random_impacts(scene: Scene, count: int, oblique: bool, seed: int) -> Impact
     return Impacts(scene, speed, angle, others)
 
 
-def replay(family: str, kind: str, oblique: bool, count: int) -> bool:
-    """Integrate random collisions of a family; False if it has no such kernel."""
-    impacts = random_impacts(scene_of(family), count, oblique, seed=len(family) + 7 * len(kind))
+def replay(preset: str, kind: str, oblique: bool, count: int) -> bool:
+    """Integrate random collisions of a preset; False if it has no such kernel."""
+    impacts = random_impacts(Scene.load(preset), count, oblique, seed=len(preset) + 7 * len(kind))
     return KINDS[kind](impacts, oblique)
 
 
@@ -206,7 +114,7 @@ def process(what: list[Any], folder: Path) -> subprocess.CompletedProcess[str]:
         "WETDOUBLET_CFLAGS": FLAGS,
         "WETDOUBLET_CACHE": str(folder),
     }
-    command = [sys.executable, __file__, "--inside", json.dumps(what)]
+    command = [sys.executable, __file__, json.dumps(what)]
     return subprocess.run(command, capture_output=True, text=True, check=False, env=environment)
 
 
@@ -241,32 +149,5 @@ def _inside(what: list[Any]) -> None:
     print("done")
 
 
-def _everything(count: int) -> Iterator[list[Any]]:
-    yield [["reference", None]]
-    for family in FAMILIES:
-        for oblique in (True, False):
-            kinds = LAWS_IN if family.startswith("bridge ") else KINDS  # only the law is another
-            kinds = [kind for kind in kinds if kind not in IN_SPACE or (oblique and family in SPATIAL)]
-            yield [["random", family, kind, oblique, count] for kind in kinds]
-
-
-def main() -> int:
-    """Integrate everything; the number of processes in which something was found."""
-    if sys.argv[1:2] == ["--inside"]:
-        _inside(json.loads(sys.argv[2]))
-        return 0
-    if not libraries():
-        print("the compiler has no sanitizers")
-        return 1
-    jobs = list(_everything(int(sys.argv[1]) if len(sys.argv) > 1 else 1000))
-    with tempfile.TemporaryDirectory() as folder, ThreadPoolExecutor(usable_cores()) as pool:
-        failed = 0
-        for job, done in zip(jobs, pool.map(lambda job: process(job, Path(folder)), jobs), strict=True):
-            failed += done.returncode != 0
-            said = [line for line in done.stderr.splitlines() if "Python/" not in line][:12]
-            print(job[0][:2], job[0][3:4], *done.stdout.splitlines(), *said, sep="\n  ", flush=True)
-    return failed
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    _inside(json.loads(sys.argv[1]))

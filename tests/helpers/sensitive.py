@@ -1,36 +1,15 @@
 """Eleven collisions through every kind of event, and derivatives by extrapolated differences of accurate values."""
 
-from collections.abc import Mapping
 from dataclasses import dataclass, field
-from itertools import pairwise
 
 import numpy as np
-from wetdoublet.solvers import Scene, collide, collide_many
+from wetdoublet.solvers import Scene, collide_many
 from wetdoublet.solvers.sensitivity.parameters import known
 
 GRANULATION, DRY, PENDULUM = (Scene.load(name) for name in ("granulation", "granulation-dry-bridge", "pendulum"))
 STEPS = (4e-3, 2e-3, 1e-3)
 IMPACT, TURNING = ("impact.speed", "impact.angle"), ("rotation", "final_spin", "final_rotation_rate")
 HARD = {"liquid.glass_transition_pressure": 1e13}
-DIMENSIONS = {  # exponents of length, mass, time of what is not a pure number
-    "particles.reduced_radius": (1, 0, 0),
-    "particles.reduced_mass": (0, 1, 0),
-    "particles.roughness": (1, 0, 0),
-    "particles.youngs_modulus": (-1, 1, -2),
-    "liquid.viscosity": (-1, 1, -1),
-    "liquid.film_thickness": (1, 0, 0),
-    "liquid.glass_transition_pressure": (-1, 1, -2),
-    "bridge.surface_tension": (0, 1, -2),
-    "pendulum.length": (1, 0, 0),
-    "pendulum.gravity": (1, 0, -2),
-    "impact.speed": (1, 0, -1),
-}
-
-
-def cancelling(elasticity: Mapping[str, float | None]) -> list[float]:
-    """What is left in each unit when all that carries it is rescaled; nothing, for a pure number."""
-    rows = [(DIMENSIONS[name], value or 0.0) for name, value in elasticity.items() if name in DIMENSIONS]
-    return [sum(exponents[unit] * value for exponents, value in rows) for unit in range(3)]
 
 
 @dataclass(frozen=True)
@@ -68,39 +47,6 @@ CASES = (
 )  # fmt: skip
 
 
-def varied(scene: Scene, name: str, value: float) -> Scene:
-    """The scene with one number changed and all others of the file as they are, at its own normal speed."""
-    if name.startswith("impact."):
-        return scene.with_impact(**{name.partition(".")[2]: value})
-    return scene.with_entries({name: value}).with_impact(speed=scene.speed)
-
-
-def differences(scene: Scene, of: tuple[str, ...], names: tuple[str, ...] | None = None, rtol: float = 1e-13,
-                step: float = 4e-3) -> dict[str, np.ndarray]:  # fmt: skip
-    """d(of)/d ln p for every parameter (dp where it is zero), by central differences with three steps, extrapolated.
-
-    Their error is of sixth order in the step, 1e-12 or so, and some 1e-13/step of rounding.
-    """
-    found = {}
-    for name in names or known(scene):
-        p = {"impact.stokes": scene.stokes, "impact.speed": scene.speed}.get(name) or float(scene.entries[name])
-
-        def value(part: float, name: str = name, p: float = p) -> np.ndarray:
-            changed = varied(scene, name, p * (1 + part) if p else part)
-            one = collide(changed, rtol=rtol, engine="rosenbrock", ledger=any("energy" in y for y in of))
-            return np.array([_read(one, y) for y in of])
-
-        low = {"bridge.contact_angle", "impact.angle"}
-        if p == 0 and name in low:  # nothing below zero: forward differences, from one step up
-            parts = step * np.arange(7)
-            found[name] = np.polyfit(parts / step, np.array([value(part) for part in parts]), 6)[-2] / step
-            continue
-        central = [(value(h) - value(-h)) / (2 * h) for h in (step, step / 2, step / 4)]
-        once = [(4 * fine - coarse) / 3 for coarse, fine in pairwise(central)]
-        found[name] = (16 * once[1] - once[0]) / 15
-    return found
-
-
 def elasticities(case: Case) -> dict[str, dict[str, float]]:
     """Elasticities of a case in its entries that are not zero, by extrapolated differences of the kernel's values.
 
@@ -125,12 +71,6 @@ def elasticities(case: Case) -> dict[str, dict[str, float]]:
         )
         rows[name] = dict(zip(names, ((64 * fine - 20 * middle + coarse) / 45).tolist()))
     return rows
-
-
-def _read(one: object, name: str) -> float:
-    for part in name.split("."):
-        one = getattr(one, part)
-    return float(one)  # type: ignore[arg-type]  # an attribute of the result
 
 
 def apart(one: dict[str, float | None], other: dict[str, float | None]) -> float:

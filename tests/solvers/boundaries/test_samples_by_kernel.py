@@ -13,7 +13,7 @@ pytestmark = pytest.mark.skipif(compiler() is None, reason="no C compiler")
 RTOL = 1e-9
 # Angle, and a boundary at which a doublet begins to escape, from tests/data/boundaries.json to six digits.
 LINES = {"granulation": (75.0, 0.0129581), "pendulum": (60.0, 0.9)}
-PRESETS = tuple(LINES)
+PRESETS = ("granulation", pytest.param("pendulum", marks=pytest.mark.slow))
 
 
 @pytest.mark.parametrize("name", PRESETS)

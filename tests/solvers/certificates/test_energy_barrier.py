@@ -6,20 +6,18 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 from scipy.optimize import minimize_scalar
-from wetdoublet.solvers import Scene, collide_many
+from wetdoublet.solvers import Scene
 from wetdoublet.solvers.certificates import EnergyCertificate, energy_proof
 from wetdoublet.solvers.certificates.attraction import FilmAndAttractionCertificate
 from wetdoublet.solvers.engines.casadi import locate
 from wetdoublet.solvers.engines.settings import STEPS, Budget
-from wetdoublet.solvers.errors import ModelWarning
 from wetdoublet.solvers.model.dimensionless import nondimensionalise
 from wetdoublet.solvers.model.model import load, select_model
+from wetdoublet.solvers.scene.schema import BRIDGE_LAWS
 
-from ...helpers.independent import Spheres
 from ...helpers.own_arm import surface
 from ...helpers.reference import collide
-
-LAWS = ("mikami", "mikami-log10", "willett", "willett-simple", "rabinovich", "lambert", "soulie", "constant")
+from ...helpers.two_bodies import bodies_of
 
 
 def trajectory(
@@ -65,32 +63,18 @@ def test_a_bridge_that_pushes_proves_nothing() -> None:
     assert not proof.decided(one.y, one.phase)
 
 
-@pytest.mark.parametrize("engine", ["cvodes", "rosenbrock"])
 @pytest.mark.parametrize(("name", "critical"), [("pendulum", 1.44666), ("granulation", 0.115321)])
-def test_critical_stokes_numbers_head_on(name: str, critical: float, engine: str) -> None:
+def test_critical_stokes_numbers_head_on(name: str, critical: float) -> None:
     """By an independent prototype, head-on, the pendulum parts above St 1.44666, granulation above 0.115321."""
     # printed to six digits: half a unit of the last is 4e-6 relative
-    below, above = (
-        collide(name, stokes=critical * factor, angle=0.0, rtol=1e-10, engine=engine) for factor in (1 - 1e-5, 1 + 1e-5)
-    )
+    below, above = (collide(name, stokes=critical * factor, angle=0.0, rtol=1e-10) for factor in (1 - 1e-5, 1 + 1e-5))
     assert (below.outcome, above.outcome) == ("stick", "bounce")
     assert below.certified
     assert below.restitution == 0.0
     assert not above.certified
 
 
-def test_a_criterion_is_met_before_the_pendulum_escapes() -> None:
-    """Head-on pendulum: a criterion is met from St 1.34783 on, and up to 1.44666 the reversed doublet still sticks."""
-    below, above, between = (collide("pendulum", stokes=s, angle=0.0) for s in (1.34782, 1.34784, 1.4))
-    assert (below.reversal, above.reversal, between.reversal) == (None, "glass", "glass")
-    assert {below.outcome, above.outcome, between.outcome} == {"stick"}
-    assert below.certified
-    assert above.certified
-    assert between.certified
-
-
-@pytest.mark.parametrize("dry", [0.0, 0.3, 0.7, 0.99])
-@pytest.mark.parametrize("stokes", [0.02, 0.2, 0.5, 0.9])
+@pytest.mark.parametrize(("stokes", "dry"), [(0.02, 0.0), (0.2, 0.7), (0.5, 0.3), (0.9, 0.99)])
 def test_head_on_strings_are_decided(stokes: float, dry: float) -> None:
     """Head-on on strings, any stick is proved: the stop at the level of the proof is not left undecided by rounding."""
     scene = Scene.load("pendulum").with_entries({"particles.roughness": "100 um", "particles.dry_restitution": dry})
@@ -104,23 +88,24 @@ def test_head_on_strings_are_decided(stokes: float, dry: float) -> None:
         assert found.restitution < leaving
 
 
-@pytest.mark.parametrize("law", [law for law in LAWS if law != "willett"])
-@pytest.mark.parametrize(("stokes", "angle"), [(0.045, 40), (0.02, 60)])
-def test_barrier_height(law: str, stokes: float, angle: float) -> None:
+@pytest.mark.parametrize("law", BRIDGE_LAWS)
+def test_barrier_height(law: str) -> None:
     """The barrier is the maximum of L^2/(2 I) + W_c on [x0, x_f]: quadrature of F_c and a scalar search."""
     scene = Scene.load("granulation").with_entries({"bridge.law": law, "bridge.contact_angle": 0.3})
-    theta = math.radians(angle)
-    body = Spheres(scene, scene.speed_of(stokes))
+    stokes, theta = 0.045, math.radians(40)
+    body, speed = bodies_of(scene), scene.speed_of(stokes)
     a, m, x0 = body.a, body.m, scene.liquid.film_thickness
-    momentum = m * (4 * a + x0) ** 2 * body.speed * math.tan(theta) / (4 * a)
+    momentum = m * (4 * a + x0) ** 2 * speed * math.tan(theta) / (4 * a)
 
     def effective(x: float) -> float:
         inertia = m * a**2 * ((4 + x / a) ** 2 + 6.4)
         work: float = quad(body.pull, x0, x, epsabs=0, epsrel=1e-11)[0]
-        return (momentum**2 / (2 * inertia) + work) / (m * body.speed**2)
+        return (momentum**2 / (2 * inertia) + work) / (m * speed**2)
 
-    found = minimize_scalar(lambda x: -effective(x), bounds=(x0, body.x_f), method="bounded", options={"xatol": 1e-13})
-    top, gap = max((-float(found.fun), float(found.x)), (effective(body.x_f), body.x_f))
+    found = minimize_scalar(
+        lambda x: -effective(x), bounds=(x0, body.rupture), method="bounded", options={"xatol": 1e-13}
+    )
+    top, gap = max((-float(found.fun), float(found.x)), (effective(body.rupture), body.rupture))
     one = trajectory(scene, stokes, theta)
     proof = energy_proof(one.proof)
     assert isinstance(proof, EnergyCertificate)
@@ -134,7 +119,7 @@ def test_barrier_height(law: str, stokes: float, angle: float) -> None:
 @pytest.mark.parametrize("engine", ["taylor", "rosenbrock"])
 def test_a_stick_of_an_arm_with_which_l_drifts_is_no_theorem(engine: str) -> None:
     """With the surface arm of a model file sticks are decided, up to beside the boundary, and certified is false."""
-    for name, stokes in (("granulation", 0.01), ("granulation", 0.04), ("granulation", 0.0496), ("pendulum", 0.3)):
+    for name, stokes in (("granulation", 0.0496), ("pendulum", 0.3)):
         found = collide(surface(name), stokes=stokes, angle="45 deg", engine=engine)
         assert (found.outcome, found.certified, found.engine) == ("stick", False, engine)
         assert found.until is not None
@@ -158,53 +143,9 @@ def test_film_corrected_glass_near_its_peak() -> None:
 
     peak = minimize_scalar(lambda s: -pressure(s), bounds=(0.8, 1.0), method="bounded", options={"xatol": 1e-12})
     assert -peak.fun == pytest.approx(2 * (3 * stokes) ** (1 / 3) * 0.75 / 4 ** (1 / 3), rel=0.2)  # leading order
-    for factor, outcome in ((0.12, "bounce"), (0.13, "bounce"), (-peak.fun * (1 - 1e-6), "bounce"),
+    for factor, outcome in ((0.12, "bounce"), (-peak.fun * (1 - 1e-6), "bounce"),
                             (-peak.fun * (1 + 1e-6), "stick"), (0.16, "stick")):  # fmt: skip
         scene = dry.with_entries({"liquid.glass_transition_pressure": factor * unit})
         found = collide(scene, stokes=stokes, angle=0.0, rtol=1e-10)
         assert found.outcome == outcome, factor
         assert found.certified == (outcome == "stick")
-
-
-@pytest.mark.parametrize("angle", [35, 55])
-@pytest.mark.parametrize("below", [0.03, 0.12])
-def test_loose_tolerances_still_prove(angle: float, below: float) -> None:
-    """At rtol 1e-3 a stick 3 to 12 % below its boundary is proved, in few steps."""
-    critical = {35: 0.07050293952195241, 55: 0.0342316035137301}[angle]
-    found = collide("granulation", stokes=critical * (1 - below), angle=math.radians(angle), rtol=1e-3)
-    assert (found.outcome, found.certified) == ("stick", True)
-    assert found.steps < 1000
-
-
-@pytest.mark.parametrize("engine", ["taylor", "rosenbrock"])
-@pytest.mark.slow
-def test_a_well_that_nearly_merges_with_its_barrier_holds(engine: str) -> None:
-    """A doublet that settles in its film is proved to stick up to 1e-7 below the speed at which its well vanishes.
-
-    The barrier is lower there than the error of the energies, and no event ends the trajectory. Followed at 1e-11 the
-    outcome changes at a Stokes number of 0.1605514417.
-    """
-    scene = Scene.from_dict(
-        {
-            "particles": {
-                "reduced_radius": 2.069745080953648e-5, "reduced_mass": 2.5656136517373407e-8,
-                "roughness": 4.077986956298786e-7, "dry_restitution": 0.8408464802023323,
-                "youngs_modulus": 622026721599.3284, "poisson_ratio": 0.42599555498373187,
-            },
-            "partner": {"radius": 3.598060618939934e-5, "mass": 2.922301215509533e-7},
-            "liquid": {
-                "viscosity": 4.143198477928778, "film_thickness": 2.3605703252797384e-5,
-                "glass_transition_pressure": 53395385.65195838,
-            },
-            "bridge": {
-                "surface_tension": 0.014155400923942655, "volume": 0.7004128161009333,
-                "contact_angle": 0.5551754241603308, "law": "willett",
-            },
-            "attraction": {"hamaker": 1.7346929922799675e-19},
-        }
-    )  # fmt: skip
-    stokes = np.array([0.16055, 0.1605514417 * (1 - 2e-7), 0.1605514417 * (1 + 2e-7)])
-    with pytest.warns(ModelWarning, match="bridge.volume"):
-        found = collide_many(scene, stokes=stokes, angle=0.48726821551812494, engine=engine)
-    assert found.outcome.values.tolist() == [0, 0, 1]
-    assert found.certified.values.tolist() == [True, True, False]

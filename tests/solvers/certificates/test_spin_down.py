@@ -4,13 +4,14 @@ import math
 
 import numpy as np
 import pytest
-from scipy.integrate import solve_ivp
 from wetdoublet.solvers import Scene, collide
 from wetdoublet.solvers.certificates import proof_for
 from wetdoublet.solvers.certificates.spin_down import SpinDownCertificate
 from wetdoublet.solvers.errors import ComputationError
 from wetdoublet.solvers.model.dimensionless import nondimensionalise
 from wetdoublet.solvers.model.model import load, select_model
+
+from ...helpers.scanned import scanned
 
 pytestmark = pytest.mark.slow
 
@@ -26,37 +27,18 @@ def balanced(stokes: float, angle: float, excess: float = 0.0) -> Scene:
     return scene.with_entries({"impact.spin": -orbit * (1 - excess) / (6.4 * a**2)})
 
 
-def leaves(scene: Scene) -> bool:
-    """True if the doublet leaves its film: m u' = m J^2/r^3 - F_n and J' = -k J, as L = 0, in SI."""
-    a, m, mu = scene.reduced_radius, scene.reduced_mass, scene.liquid.viscosity
-    x0, speed, angle = scene.liquid.film_thickness, *scene.need_impact()
-
-    def rates(_: float, y: np.ndarray) -> tuple[float, float, float]:
-        x, u, momentum = y
-        r = 4 * a + x
-        film = 6 * math.pi * mu * a**2 * u / x * (1 - x / x0) ** 2
-        shear = 8 * math.pi * mu * a**2 * math.log(2 * a / x) * momentum * (1 / r**2 + 5 / (32 * a**2))
-        return u, momentum**2 / r**3 - film / m, -shear * r / m
-
-    def out(_: float, y: np.ndarray) -> float:
-        return float(y[0] - x0) if y[1] > 0 else -1.0
-
-    out.terminal = True  # type: ignore[attr-defined]  # how scipy marks an end
-    start = [x0 * (1 - 1e-12), -speed, (4 * a + x0) ** 2 * speed * math.tan(angle) / (4 * a)]
-    found = solve_ivp(rates, (0.0, 1e5 * x0 / speed), start, "Radau", rtol=1e-9, atol=1e-30, events=out)
-    return bool(found.t_events[0].size)
-
-
 def test_it_sticks_where_the_rotation_dies_out_first() -> None:
-    """Proved to stick at small angles, and separated at large ones, as an integration of the equations has it."""
+    """Proved to stick at small angles, and separated at large ones."""
     found = {}
     for degrees in DEGREES:
         scene = balanced(0.04, math.radians(degrees)).with_entries({"liquid.glass_transition_pressure": 1e30})
         each = [collide(scene, engine=engine, ledger=False) for engine in ("rosenbrock", "taylor")]
         assert all(one.certified == (one.outcome == "stick") for one in each)
         found[degrees] = each[0].outcome != "stick"
-        assert (each[1].outcome != "stick") == found[degrees] == leaves(scene)
-    assert set(found.values()) == {True, False}
+        assert each[1].outcome == each[0].outcome
+        if found[degrees]:
+            assert scanned(scene).restitution == pytest.approx(each[0].restitution, rel=1e-6)
+    assert found == dict(zip(DEGREES, (False, True)))
 
 
 def test_with_any_angular_momentum_it_separates() -> None:
@@ -69,23 +51,12 @@ def test_with_any_angular_momentum_it_separates() -> None:
     assert collide(balanced(0.04, 0.5), ledger=False).outcome == "stick"
 
 
-@pytest.mark.parametrize("ledger", [False, True])
-@pytest.mark.parametrize("engine", ["rosenbrock", "taylor"])
-@pytest.mark.parametrize("excess", [1e-13, 1e-9, -1e-9, 3e-8])
+@pytest.mark.parametrize(("engine", "ledger"), [("rosenbrock", False), ("taylor", True)])
+@pytest.mark.parametrize("excess", [1e-13, -1e-9])
 def test_an_angular_momentum_that_rounding_changes_too_much(engine: str, ledger: bool, excess: float) -> None:
     """What is left of 1e-9 has rounding errors of 1e-7; so has the contact time, as 1/L^2: refused, with the reason."""
     with pytest.raises(ComputationError, match="orbit and spins cancel"):
         collide(balanced(0.04, 0.5, excess), engine=engine, ledger=ledger)
-
-
-def test_where_it_is_resolved_the_sense_of_what_is_left_decides_nothing() -> None:
-    """|L| is the same for both, and the rest differs by its part of the spins."""
-    excess = 1e-6
-    each = [collide(balanced(0.04, 0.5, sign * excess)) for sign in (1, -1)]
-    reduced = collide(balanced(0.04, 0.5, excess), engine="taylor", ledger=False, rtol=1e-12)
-    for one in each:
-        assert one.contact_time == pytest.approx(reduced.contact_time, rel=excess)
-        assert one.restitution == pytest.approx(reduced.restitution, rel=excess)
 
 
 def test_a_bounce_needs_no_angular_momentum() -> None:
@@ -109,14 +80,6 @@ def test_opposite_spins_of_a_pair() -> None:
     model = load(select_model(scene, oblique=True))
     proof = proof_for(model, model.group_values(n.groups), 1e-9)
     assert isinstance(proof, SpinDownCertificate)
-
-
-@pytest.mark.parametrize("engine", ["rosenbrock", "taylor"])
-def test_a_film_thicker_than_the_spheres_are_wide(engine: str) -> None:
-    """Stopped where no shear acts yet, spinning spheres never turn about each other: proved at once."""
-    thick = FILM.with_entries({"liquid.film_thickness": "150 um", "impact.spin": 300.0})
-    found = collide(thick.with_impact(stokes=1e-3, angle=0.0), engine=engine, ledger=False)
-    assert (found.outcome, found.certified, found.events) == ("stick", True, ())
 
 
 @pytest.mark.parametrize("engine", ["rosenbrock", "taylor"])

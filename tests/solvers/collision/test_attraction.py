@@ -1,11 +1,9 @@
 """Van der Waals attraction: its closed-form work, where it enters, and the generalised centrifugal number."""
 
-import json
 import math
 
 import pytest
 from wetdoublet.solvers import Scene
-from wetdoublet.solvers.commands.cli import main
 
 from ...helpers.reference import collide
 
@@ -63,32 +61,3 @@ def test_the_generalised_number():
     assert one.generalised_centrifugal == pytest.approx(expected, rel=1e-12)
     assert collide("pendulum", ledger=False).generalised_centrifugal is None
     assert collide("granulation", angle=0.0, ledger=False).generalised_centrifugal == 0.0
-
-
-def test_json_has_its_keys(capsys):
-    """With the table, `energy.attraction` and `generalised_centrifugal` are in the JSON object."""
-    with pytest.raises(SystemExit):
-        main(["collide", "granulation", "--json", "--set", "attraction.hamaker=1e-19 J", "--engine", "cvodes"])
-    said = json.loads(capsys.readouterr().out)
-    assert said["energy"]["attraction"] > 0 and said["generalised_centrifugal"] > 0
-
-
-@pytest.mark.parametrize("film", ["finite", "cavitating"])
-@pytest.mark.parametrize("hamaker", [1e-20, 2e-10])
-def test_head_on_with_a_film_is_proved(film, hamaker):
-    """However weak or strong the attraction, what the film stops sticks, proved; with a film alone just so.
-
-    Without attraction e_n starts where St = Lf(x_b/x0) (1 + 1/e_dry), or Lf alone if it cavitates: an attraction can
-    only raise that, and the stick below is certified.
-    """
-    scene = scene_of(False, **{"attraction.hamaker": hamaker, "model.film": film, "particles.dry_restitution": 0.9})
-    s = 50e-9 / X0
-    level = math.log(1 / s) - 1.5 + 2 * s - s**2 / 2
-    one = collide(scene, stokes=0.9 * level, angle=0.0)
-    assert (one.outcome, one.certified) == ("stick", True)
-    threshold = level * (1 + (0 if film == "cavitating" else 1 / 0.9))
-    beyond = collide(scene, stokes=1.2 * threshold, angle=0.0)
-    if hamaker < 1e-15:
-        assert beyond.outcome == "bounce"
-    wall = scene.with_entries({"partner.wall": True})
-    assert collide(wall, stokes=0.9 * level, angle="50 deg").certified

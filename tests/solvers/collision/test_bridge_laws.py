@@ -9,32 +9,9 @@ import pytest
 from wetdoublet.solvers import InputError, ModelWarning, Scene, collide_many
 from wetdoublet.solvers.scene.schema import BRIDGE_LAWS
 
-from ...helpers.own_arm import surface
 from ...helpers.reference import collide
 
 # an independent prototype's Ce* at 45 deg with the surface arm, granulation
-CRITICAL = {
-    "willett": 3.95,
-    "willett-simple": 4.70,
-    "soulie": 4.12,
-    "rabinovich": 5.78,
-    "lambert": 4.65,
-    "mikami": 4.205,
-}
-
-
-@pytest.mark.parametrize(("law", "critical"), CRITICAL.items())
-def test_critical_centrifugal_number(law, critical):
-    """At 45 deg a doublet sticks 1 % below the listed Ce* and rotates and separates 1 % above it."""
-    scene = surface("granulation").with_entries({"bridge.law": law})
-    at = collide(scene, stokes=0.05, angle="45 deg", ledger=False)  # Ce goes with the square of St
-    outcomes = []
-    for part in (0.99, 1.01):
-        stokes = 0.05 * math.sqrt(part * critical / at.centrifugal)
-        one = collide(scene, stokes=stokes, angle="45 deg", ledger=False, rtol=1e-7)
-        assert one.centrifugal == pytest.approx(part * critical, rel=1e-9)
-        outcomes.append(one.outcome)
-    assert outcomes == ["stick", "stick-rotate-separate"]
 
 
 OWN = {
@@ -57,13 +34,6 @@ def test_own_rupture(law):
         return
     expected = OWN[law](0.1, math.radians(20)) * 1e-4
     assert scene.with_entries(entries).rupture_gap == pytest.approx(expected, rel=1e-12)
-
-
-def test_own_rupture_is_where_it_ruptures():
-    """The last gap of a trajectory is the own distance."""
-    scene = Scene.load("granulation").with_entries({"bridge.law": "willett", "bridge.rupture": "own"})
-    one = collide(scene, stokes=0.1, angle="75 deg", trajectory=True)
-    assert float(one.trajectory.gap[-1]) == pytest.approx(scene.rupture_gap, rel=1e-9)
 
 
 def test_a_range_that_is_left_is_said_once():

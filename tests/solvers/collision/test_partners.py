@@ -3,10 +3,9 @@
 import json
 import math
 
-import numpy as np
 import pytest
 from scipy.integrate import trapezoid
-from wetdoublet.solvers import InputError, Scene, boundary, collide_many
+from wetdoublet.solvers import InputError, Scene, boundary
 from wetdoublet.solvers.commands.cli import main
 
 from ...helpers.reference import collide
@@ -42,21 +41,6 @@ def test_beside_a_wall():
     alone = boundary(wall, angle=0.0, stokes=(0.01, 1.0)).changes[0]
     assert [(c.before, c.after) for c in changes] == [("stick", "bounce")]
     assert changes[0].stokes == pytest.approx(alone[0].stokes, rel=1e-8)
-
-
-def test_maps_and_boundaries_know_the_partner():
-    """The partner's size varies in a map as anything else, and its S/SRS boundary is where collisions change."""
-    scene = Scene.load("granulation").with_entries({"partner.radius": "150 um", "partner.density": "2500 kg/m^3"})
-    radii = np.array([1e-4, 2e-4])
-    many = collide_many(scene, stokes=0.05, angle=1.2, vary={"partner.radius": radii}, of=("restitution", "rotation"))
-    for k, radius in enumerate(radii):
-        one = collide(scene.with_entries({"partner.radius": float(radius)}), stokes=0.05, angle=1.2)
-        assert many.restitution.values[k] == pytest.approx(one.restitution, rel=1e-7)
-    changes = boundary(scene, angle=math.radians(60), stokes=(0.01, 0.2)).changes[0]
-    first = changes[0]
-    assert (first.before, first.after) == ("stick", "stick-rotate-separate")
-    below, above = (collide(scene, stokes=first.stokes * f, angle="60 deg").outcome for f in (1 - 1e-6, 1 + 1e-6))
-    assert (below, above) == (first.before, first.after)
 
 
 @pytest.mark.parametrize(

@@ -51,29 +51,3 @@ def test_reference_collisions(reference: dict[str, Any], engine: str) -> None:
         assert mine["time"] == pytest.approx(theirs["time"], rel=TOLERANCE, abs=1e-300), mine["kind"]
     for term, value in expected["energy"].items():
         assert found["energy"][term] == pytest.approx(value, abs=TOLERANCE * initial), term
-
-
-@pytest.mark.slow
-def test_rtol_is_honoured(separated_reference: dict[str, Any]) -> None:
-    """CVODES' error in e_n falls with the tolerance, and at 1e-12 is below 1e-9 times the conditioning."""
-    expected, impact = separated_reference["results"], separated_reference["impact"]
-    scene = described(separated_reference["scene"])
-    errors = []
-    for rtol in (1e-5, 1e-12):
-        found = collide(scene, stokes=impact["stokes"], angle=impact["angle"], rtol=rtol, ledger=False, engine="cvodes")
-        errors.append(abs(found.restitution / expected["restitution"] - 1))
-    assert errors[1] < errors[0]
-    assert errors[1] < 1e-9 * max(1.0, separated_reference["kappa"])
-
-
-def test_ledger_off_leaves_the_collision_alone(reference: dict[str, Any]) -> None:
-    """Without the ledger the reduced equations are integrated: same answer, energy and drift null."""
-    impact = reference["impact"]
-    scene = described(reference["scene"])
-    asked = {"stokes": impact["stokes"], "angle": impact["angle"], "rtol": RTOL, "engine": "cvodes"}
-    full, lean = collide(scene, **asked), collide(scene, **asked, ledger=False)
-    assert lean.energy is None
-    assert lean.angular_momentum_drift is None
-    assert lean.outcome == full.outcome
-    assert lean.restitution == pytest.approx(full.restitution, rel=TOLERANCE)
-    assert lean.to_dict()["energy"] is None

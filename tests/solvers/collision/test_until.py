@@ -63,26 +63,6 @@ def test_the_film_stops_the_spheres_where_the_closed_form_says(engine: str) -> N
     assert gap == pytest.approx(scene.liquid.film_thickness * math.exp(-0.7), rel=1e-6)
 
 
-def test_events_after_the_proof_are_listed() -> None:
-    """The pendulum's stick falls back, is proved, and goes on to the experiment's cut-off, which ends it earlier."""
-    proved = collide("pendulum", stokes=0.8, angle="45 deg", engine="cvodes")
-    on = collide("pendulum", stokes=0.8, angle="45 deg", until="10 s", engine="cvodes")
-    assert [each.kind for each in on.events] == [*(each.kind for each in proved.events), "rotation reverses"]
-    assert proved.certified
-    assert on.certified
-    assert proved.until is not None
-    assert on.until is not None
-    assert proved.until < on.until == on.events[-1].time < 10
-
-
-def test_until_changes_nothing_before_the_proof(proved: Collision) -> None:
-    """A time before the proof, or a collision that separates: the same result as without it."""
-    assert collide("granulation", **STICK, until=1e-6, engine="cvodes") == proved
-    apart = collide("granulation")
-    assert apart.decided is None
-    assert collide("granulation", until=1.0) == apart
-
-
 def test_the_table_names_its_state(proved: Collision, followed: Collision) -> None:
     """Final is said of what has separated; a stick's energy is that at the proof, at a cut-off or at the end."""
     assert "kinetic, at the proof" in str(proved)

@@ -1,7 +1,5 @@
 """What results show in a notebook, and a scene when it is printed."""
 
-import subprocess
-import sys
 from collections.abc import Callable
 from typing import Any
 
@@ -57,13 +55,3 @@ def test_a_printed_scene_is_a_table() -> None:
     assert "assumed: glass" in rows["particles.youngs_modulus"]
     assert f"{scene.speed:.4g} m/s" in str(scene)
     assert max(map(len, str(scene).splitlines())) <= 100
-
-
-def test_a_view_imports_no_matplotlib() -> None:
-    """A notebook that draws nothing does not load what draws."""
-    code = (
-        "import sys\nfrom wetdoublet.solvers import Scene, collide\n"
-        "collide('granulation', stokes=0.01)._repr_html_(); Scene.load('granulation')._repr_html_()\n"
-        "assert 'matplotlib' not in sys.modules"
-    )
-    subprocess.run([sys.executable, "-c", code], check=True)

@@ -10,13 +10,13 @@ from wetdoublet.solvers.collision.outcome import UNITS
 
 from ...helpers.command import run
 
-SMALL = ("--stokes", "0.02:0.2", "--rtol", "1e-7")
+SMALL = ("--stokes", "0.02:0.2", "--rtol", "2e-9")
 COMMANDS = {
-    "collide": ("collide", "granulation", "--rtol", "1e-7"),
-    "sensitivity": ("sensitivity", "granulation", "--wrt", "liquid.viscosity,impact.angle", "--rtol", "1e-7"),
+    "collide": ("collide", "granulation", "--rtol", "2e-9"),
+    "sensitivity": ("sensitivity", "granulation", "--wrt", "liquid.viscosity,impact.angle", "--rtol", "2e-9"),
     "boundary": ("boundary", "granulation", "--angle", "50:50:1", *SMALL),
     "boundary, moving": ("boundary", "granulation", "--angle", "50:50:1", *SMALL, "--wrt", "liquid.viscosity"),
-    "atlas": ("boundary", "granulation", "--angle", "50:51", *SMALL),
+    "atlas": ("boundary", "granulation", "--angle", "50:50.5", "--stokes", "0.1:0.14", "--rtol", "2e-9"),
 }
 EXPECTED = {
     "collide": {"contact_time": "s", "energy": "J", "final_spin": "rad/s", "restitution": "1"},
@@ -40,7 +40,7 @@ def test_version_scene_and_tolerance(told: tuple[str, dict[str, Any]]) -> None:
     scene = Scene.load("granulation").with_entries({"liquid.viscosity": "3 Pa s"})
     assert told[1]["version"] == version("wetdoublet")
     assert told[1]["scene"] == dict(scene.si)
-    assert told[1]["rtol"] == 1e-7
+    assert told[1]["rtol"] == 2e-9
 
 
 def test_units(told: tuple[str, dict[str, Any]]) -> None:

@@ -5,14 +5,12 @@ import os
 import subprocess
 import sys
 from pathlib import Path
-from typing import Any
 
-import numpy as np
 import pytest
-from wetdoublet.solvers import collide, collide_many, gradients_many, sensitivities
+from wetdoublet.solvers import collide
 from wetdoublet.solvers.host.compiler import compiler
 
-pytestmark = pytest.mark.skipif(compiler() is None or os.name != "posix", reason="no C compiler")
+pytestmark = [pytest.mark.skipif(compiler() is None or os.name != "posix", reason="no C compiler"), pytest.mark.slow]
 HEAD_ON = ("collide", "granulation", "--stokes", "0.3", "--angle", "0", "--rtol", "1e-8", "--json")
 SLOW = """#!/bin/sh
 case "$*" in *-shared*) sleep 1.5;; esac
@@ -80,25 +78,3 @@ def test_a_remark_where_it_takes_long(tmp_path: Path) -> None:
     assert done.returncode == 0
     assert announced.count("\n") == 1
     assert "compiled, once" in announced
-
-
-def test_the_count_does_not_decide() -> None:
-    """A collision alone, in a batch of 5 and in one of 5,000 has the same digits; derivatives have the same engine."""
-    draw = np.random.default_rng(5)
-    impacts = {"stokes": 10 ** draw.uniform(-2, 0, 5000), "angle": draw.uniform(0.01, 1.5, 5000)}
-    of = ("restitution", "rotation", "contact_time", "smallest_gap")
-    few = slice(1000, 1005)
-    many = collide_many("granulation", **impacts, of=of)
-    five = collide_many("granulation", **{name: values[few] for name, values in impacts.items()}, of=of)
-    assert (many.attrs["engine"], five.attrs["engine"]) == ("taylor", "taylor")
-    for name in of:
-        assert np.array_equal(many[name].values[few], five[name].values, equal_nan=True)
-    for k, row in enumerate(range(1000, 1005)):
-        impact: dict[str, Any] = {name: float(values[row]) for name, values in impacts.items()}
-        one = collide("granulation", **impact, ledger=False)
-        assert one.engine == "taylor"
-        shown = [getattr(one, name) for name in of]
-        assert shown == [None if np.isnan(five[name].values[k]) else five[name].values[k] for name in of]
-    separates = {"stokes": 0.05, "angle": 1.2, "wrt": ["liquid.viscosity"], "of": ["restitution"]}
-    assert sensitivities("granulation", **separates).engine == "taylor"
-    assert set(gradients_many("granulation", **separates).engine.values) == {"taylor"}

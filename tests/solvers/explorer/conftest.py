@@ -1,4 +1,4 @@
-"""Browsers without a window; a test is skipped, with a reason, where one is not there."""
+"""A browser without a window; a test is skipped, with a reason, where there is none."""
 
 import shutil
 from collections.abc import Iterator
@@ -21,19 +21,6 @@ def compiler() -> None:
         assert explore(GRANULATION).html
     except InputError as error:
         pytest.skip(str(error))
-
-
-@pytest.fixture(scope="module")
-def firefox(compiler: None, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Any]:
-    """Firefox without a window."""
-    pytest.importorskip("websockets", reason="needs websockets (pip install websockets)")
-    executable = next(filter(None, map(shutil.which, ("firefox", "firefox-esr"))), None)
-    if executable is None:
-        pytest.skip("needs Firefox")
-    from .firefox import started
-
-    with started(executable, tmp_path_factory.mktemp("firefox")) as tab:
-        yield tab
 
 
 @pytest.fixture(scope="module")
@@ -64,12 +51,3 @@ def opened(browser: Any, compiler: None, files: dict[str, Path], tmp_path: Path)
     yield open_page
     for each in contexts:
         each.close()
-
-
-@pytest.fixture(params=["chromium", "firefox"])
-def anywhere(request: pytest.FixtureRequest, files: dict[str, Path], tmp_path: Path) -> Any:
-    """Opens the page of a scene by name, in one browser and in the other; one page at a time."""
-    if request.param == "chromium":
-        return request.getfixturevalue("opened")
-    tab = request.getfixturevalue("firefox")
-    return lambda name, address="": Page(tab, written(files, name, tmp_path), address)

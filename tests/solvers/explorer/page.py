@@ -30,13 +30,10 @@ class Page:
         self.tab = tab
         self.requests: list[str] = []
         self.complaints: list[str] = []
-        if not hasattr(tab, "on"):
-            self.requests, self.complaints = tab.requests, tab.complaints
-        else:  # Playwright's
-            tab.on("request", lambda request: self.requests.append(request.url))
-            tab.on("pageerror", lambda error: self.complaints.append(str(error)))
-            tab.on("console", lambda message: self.complaints.append(message.text))
-            tab.on("dialog", lambda dialog: self.complaints.append(dialog.message))
+        tab.on("request", lambda request: self.requests.append(request.url))
+        tab.on("pageerror", lambda error: self.complaints.append(str(error)))
+        tab.on("console", lambda message: self.complaints.append(message.text))
+        tab.on("dialog", lambda dialog: self.complaints.append(dialog.message))
         tab.goto(f"{path.as_uri()}#{address}" if address else path.as_uri())
         self.until("!!window.wetdoublet")
         self.settled()

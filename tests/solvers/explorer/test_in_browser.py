@@ -13,13 +13,12 @@ from typing import Any
 
 import pytest
 from wetdoublet.solvers import Scene, collide, explore
-from wetdoublet.solvers.scene.scenefile import PRESETS
 
 from .page import GRANULATION, Page
 
 pytestmark = pytest.mark.slow
 
-ADDRESSES = 200
+ADDRESSES = 60
 
 
 @pytest.fixture(scope="module")
@@ -28,7 +27,7 @@ def cache(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return tmp_path_factory.mktemp("cache")
 
 
-@pytest.mark.parametrize("preset", PRESETS)
+@pytest.mark.parametrize("preset", ["granulation", "pendulum"])
 def test_a_preset_opens_without_a_compiler(preset: str, browser: Any, cache: Path, tmp_path: Path):
     """The command on a machine without one writes the page, and the page has the answer of Python."""
     (tmp_path / "ziglang.py").write_text("raise ImportError")
@@ -59,9 +58,9 @@ def test_axe_has_no_finding(scheme: str, opened: Any):
     assert not found, [(each["id"], each["nodes"][0]["html"]) for each in found]
 
 
-def test_every_knob_moves_every_view(anywhere: Any):
+def test_every_knob_moves_every_view(opened: Any):
     """Address, answer's state and map are those of the new value."""
-    page = anywhere("coating")
+    page = opened("coating")
     for knob in page.knobs:
         low, high = knob["low"], knob["high"]
         value = 1.3 * math.sqrt(low * high) if knob["logarithmic"] else 0.37 * (low + high) or 0.21 * high
@@ -91,19 +90,11 @@ def test_an_address_gives_the_same_state_again(opened: Any):
     assert again.ask("wetdoublet.state()") == page.ask("wetdoublet.state()")
 
 
-@pytest.mark.parametrize(
-    "address",
-    [
-        "liquid.viscosity=NaN", "liquid.viscosity=1e308", "impact.speed=-1", "impact.angle=90", "impact.angle=1e400",
-        "liquid.viscosity=%3Cscript%3Ealert(1)%3C/script%3E", "%3Cimg%20src=x%20onerror=alert(1)%3E=1", "__proto__=1",
-        "constructor.prototype=3", "across=__proto__", "impact.kind=warp", "liquid.viscosity=javascript:alert(1)",
-    ],
-)  # fmt: skip
-def test_a_hostile_address_does_nothing(address: str, anywhere: Any):
+@pytest.mark.parametrize("address", ["impact.angle=90", "%3Cimg%20src=x%20onerror=alert(1)%3E=1", "__proto__=1"])
+def test_a_hostile_address_does_nothing(address: str, opened: Any):
     """The state is the scene's, and a line says what was left out."""
-    page = anywhere("granulation", address)
-    plain = {each["name"]: each["value"] for each in page.knobs}
-    assert page.ask("wetdoublet.state()")["values"] == plain
+    page = opened("granulation", address)
+    assert page.ask("wetdoublet.state()")["values"] == {each["name"]: each["value"] for each in page.knobs}
     assert "left out" in page.ask("document.querySelector('[role=alert]').textContent")
     assert page.complaints == []
 
@@ -175,57 +166,21 @@ def test_the_keyboard_alone(opened: Any):
     assert math.isfinite(page.ask("wetdoublet.shown().found")["restitution"])
 
 
-@pytest.mark.parametrize("width", [320, 420, 1280, 2560])
+@pytest.mark.parametrize("width", [320, 2560])
 def test_no_width_needs_scrolling_sideways(width: int, opened: Any):
     page = opened("unequal", viewport={"width": width, "height": 800})
     assert page.ask("document.documentElement.scrollWidth <= innerWidth")
 
 
-@pytest.mark.parametrize("width", [400, 1400])
-def test_choices_stay_in_their_panel(width: int, opened: Any):
-    """That of a scene with a long name too."""
-    page = opened("coating", viewport={"width": width, "height": 900})
-    inside = "s => { const a = s.getBoundingClientRect(), b = s.closest('.card').getBoundingClientRect(); "
-    inside += "return a.left >= b.left && a.right <= b.right }"
-    choices = page.ask(f"[...document.querySelectorAll('select')].map({inside})")
-    assert len(choices) == 5 and all(choices)
-
-
-def test_energies_have_no_negative_zero(opened: Any):
-    """While the collision goes on no part of the energy is written as -0.0 %."""
-    page = opened("coating", "impact.speed=3")
-    scrub = page.tab.locator(".player input")
-    for step in range(0, 1000, 25):
-        scrub.fill(str(step))
-        assert "-0.0 %" not in page.tab.inner_text(".energy")
-
-
-def test_a_stretched_axis_of_time_says_so(opened: Any):
-    """Where it is logarithmic stands in its label, as long as it is stretched."""
-    page = opened("coating", "impact.speed=3")
-    page.ask(
-        "() => { const c = CanvasRenderingContext2D.prototype, f = c.fillText; window.texts = [];"
-        " c.fillText = function (text, ...rest) { texts.push(text); return f.call(this, text, ...rest) } }"
-    )
-    box = page.tab.get_by_label("slow down the fast beginning")
-    for stretched in (False, True):
-        page.ask("() => { texts.length = 0 }")
-        box.set_checked(stretched)
-        page.until("texts.some(text => text.startsWith('time, '))")
-        label = page.ask("texts.find(text => text.startsWith('time, '))")
-        assert ("logarithmic beyond" in label) == stretched
-
-
-@pytest.mark.parametrize("outcome", [0, 1, 2])
-def test_the_legend_shows_an_outcome(outcome: int, opened: Any):
+def test_the_legend_shows_an_outcome(opened: Any):
     """Each of its buttons chooses an impact that has the outcome, and the answer says so."""
-    page, names = opened("granulation"), ("Stick", "Stick, rotate, separate", "Bounce")
-    page.tab.locator(".legend button").nth(outcome).click()
-    found = page.ask("wetdoublet.shown().found")
-    assert found["outcome"] == outcome
-    angle = f"{math.degrees(found['angle']):.3g}° from head-on"
-    assert page.tab.inner_text("[role=status]").startswith(f"{names[outcome]}. Impact at ")
-    assert angle in page.tab.inner_text("[role=status]")
+    page = opened("granulation")
+    for outcome, name in enumerate(("Stick", "Stick, rotate, separate", "Bounce")):
+        page.tab.locator(".legend button").nth(outcome).click()
+        found = page.ask("wetdoublet.shown().found")
+        assert found["outcome"] == outcome
+        said = page.tab.inner_text("[role=status]")
+        assert said.startswith(f"{name}. Impact at ") and f"{math.degrees(found['angle']):.3g}° from head-on" in said
 
 
 def test_a_notebook_shows_the_page(opened: Any, tmp_path: Path):

@@ -13,8 +13,8 @@ from .page import LACTOSE, SCENES
 pytestmark = pytest.mark.slow
 
 RESULTS = ("restitution", "tangential_restitution", "contact_time", "rotation", "smallest_gap", "final_spin")
-SETTINGS = 500  # random ones, of all scenes together
-LEDGERS = 15  # separations of each scene
+SETTINGS = 120  # random ones, of all scenes together
+LEDGERS = 4  # separations of each scene
 TERMS = {
     "normal_lubrication": "lost squeezing the film",
     "tangential_lubrication": "lost shearing the film",
@@ -27,9 +27,9 @@ SHARP = 1e-12  # relative tolerance of integration where numbers are compared to
 
 
 @pytest.mark.parametrize("name", SCENES)
-def test_numbers_are_those_of_python(name: str, anywhere: Any):
+def test_numbers_are_those_of_python(name: str, opened: Any):
     """Random settings, through the TOML that the page gives: outcomes all, numbers to 1e-9; refusals are the same."""
-    page, draw, decided = anywhere(name), random.Random(name), 0
+    page, draw, decided = opened(name), random.Random(name), 0
     for _ in range(-(-SETTINGS // len(SCENES))):
         state = page.ask("wetdoublet.state()")
         for knob in page.knobs:
@@ -52,13 +52,13 @@ def test_numbers_are_those_of_python(name: str, anywhere: Any):
         for result in RESULTS if expected["outcome"] != "stick" else ():
             assert found[result] == pytest.approx(expected[result], rel=1e-9, abs=1e-9 * (result == "rotation")), result
         decided += 1
-    assert decided > 30
+    assert decided > 5
 
 
-@pytest.mark.parametrize("name", ["granulation", "coating", "strings", "wall", "unequal", "rubbing"])
-def test_the_map_is_that_of_python(name: str, anywhere: Any):
+@pytest.mark.parametrize("name", ["strings", "wall", "rubbing"])
+def test_the_map_is_that_of_python(name: str, opened: Any):
     """Every seventh cell of the fine map, and where it is outside the model's range."""
-    page = anywhere(name)
+    page = opened(name)
     cells = page.ask(
         "(g => [g.across, g.upward, g.outcome, g.restitution, g.outside].map(a => [...a]))(wetdoublet.grid())"
     )
@@ -71,13 +71,13 @@ def test_the_map_is_that_of_python(name: str, anywhere: Any):
     assert np.array_equal(outside[::7] != 0, expected["validity"].values != 0)
 
 
-@pytest.mark.parametrize("name", ["granulation", "coating", "strings", "unequal"])
-def test_curves_end_as_the_collision_does(name: str, anywhere: Any):
+@pytest.mark.parametrize("name", ["granulation", "strings"])
+def test_curves_end_as_the_collision_does(name: str, opened: Any):
     """Energies and events are those of Python's trajectory."""
-    page, one = anywhere(name), collide(SCENES[name])
+    page, one = opened(name), collide(SCENES[name])
     known = one.to_dict()
     if known["outcome"] == "stick":
-        page = anywhere(name, "impact.speed=20")
+        page = opened(name, "impact.speed=20")
         known = collide(SCENES[name], relative_speed=20.0).to_dict()
     first, last = page.ask("wetdoublet.energies()")
     assert sum(first) == pytest.approx(1, rel=1e-12)
@@ -87,7 +87,7 @@ def test_curves_end_as_the_collision_does(name: str, anywhere: Any):
     assert times == pytest.approx(expected, rel=1e-6)
 
 
-@pytest.mark.parametrize("name", [name for name, scene in SCENES.items() if scene.particles.friction is None])
+@pytest.mark.parametrize("name", ["dry", "strings", "beads"])
 def test_the_ledger_is_that_of_python(name: str, opened: Any):
     """It balances at all times; at the end of random separations its terms are Python's."""
     page, draw, separations = opened(name), random.Random(name), 0

@@ -99,6 +99,7 @@ def test_bibtex_says_what_json_says() -> None:
     assert r"Souli{\'e}, F." in read["soulie2006influence"]["author"]
 
 
+@pytest.mark.slow
 def test_a_law_of_ones_own_is_cited_by_its_source(tmp_path: Path) -> None:
     """A user's law is an entry that holds its source; with `bibtex` it is that entry, as given."""
     entry = "@article{me2020, author = {Me}, title = {A bridge}, year = {2020}}"

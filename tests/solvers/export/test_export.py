@@ -12,7 +12,7 @@ import sympy as sp
 from matplotlib.mathtext import MathTextParser
 from wetdoublet.derive.emit.compare import compare, equations, plain, same
 from wetdoublet.derive.emit.read import ReadError, functions
-from wetdoublet.solvers import InputError, Scene
+from wetdoublet.solvers import Scene
 from wetdoublet.solvers.export import differences
 from wetdoublet.solvers.export.functions import functions as exported
 from wetdoublet.solvers.export.functions import texts as c_texts
@@ -109,22 +109,6 @@ def test_folders_of_other_versions_are_compared(tmp_path: Path):
     assert re.search(r"laws/shear_film: log_factor\n +added +aspect", done.output)
 
 
-@pytest.mark.parametrize(
-    ("arguments", "said"),
-    [
-        (("diff", "library"), "B: missing; accepted: library"),
-        (("diff", "library", "granulatio"), "did you mean granulation?"),
-        (("export", "granulation", "--to", "latx"), "did you mean latex?"),
-        (("export", "granulation", "--to", "c"), "--out: missing"),
-    ],
-)
-def test_bad_input_is_named(arguments: tuple[str, ...], said: str):
-    """What is not accepted is one line and exit 2."""
-    done = run(*arguments)
-    assert done.exit_code == 2
-    assert said in done.output
-
-
 @pytest.mark.slow
 def test_equations_are_exported(tmp_path: Path):
     """Every formula of the Markdown parses as mathtext; strings appear where the scene has them and only there."""
@@ -193,11 +177,3 @@ def test_the_manifest_covers_every_module():
     listed = json.loads((GENERATED / "manifest.json").read_text())["files"]
     emitted = [path for kind in ("*.py", "*.h") for path in GENERATED.rglob(kind)]
     assert set(listed) == {path.relative_to(GENERATED).as_posix() for path in emitted}
-
-
-@pytest.mark.parametrize(("sides", "field"), [(("librry", "granulation"), "A"), (("library", "nope"), "B")])
-def test_a_misspelt_side_is_named(sides: tuple[str, str], field: str):
-    """Which of the two is wrong, and everything that it may be."""
-    with pytest.raises(InputError, match="library, granulation") as caught:
-        differences.differences(*sides)
-    assert caught.value.field == field

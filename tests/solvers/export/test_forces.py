@@ -1,7 +1,6 @@
 """Forces for time steps: the law's collisions at second order, all that is conserved to rounding, no silent NaN."""
 
 import math
-import subprocess
 from pathlib import Path
 
 import numpy as np
@@ -9,15 +8,15 @@ import pytest
 from wetdoublet.solvers import Scene
 from wetdoublet.solvers.space.pairs import Bodies
 
-from ...helpers.exported_law import COMPILERS, FOUND, SANITIZED, Law, written
+from ...helpers.exported_law import FOUND, Law, written
 from ...helpers.host_of_forces import Host
-from .test_law_in_space import GRANULATION, OWN, arrivals
+from .conftest import OWN
+from .test_law_in_space import GRANULATION, arrivals
 
 pytestmark = [pytest.mark.slow, pytest.mark.skipif("gcc" not in FOUND, reason="needs gcc and g++")]
 FILM_ALONE = Scene.load("granulation-dry-bridge")
 ROUGH = {"particles.friction": 0.2, "particles.contact_tangential_restitution": 0.5}
-STRICT = ("-pedantic", "-Wall", "-Wextra", "-Wconversion", "-Wshadow", "-Werror", "-march=native")
-COUNT = 200
+COUNT = 60
 
 
 @pytest.fixture(scope="module")
@@ -29,7 +28,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 @pytest.fixture(scope="module")
 def law(folder: Path) -> Law:
     """Its law."""
-    return Law(OWN, folder, "-march=native")
+    return Law(OWN, folder, "-O0", "-march=native")
 
 
 @pytest.fixture(scope="module")
@@ -42,7 +41,7 @@ def host(law: Law, folder: Path) -> Host:
 def alone(tmp_path_factory: pytest.TempPathFactory) -> tuple[Law, Host]:
     """Law and host of equal spheres without a bridge, whose kinetic energy is all there is."""
     folder = written(FILM_ALONE, tmp_path_factory.mktemp("law") / "film")
-    law = Law(FILM_ALONE, folder)
+    law = Law(FILM_ALONE, folder, "-O0")
     return law, Host(FILM_ALONE, law, folder)
 
 
@@ -65,21 +64,17 @@ def test_the_law_is_the_limit_of_small_steps(bridge: bool, law: Law, host: Host,
     law, host = (law, host) if bridge else alone
     pairs = arrivals(scene, COUNT, seed=3)
     found, times = durations(scene, law, pairs)
-    away = found["outcome"] > 0
+    away, errors = found["outcome"] > 0, {}
     assert set(found["outcome"].tolist()) >= ({0, 1, 2} if bridge else {1, 2})
-    errors = {}
-    for steps in (20, 100, 500):
+    for steps in (20, 100):
         flown = host.fly(pairs, times / steps, 8 * steps)
-        other = np.count_nonzero(flown["outcome"] != found["outcome"])
-        assert other <= COUNT // 100, (steps, other)
+        assert np.count_nonzero(flown["outcome"] != found["outcome"]) <= 1, steps
         assert flown["angular_momentum"].max() <= 1e-13
         errors[steps] = np.abs(flown["restitution"] - found["restitution"])[away & (flown["outcome"] > 0)]
-    assert np.quantile(errors[20], 0.98) <= 0.01
+    assert np.quantile(errors[20], 0.97) <= 0.01
     assert np.median(errors[20]) <= 1e-3
     part = 0.5 if bridge else 0.9  # without a bridge most bounce at initial contact, without an error
-    sizes = [np.quantile(errors[steps], part) for steps in (20, 100, 500)]
-    assert sizes[1] <= sizes[0] / 8  # 25 of a second order
-    assert sizes[2] <= sizes[1] / 8
+    assert np.quantile(errors[100], part) <= np.quantile(errors[20], part) / 8  # 25 of a second order
 
 
 def test_head_on_the_film_takes_its_momentum_at_any_step(law: Law, host: Host):
@@ -105,7 +100,7 @@ def test_a_film_never_adds_energy(alone: tuple[Law, Host]):
         material = law.material()
         material["viscosity"] *= viscosity
         material["dry_restitution"] = restitution
-        for steps in (1, 5, 20, 300):
+        for steps in (1, 5, 40):
             flown = host.fly(pairs, times / steps, 10 * steps, material)
             assert flown["energy"].max() <= 1 + 1e-12, (viscosity, steps)
             assert flown["angular_momentum"].max() <= 1e-13
@@ -115,10 +110,10 @@ def test_a_stick_is_followed_for_long(law: Law, host: Host):
     """Sticks turn on as one body: the host's distance stays with the contact's, and nothing is lost of the momentum."""
     pairs = arrivals(OWN, COUNT, seed=7)
     found, times = durations(OWN, law, pairs)
-    flown = host.fly(pairs, times / 100, 10_000)
+    flown = host.fly(pairs, times / 50, 2_000)
     sticks = found["outcome"] == 0
     steady = np.arange(COUNT) % 20 != 10  # not with twist alone, whose balance rounding tips over
-    assert np.count_nonzero(((flown["outcome"] == 0) != sticks)[steady]) <= COUNT // 100
+    assert np.count_nonzero(((flown["outcome"] == 0) != sticks)[steady]) <= 1
     sticks &= flown["outcome"] == 0
     assert np.abs(flown["apart"][sticks]).max() <= 0.5 * float(OWN.material["film_thickness"])
     assert flown["angular_momentum"].max() <= 1e-12
@@ -180,7 +175,7 @@ def test_a_bridge_adds_its_own_energy_alone(law: Law):
     """Kinetic energy and work against the bridge never exceed the first, at steps from a half of the contact time."""
     material, inertia = law.material(), Bodies.of(OWN).inertia
     mass = float(material["reduced_mass"][0])
-    pairs = arrivals(OWN, 40, seed=8)
+    pairs = arrivals(OWN, 12, seed=8)
     _, times = durations(OWN, law, pairs)
     for normal, velocities, spins, time in zip(*pairs, times, strict=True):
         moving = velocities[1] - velocities[0]
@@ -265,82 +260,6 @@ def test_bad_input_is_refused(law: Law):
     assert "too small" in law.message(law.contact_join(pair.material, 1e-6, 0.0, pair.history))
 
 
-HOSTILE = """
-#include "{name}.h"
-#include <stdint.h>
-#include <stdio.h>
-#include <string.h>
-static uint64_t seed = 1;
-static uint64_t next(void) {{ seed ^= seed << 13; seed ^= seed >> 7; seed ^= seed << 17; return seed; }}
-static double number(void)
-{{
-    static const double odd[] = {{0.0, -0.0, 1e-308, 1e308, -1e308, 1e-30, 1e30, 1.0, -1.0}};
-    if (next()%4 == 0) {{ double x; uint64_t bits = next(); memcpy(&x, &bits, 8); return x; }}
-    return next()%3 ? ((double)(next()%2000) - 1000.0)*1e-3 : odd[next()%9];
-}}
-static void fill(void *at, size_t bytes)
-{{
-    for (size_t k = 0; k + 8 <= bytes; k += 8) {{
-        double x = number();
-        memcpy((char *)at + k, &x, 8);
-    }}
-}}
-int main(void)
-{{
-    long answered = 0;
-    for (long k = 0; k < 20000; k++) {{
-        {name}_material m = {name}_default_material();
-        {name}_pair_motion s;
-        {name}_pair_history h;
-        {name}_pair_force found;
-        double dt = next()%2 ? 1e-6 : number(), r = {name}_contact_distance(&m);
-        memset(&h, 0, sizeof h);
-        fill(&s, sizeof s);
-        if (next()%8 == 0) fill(&m, sizeof m);
-        if (next()%8 == 0) {{ fill(&h, sizeof h); h.joined = (int)(next()%3); }}
-        if (next()%2) {{ memset(s.forces, 0, sizeof s.forces); memset(s.torques, 0, sizeof s.torques); }}
-        if (next()%2) for (int i = 0; i < 3; i++) s.position[i] = (i == 0)*r*(1.0 - 0.1*(double)(next()%2));
-        for (int step = 0; step < 20; step++) {{
-            if ({name}_contact_force(&m, &s, dt, &h, &found)) break;
-            double sum = found.force[0] + found.force[1] + found.force[2] + found.torques[0][0] + found.torques[1][2];
-            if (sum != sum) return 1;
-            answered++;
-            for (int i = 0; i < 3; i++) {{
-                s.velocity[i] += dt*found.force[i]/m.reduced_mass;
-                s.position[i] += dt*s.velocity[i];
-            }}
-        }}
-    }}
-    printf("%ld", answered);
-    return 0;
-}}
-"""
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("compiler", FOUND)
-def test_hostile_numbers_under_sanitizers(compiler: str, folder: Path, law: Law, tmp_path: Path):
-    """Any bits at all: no undefined behaviour, no NaN with the status that says there is an answer."""
-    (tmp_path / "hostile.c").write_text(HOSTILE.format(name=law.name))
-    program = str(tmp_path / "hostile")
-    sources = [str(tmp_path / "hostile.c"), str(folder / f"{law.name}.c")]
-    sanitize = [*SANITIZED[compiler], f"-I{folder}"]
-    subprocess.run([compiler, "-std=c99", *sanitize, "-o", program, *sources, "-lm"], check=True)
-    run = subprocess.run([program], capture_output=True, text=True, check=False)
-    assert run.returncode == 0, run.stderr[:2000]
-    assert int(run.stdout) > 10_000
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("compiler", FOUND)
-def test_no_warnings(compiler: str, folder: Path, law: Law):
-    """As C99 and as C++20, with conversions and shadows."""
-    for language in (["-std=c99"], ["-x", "c++", "-std=c++20"]):
-        command = [compiler if language[0] != "-x" else COMPILERS[compiler], *language, *STRICT, "-fsyntax-only"]
-        subprocess.run([*command, f"{law.name}.c"], cwd=folder, check=True)
-
-
-@pytest.mark.slow
 def test_what_has_no_forces_says_so(tmp_path: Path):
     """A wall: the header gives the reason."""
     header = (written(GRANULATION.with_entries({"partner.wall": True}), tmp_path) / "granulation.h").read_text()
@@ -348,34 +267,32 @@ def test_what_has_no_forces_says_so(tmp_path: Path):
     assert "two spheres" in header.replace("\n * ", " ")
 
 
-@pytest.mark.slow
 def test_dry_contacts_rub(tmp_path: Path):
     """With friction at every rebound, outcomes, e_n and both spins are the law's; rubbing adds no energy."""
     scene = FILM_ALONE.with_entries(ROUGH | {"model.contact_friction": "all"})
-    law = Law(scene, written(scene, tmp_path), *STRICT)
+    law = Law(scene, written(scene, tmp_path), "-O0")
     host, pairs = Host(scene, law, tmp_path), arrivals(scene, COUNT, seed=3)
     found, times = durations(scene, law, pairs)
     smooth = law.material()
     smooth["friction"] = 0.0
-    flown, slid = (host.fly(pairs, times / 100, 800, each) for each in (law.material(), smooth))
+    flown, slid = (host.fly(pairs, times / 50, 400, each) for each in (law.material(), smooth))
     away = (found["outcome"] > 0) & (flown["outcome"] == found["outcome"])
-    assert np.count_nonzero((flown["outcome"] != found["outcome"]) & (found["status"] == 0)) <= COUNT // 100
-    assert np.quantile(np.abs(flown["restitution"] - found["restitution"])[away], 0.98) <= 1e-3
+    assert np.count_nonzero((flown["outcome"] != found["outcome"]) & (found["status"] == 0)) <= 1
+    assert np.quantile(np.abs(flown["restitution"] - found["restitution"])[away], 0.97) <= 4e-3
     apart, effect = (
         np.linalg.norm(flown["spins"] - other, axis=(1, 2))[away] for other in (found["spins"], slid["spins"])
     )
     rubbed = effect > np.median(effect)
-    assert np.median(apart[rubbed] / effect[rubbed]) <= 1e-2
+    assert np.median(apart[rubbed] / effect[rubbed]) <= 4e-2
     assert flown["angular_momentum"].max() <= 1e-13
     assert flown["energy"].max() <= 1 + 1e-12
 
 
-@pytest.mark.slow
 def test_a_wall_is_a_far_larger_sphere(law: Law, tmp_path: Path):
     """As the page says: 10,000 times as large and heavy, and held beneath the sphere; e_n is that of the wall."""
     wall = GRANULATION.with_entries({"partner.wall": True})
-    walled, material = Law(wall, written(wall, tmp_path)), law.material()
-    normal, velocities, spins = arrivals(wall, 60, seed=2)
+    walled, material = Law(wall, written(wall, tmp_path), "-O0"), law.material()
+    normal, velocities, spins = arrivals(wall, 15, seed=2)
     found = walled.collide_pairs(walled.pairs(normal, velocities, spins[:, :1]))
     for name in walled.material().dtype.names:
         material[name] = walled.material()[name]

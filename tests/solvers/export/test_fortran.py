@@ -59,12 +59,6 @@ end program all_of_it
 """
 
 
-@pytest.fixture(scope="module")
-def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The exported folder."""
-    return written(BEADS, tmp_path_factory.mktemp("law") / "beads")
-
-
 def test_everything_of_the_header_is_there(folder: Path):
     """Constants, structures and functions by the same names."""
     header, module = ((folder / f"glass_beads_water.{end}").read_text() for end in ("h", "f90"))
@@ -77,8 +71,9 @@ def test_everything_of_the_header_is_there(folder: Path):
 
 @NEED
 @pytest.mark.slow
-def test_numbers_are_those_of_c(folder: Path):
+def test_numbers_are_those_of_c(tmp_path: Path):
     """Materials, collisions, a contact, pairs and particles in space; the module compiles without a warning."""
+    folder = written(BEADS, tmp_path)
     (folder / "all_of_it.f90").write_text(PROGRAM)
     strict = ["gfortran", "-std=f2018", "-Wall", "-Wextra", "-pedantic", "-Werror", "-ffree-line-length-none"]
     law = Law(BEADS, folder)

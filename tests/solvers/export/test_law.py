@@ -18,13 +18,12 @@ from wetdoublet.solvers.engines.settings import STEPS
 from wetdoublet.solvers.engines.taylor.build import kernel
 from wetdoublet.solvers.engines.taylor.call import Impacts, bind_kernel
 from wetdoublet.solvers.engines.taylor.layout import ANSWER
-from wetdoublet.solvers.export.law.conditions import Conditions
-from wetdoublet.solvers.export.law.items import items
 from wetdoublet.solvers.export.law.kernels import kernels
 from wetdoublet.solvers.export.law.material import results
 from wetdoublet.solvers.export.law.texts import law_name
 
 from ...helpers.exported_law import COMPILERS, FOUND, Law, written
+from .conftest import SPHERES
 
 PENDULUM, GRANULATION = Scene.load("pendulum"), Scene.load("granulation")
 NEED = pytest.mark.skipif("gcc" not in FOUND, reason="needs gcc and g++")
@@ -34,18 +33,6 @@ NEED = pytest.mark.skipif("gcc" not in FOUND, reason="needs gcc and g++")
 def pendulum(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The exported folder of the pendulum."""
     return written(PENDULUM, tmp_path_factory.mktemp("law") / "pendulum")
-
-
-@pytest.fixture(scope="module")
-def granulation(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The exported folder of granulation."""
-    return written(GRANULATION, tmp_path_factory.mktemp("law") / "granulation")
-
-
-@pytest.fixture(scope="module")
-def law(granulation: Path) -> Law:
-    """The law of granulation, without contraction of products and sums."""
-    return Law(GRANULATION, granulation, "-Wall", "-Wextra", "-Werror", "-march=native", "-ffp-contract=off")
 
 
 def random_impacts(law: Law, count: int) -> np.ndarray:
@@ -59,109 +46,87 @@ def random_impacts(law: Law, count: int) -> np.ndarray:
 
 @pytest.mark.parametrize("compiler", COMPILERS)
 @pytest.mark.slow
-def test_builds_and_checks(compiler: str, pendulum: Path, tmp_path: Path):
-    """As strict C99 and as C++, in plain doubles and in lanes, without a warning; the test vectors agree."""
+def test_builds_and_checks(compiler: str, folder: Path, tmp_path: Path):
+    """As strict C99 in lanes and C++ in plain doubles, without a warning; the vectors of impacts and pairs agree."""
     if compiler not in FOUND:
         pytest.skip(f"{compiler} or {COMPILERS[compiler]} is missing")
-    folder = shutil.copytree(pendulum, tmp_path / "law")
-    strict = "-std=c++11 -O0 -pedantic -Werror -DPENDULUM_LANES=1"
-    flags = ["CFLAGS=-O1 -Werror", f"CXXFLAGS={strict}", f"CC={compiler}", f"CXX={COMPILERS[compiler]}"]
-    done = subprocess.run(
-        ["make", "-s", "check", "check-cpp", *flags], cwd=folder, capture_output=True, text=True, check=False
-    )
-    assert done.stderr == ""
-    assert done.stdout.count("0 of ") == 2
-    assert done.returncode == 0
-    subprocess.run(["make", "-s", "clean"], cwd=folder, check=True)
-    assert {each.name for each in folder.iterdir()} == {each.name for each in pendulum.iterdir()}
+    copy = shutil.copytree(folder, tmp_path / "law", ignore=shutil.ignore_patterns("*.so", "mixture*"))
+    names = {each.name for each in copy.iterdir()}
+    strict = "-std=c++11 -O0 -pedantic -Werror -DGLASS_BEADS_WATER_LANES=1"
+    flags = ["CFLAGS=-O0 -Werror", f"CXXFLAGS={strict}", f"CC={compiler}", f"CXX={COMPILERS[compiler]}"]
+    command = ["make", "-s", "check", "check-cpp", *flags]
+    done = subprocess.run(command, cwd=copy, capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert done.stdout.count("0 of ") == 4
+    subprocess.run(["make", "-s", "clean"], cwd=copy, check=True)
+    assert {each.name for each in copy.iterdir()} == names
+    flags = "-std=c++20 -pedantic -Wall -Wextra -Werror -DGLASS_BEADS_WATER_LANES=2 -fsyntax-only"
+    subprocess.run([COMPILERS[compiler], "-x", "c++", *flags.split(), "glass_beads_water.c"], cwd=copy, check=True)
 
 
 @NEED
-@pytest.mark.parametrize("scene", ["pendulum", "granulation"])
 @pytest.mark.slow
-def test_is_exported_without_a_compiler(scene: str, tmp_path: Path):
-    """Test vectors then come from CasADi; the law, compiled elsewhere, reproduces them, those of pairs in space too."""
+def test_is_exported_without_a_compiler(tmp_path: Path):
+    """Test vectors then come from CasADi; the law, compiled elsewhere, reproduces them."""
     without = os.environ | {"CC": "", "WETDOUBLET_NO_COMPILER": "1", "WETDOUBLET_CACHE": str(tmp_path / "cache")}
-    command = [sys.executable, "-m", "wetdoublet.solvers", "export", scene, "--to", "c", "--out", str(tmp_path / "law")]
-    subprocess.run(command, env=without, check=True)
+    words = ["export", "pendulum", "--to", "c", "--out", tmp_path / "law"]
+    subprocess.run([sys.executable, "-m", "wetdoublet.solvers", *words], env=without, check=True)
     assert not list((tmp_path / "cache").glob("*.so"))
-    done = subprocess.run(
-        ["make", "-s", "check", "CC=gcc", "CFLAGS=-O1"],
-        cwd=tmp_path / "law",
-        capture_output=True,
-        text=True,
-        check=False,
-    )
+    make = ["make", "-s", "check", "CC=gcc", "CFLAGS=-O0"]
+    done = subprocess.run(make, cwd=tmp_path / "law", capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stdout
-    impacts, *pairs = re.findall(r"^0 of (\d+)", done.stdout, re.MULTILINE)
+    (impacts,) = re.findall(r"^0 of (\d+)", done.stdout, re.MULTILINE)
     assert int(impacts) >= 50
-    assert len(pairs) == (scene == "granulation")
     rows = re.findall(r"^ +\{0, (\d), ", (tmp_path / "law" / "vectors.h").read_text(), re.MULTILINE)
     assert {*rows[: int(impacts)]} == {"0", "1", "2"}
 
 
-@pytest.mark.parametrize("standard", ["c++11", "c++20"])
-@pytest.mark.parametrize("compiler", COMPILERS.values())
-@pytest.mark.slow
-def test_spheres_that_spin_are_cpp_in_lanes(compiler: str, standard: str, granulation: Path):
-    """A law with a bridge and spins is C++ in vector lanes as well, to either compiler and by either standard."""
-    if shutil.which(compiler) is None:
-        pytest.skip(f"{compiler} is missing")
-    flags = f"-x c++ -std={standard} -pedantic -Wall -Wextra -Werror -DGRANULATION_LANES=2 -fsyntax-only granulation.c"
-    subprocess.run([compiler, *flags.split()], cwd=granulation, check=True)
-
-
-@pytest.mark.slow
-def test_needs_no_x86_and_names_its_own_macro(granulation: Path):
+def test_needs_no_x86_and_names_its_own_macro(folder: Path):
     """No header of x86 is included, its instructions are asked for, and texts name the macro that the file reads."""
-    code = (granulation / "granulation.c").read_text()
+    code = (folder / "glass_beads_water.c").read_text()
     standard = {"float.h", "limits.h", "math.h", "stddef.h", "stdint.h", "stdlib.h", "string.h"}
     assert set(re.findall(r"#include <(.*)>", code)) <= standard
     assert [line.count("defined(__AVX") for line in code.splitlines() if "HAS_BUILTIN(__builtin" in line] == [1, 1]
-    for name in ("granulation.c", "README.md"):
-        assert "-DGRANULATION_LANES=1" in (granulation / name).read_text()
+    for name in ("glass_beads_water.c", "README.md"):
+        assert "-DGLASS_BEADS_WATER_LANES=1" in (folder / name).read_text()
 
 
-@NEED
 def test_is_our_kernel(law: Law, monkeypatch: pytest.MonkeyPatch):
     """The same variant without contraction gives the same numbers to 1e-12, and the same outcomes."""
     monkeypatch.setenv("WETDOUBLET_CFLAGS", f"{os.environ['WETDOUBLET_CFLAGS']} -ffp-contract=off")
     kernel.cache_clear()  # of those compiled for the test vectors
     impacts = random_impacts(law, 400)
     found = law.collide(impacts)
-    oblique = (impacts["angle"] > 0) | (impacts["spin"] != 0) | (impacts["partner_spin"] != 0)
     assert set(found["outcome"]) == {0, 1, 2}
-    for own, which in zip(kernels(GRANULATION, 1e-9)[:2], (~oblique, oblique), strict=True):
-        library, answers = kernel(own.variant), np.zeros(np.count_nonzero(which), ANSWER)
-        assert library is not None
-        these, x0 = impacts[which], GRANULATION.liquid.film_thickness
-        others = {"impact_spin": these["spin"].copy(), "impact_partner_spin": these["partner_spin"].copy()}
-        given = Impacts(own.scene, these["speed"].copy(), these["angle"].copy(), others)
-        bind_kernel(library, 1e-9, STEPS)(given, answers)
-        separated = answers["outcome"] > 0
-        assert np.array_equal(found["outcome"][which], answers["outcome"])
-        assert np.array_equal(found["certified"][which], answers["certified"])
-        for name, expected in (
-            ("restitution", answers["shown"][:, 0]),
-            ("contact_time", answers["time"] * x0 / these["speed"]),
-            ("smallest_gap", answers["smallest_gap"] * x0),
-            ("rotation", answers["turned"]),
-        ):
-            np.testing.assert_allclose(found[name][which][separated], expected[separated], rtol=1e-12, atol=0)
+    which = (impacts["angle"] > 0) | (impacts["spin"] != 0) | (impacts["partner_spin"] != 0)
+    own = kernels(SPHERES, 1e-9)[1]
+    library, answers = kernel(own.variant), np.zeros(np.count_nonzero(which), ANSWER)
+    assert library is not None
+    these, found, x0 = impacts[which], found[which], SPHERES.liquid.film_thickness
+    others = {"impact_spin": these["spin"].copy(), "impact_partner_spin": these["partner_spin"].copy()}
+    bind_kernel(library, 1e-9, STEPS)(Impacts(own.scene, these["speed"].copy(), these["angle"].copy(), others), answers)
+    assert np.array_equal(found["outcome"], answers["outcome"])
+    assert np.array_equal(found["certified"], answers["certified"])
+    away = answers["outcome"] > 0
+    for name, expected in (
+        ("restitution", answers["shown"][:, 0]),
+        ("contact_time", answers["time"] * x0 / these["speed"]),
+        ("smallest_gap", answers["smallest_gap"] * x0),
+        ("rotation", answers["turned"]),
+    ):
+        np.testing.assert_allclose(found[name][away], expected[away], rtol=1e-12, atol=0)
     kernel.cache_clear()
 
 
-@NEED
 def test_one_by_one_is_the_batch(law: Law):
     """A single call gives the bits of the batch, and eight threads at once those of one."""
-    impacts = random_impacts(law, 160)
+    impacts = random_impacts(law, 80)
     whole = law.collide(impacts).tobytes()
     assert b"".join(law.one(impact[None]).tobytes() for impact in impacts) == whole
     with ThreadPoolExecutor(8) as pool:
         assert all(each.tobytes() == whole for each in pool.map(lambda _: law.collide(impacts), range(8)))
 
 
-@NEED
 def test_a_budget_ends_what_takes_longer(law: Law):
     """What has more steps is undecided and says so; what has fewer is as without a budget, to the last bit."""
     spent, longer = law.number("UNDECIDED_NO_BUDGET"), 1 << 30
@@ -171,28 +136,27 @@ def test_a_budget_ends_what_takes_longer(law: Law):
     pairs = law.pairs([0, 0, 1], velocities, 2e4 * draw.normal(size=(100, 2, 3)))
     for rows, answers in ((random_impacts(law, 200), law.collide), (pairs, law.collide_pairs)):
         whole, shares = answers(rows), list[float]()
-        for budget in (1, 30, 100, longer):
+        for budget in (1, 100, longer):
             found = answers(rows, budget=budget)
             over = found["status"] == spent
             for name in whole.dtype.names or ():
                 np.testing.assert_array_equal(found[name][~over], whole[name][~over])
             assert np.all(found["outcome"][over] == law.number("UNDECIDED"))
             shares.append(over.mean())
-        assert shares[0] > shares[1] > shares[2] > shares[3] == 0
+        assert shares[0] > shares[1] > shares[2] == 0
         assert np.all(answers(rows, budget=-1)["status"] == law.number("BAD_BUDGET"))
     contact = law.begin(law.impacts(speed=1.0, angle=0.5), budget=1)
     assert law.advance(contact, 1.0) == spent
     assert contact["motion"][0] == law.number("LOST")
 
 
-@NEED
 def test_in_pieces_a_contact_is_the_collision(law: Law):
     """Interrupted at random times, it takes the same steps: the numbers at separation are those of one call."""
     draw, apart = np.random.default_rng(3), law.number("APART")
     separated = 0
     for impact in random_impacts(law, 100):
         whole, contact = law.one(impact[None])[0], law.begin(impact[None])
-        end = whole["contact_time"] if whole["outcome"] > 0 else 3 * 8e-6 / impact["speed"]
+        end = whole["contact_time"] if whole["outcome"] > 0 else 3 * 5e-6 / impact["speed"]
         for time in [*np.sort(draw.uniform(0, end, draw.integers(0, 9))).tolist(), end * (1 + 1e-9)]:
             assert law.advance(contact, time) == 0
         assert (contact["motion"][0] == apart) == (whole["outcome"] > 0)
@@ -208,152 +172,75 @@ def test_in_pieces_a_contact_is_the_collision(law: Law):
 
 
 @NEED
-@pytest.mark.parametrize("stokes", [0.02, 0.5])
+@pytest.mark.parametrize("stokes", [0.1, 9.0])
 def test_a_contact_is_where_the_trajectory_is(law: Law, stokes: float):
     """At times of a trajectory by CasADi, that of a stick also long after its proof."""
-    speed = GRANULATION.speed_of(stokes)
-    until = 2e-4 if stokes < 0.1 else None
-    path = collide(GRANULATION, stokes=stokes, angle=1.0, engine="rosenbrock", trajectory=True, until=until).trajectory
+    speed, sticks = SPHERES.speed_of(stokes), stokes < 1
+    until = 2e-3 if sticks else None
+    path = collide(SPHERES, stokes=stokes, angle=1.0, engine="rosenbrock", trajectory=True, until=until).trajectory
     contact = law.begin(law.impacts(speed=speed, angle=1.0))
     for k in range(1, path.time.size - 1, 7):
+        if path.time[k] in (path.time[k - 1], path.time[k + 1]):
+            continue  # an event, before or after which the velocity is another
         assert law.advance(contact, float(path.time[k])) == 0
         assert contact["gap"][0] == pytest.approx(float(path.gap[k]), rel=1e-6)
         for name, scale in (("normal_velocity", speed), ("rotation_rate", 1e4), ("spin", 1e4), ("rotation", 1.0)):
             assert contact[name][0] == pytest.approx(float(path[name][k]), abs=1e-6 * scale, rel=1e-6)
-    sticks = stokes < 0.1
     assert (contact["outcome"][0], contact["certified"][0]) == ((0, 1) if sticks else (law.number("UNDECIDED"), 0))
     assert law.advance(contact, float(path.time[1])) == law.number("BAD_TIME")
 
 
 @pytest.mark.slow
-@NEED
-def test_shares_no_data(pendulum: Path, tmp_path: Path):
+def test_shares_no_data(folder: Path, tmp_path: Path):
     """The compiled law has no variable outside its functions: any number of threads may call it."""
     if shutil.which("nm") is None:
         pytest.skip("nm is missing")
-    subprocess.run(["gcc", "-std=c99", "-O0", "-c", "-o", tmp_path / "law.o", pendulum / "pendulum.c"], check=True)
+    subprocess.run(
+        ["gcc", "-std=c99", "-O0", "-c", "-o", tmp_path / "law.o", folder / "glass_beads_water.c"], check=True
+    )
     listed = subprocess.run(["nm", tmp_path / "law.o"], check=True, capture_output=True, text=True).stdout
     kinds = {line.split()[-2]: line.split()[-1] for line in listed.splitlines()}
     assert {"T", "U"} <= set(kinds) <= {"T", "U", "t", "r"}
     public = [line.split()[-1] for line in listed.splitlines() if " T " in line]
-    assert all(name.startswith("pendulum_") for name in public)
+    assert all(name.startswith("glass_beads_water_") for name in public)
     called = {line.split()[-1] for line in listed.splitlines() if " U " in line}
     assert not called & {"malloc", "calloc", "free", "printf"}
 
 
-TWO = """
-#include "granulation.h"
-#include "pendulum.h"
-#include <stdio.h>
-
-static double one(double speed, double angle)
-{
-    const granulation_material m = granulation_default_material();
-    const granulation_impact i = {speed, angle, 0.0, 0.0};
-    granulation_collision c;
-    return granulation_collide(&m, &i, 1e-9, 0, &c) == GRANULATION_OK ? c.restitution : -1.0;
-}
-
-static double other(double speed, double angle)
-{
-    const pendulum_material m = pendulum_default_material();
-    const pendulum_impact i = {speed, angle, 0.0, 0.0};
-    pendulum_collision c;
-    return pendulum_collide(&m, &i, 1e-9, 0, &c) == PENDULUM_OK ? c.restitution : -1.0;
-}
-
-int main(void)
-{
-    double (*const laws[])(double, double) = {one, other};
-    for (int k = 0; k < 2; k++)
-        printf("%.17g ", laws[k](10.0, 0.5));
-    return 0;
-}
-"""
-
-
-@pytest.mark.slow
-@NEED
-@pytest.mark.parametrize(
-    ("language", "other"), [("-std=c99", "-march=native"), ("-xc++ -std=c++20", "-DPENDULUM_LANES=1")]
-)
-def test_two_laws_live_in_one_program(language: str, other: str, pendulum: Path, granulation: Path, tmp_path: Path):
-    """Two headers in one file, chosen at run time: no name of theirs meets, as C99 and as C++20, linked together.
-
-    Other lanes, whose names are the same, compile without a warning.
-    """
-    (tmp_path / "two.c").write_text(TWO)
-    expected = [collide(scene, speed=10.0, angle=0.5, rtol=1e-10).restitution for scene in (GRANULATION, PENDULUM)]
-    files = [str(tmp_path / "two.c"), str(granulation / "granulation.c"), str(pendulum / "pendulum.c")]
-    flags = ["-Wall", "-Wextra", "-Werror", "-O0", f"-I{granulation}", f"-I{pendulum}"]
-    compiler = ["g++" if "c++" in language else "gcc", *language.split(), *flags]
-    subprocess.run([*compiler, other, "-fsyntax-only", *files], check=True)
-    subprocess.run([*compiler, *files, "-lm", "-o", "two"], cwd=tmp_path, check=True)
-    run = subprocess.run(["./two"], cwd=tmp_path, check=True, capture_output=True, text=True)
-    np.testing.assert_allclose(list(map(float, run.stdout.split())), expected, rtol=1e-6)
-
-
-def test_no_name_of_a_scene_is_one_within_the_law(pendulum: Path, granulation: Path):
+def test_no_name_of_a_scene_is_one_within_the_law(folder: Path):
     """What the header declares has other names than what the law has for itself, whatever the scene is called."""
-    for folder in (pendulum, granulation):
-        prefix = f"{folder.name}_"
-        header = (folder / f"{prefix[:-1]}.h").read_text()
-        public = set(re.findall(rf"\b{prefix}(\w+)", header))
-        own = set(re.findall(r"\b[a-z]\w*", re.sub(r"/\*.*?\*/", "", header, flags=re.DOTALL)))
-        within = set(re.findall(r"\b[a-z]\w+", (folder / f"{prefix[:-1]}.c").read_text())) - own
-        names = {word.removesuffix(f"_{end}") for word in within for end in public if word.endswith(f"_{end}")}
-        names |= {path.stem for path in folder.iterdir() if path.suffix in (".c", ".h", ".f90")} - {prefix[:-1]}
-        assert {"check", "example", "vectors"} < names
-        for name in names:
-            assert law_name(Scene(name, GRANULATION.given)) not in names
+    header, prefix = (folder / "glass_beads_water.h").read_text(), "glass_beads_water_"
+    public = set(re.findall(rf"\b{prefix}(\w+)", header))
+    own = set(re.findall(r"\b[a-z]\w*", re.sub(r"/\*.*?\*/", "", header, flags=re.DOTALL)))
+    within = set(re.findall(r"\b[a-z]\w+", (folder / "glass_beads_water.c").read_text())) - own
+    names = {word.removesuffix(f"_{end}") for word in within for end in public if word.endswith(f"_{end}")}
+    names |= {path.stem for path in folder.iterdir() if path.suffix in (".c", ".h", ".f90")} - {prefix[:-1]}
+    assert {"check", "example", "vectors"} < names
+    for name in names:
+        assert law_name(Scene(name, GRANULATION.given)) not in names
 
 
-@NEED
-@pytest.mark.slow
-def test_under_the_sanitizers(pendulum: Path, tmp_path: Path):
-    """The test vectors, side by side in two lanes, read and write nothing they should not, and nothing is undefined."""
-    flags = ["-std=c99", "-O0", "-fsanitize=address,undefined", "-fno-sanitize-recover=all", "-DPENDULUM_LANES=2"]
-    files = [str(pendulum / name) for name in ("check.c", "pendulum.c")]
-    command = ["gcc", *flags, "-o", str(tmp_path / "check"), *files, "-lm"]
-    made = subprocess.run(command, check=False, capture_output=True, text=True)
-    if "cannot find" in made.stderr:
-        pytest.skip("gcc has no sanitizers here")
-    assert made.returncode == 0, made.stderr
-    done = subprocess.run([tmp_path / "check"], check=False, capture_output=True, text=True)
-    assert (done.returncode, done.stderr) == (0, "")
-
-
-@NEED
 @pytest.mark.parametrize(
-    "flags",
+    ("flags", "said"),
     [
-        "-ffast-math",
-        "-ffinite-math-only",
-        "-funsafe-math-optimizations",
-        "-fassociative-math -fno-signed-zeros -fno-trapping-math",
+        ("-ffast-math", "compile without"),
+        ("-ffinite-math-only", "compile without"),
+        ("-funsafe-math-optimizations", "compile without"),
+        ("-fassociative-math -fno-signed-zeros -fno-trapping-math", "compile without"),
+        ("-mfpmath=387", "rounded as they stand, to doubles"),  # x87 registers round to 64 bits
     ],
 )
-def test_other_arithmetic_is_not_compiled(flags: str, pendulum: Path):
-    """By gcc's macros each option is refused that reorders sums or leaves out NaN and infinity."""
-    command = ["gcc", "-std=c99", *flags.split(), "-fsyntax-only", str(pendulum / "pendulum.c")]
+def test_other_arithmetic_is_not_compiled(flags: str, said: str, folder: Path):
+    """By gcc's macros each option is refused that reorders sums, leaves out NaN and infinity or rounds otherwise."""
+    command = ["gcc", "-std=c99", *flags.split(), "-fsyntax-only", str(folder / "glass_beads_water.c")]
     done = subprocess.run(command, check=False, capture_output=True, text=True)
-    assert done.returncode != 0
-    assert "error" in done.stderr
-    assert "compile without" in done.stderr
-
-
-@NEED
-def test_excess_precision_is_not_compiled(pendulum: Path):
-    """x87 registers round to 64 bits, so that adding a large number no longer rounds to an integer."""
-    command = ["gcc", "-std=c99", "-mfpmath=387", "-fsyntax-only", str(pendulum / "pendulum.c")]
-    done = subprocess.run(command, check=False, capture_output=True, text=True)
-    if "#error" not in done.stderr and done.returncode:
+    if "387" in flags and "#error" not in done.stderr and done.returncode:
         pytest.skip("a processor without x87 registers")
-    assert "rounded as they stand, to doubles" in done.stderr
+    assert "error" in done.stderr and said in done.stderr
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("flags", ["-funsafe-math-optimizations", "-fno-honor-nans", "-fno-honor-infinities"])
+@pytest.mark.parametrize("flags", ["-fno-honor-nans"])
 def test_other_arithmetic_has_no_answers(flags: str, pendulum: Path, tmp_path: Path):
     """No macro of clang says these: every call refuses, and `make check` fails with the reason."""
     if importlib.util.find_spec("ziglang") is None and shutil.which("clang") is None:
@@ -369,7 +256,6 @@ def test_other_arithmetic_has_no_answers(flags: str, pendulum: Path, tmp_path: P
     assert all("compiled with options that reorder sums or leave out NaN and infinity" in line for line in refused)
 
 
-@NEED
 def test_bad_numbers_are_refused(law: Law):
     """Each number that is not finite, or outside its range, has a status that names it, and no answer."""
     impact = law.impacts(speed=1.0, angle=0.5)
@@ -389,12 +275,11 @@ def test_bad_numbers_are_refused(law: Law):
         assert law.one(impact, rtol)["status"][0] == law.number("BAD_RTOL")
 
 
-@NEED
 def test_numbers_that_do_not_fit_are_refused(law: Law):
     """Roughness above the film, a bridge that ruptures within it, and an approach that nothing stops."""
     impact = law.impacts(speed=1.0, angle=0.5)
     for changes, status in (
-        ({"roughness": 8e-6}, "ROUGHNESS_BEYOND_FILM"),
+        ({"roughness": 8e-5}, "ROUGHNESS_BEYOND_FILM"),
         ({"volume": 1e-6}, "RUPTURE_WITHIN_FILM"),
         ({"roughness": 0.0, "youngs_modulus": 1e300, "glass_transition_pressure": 1e60}, "NOTHING_STOPS"),
     ):
@@ -402,41 +287,6 @@ def test_numbers_that_do_not_fit_are_refused(law: Law):
         for name, value in changes.items():
             material[name] = value
         assert law.one(impact, material=material)["status"][0] == law.number(status)
-
-
-def test_conditions_are_decided():
-    """What the text defines is decided, nested and by expressions; what the compiler knows is kept."""
-    kept = "#if LANES > 1\nint lanes;\n#else\nint one;\n#endif\n"
-    text = f"#define A 2\n#if A > 1 && !defined(B)\n{kept}#elif A\nint no;\n#endif\n"
-    assert Conditions().resolved(text) == f"#define A 2\n{kept}"
-    assert Conditions().value("1 ? 2 + 3*4 : 0") == 14
-
-
-def test_items_know_their_names():
-    """Declarations of every kind, with what they define and what they use."""
-    text = """\
-/* Head. */
-
-#define TWICE(x) (x + x)
-/* A. */
-typedef struct { vec a, b; } pair;
-enum { ONE, TWO = ONE + 1 };
-static vec sum(const pair *p, vec twice)
-{
-    vec b = p->a;
-    return TWICE(b) + p->b + twice;
-}
-"""
-    head, found = items("x.h", text)
-    assert head == "/* Head. */"
-    assert [item.defines for item in found] == [("TWICE",), ("pair",), ("ONE", "TWO"), ("sum",)]
-    assert found[1].comment == "/* A. */\n"
-    assert {"TWICE", "pair", "vec"} <= found[3].uses
-    assert not {"a", "b", "p", "twice"} & found[3].uses
-    _, [rows] = items("y.h", "static const struct { int event, mark; } OWN[] = {\n    {1, MARK},\n};\n")
-    assert rows.defines == ("OWN",)
-    assert "MARK" in rows.uses
-    assert "mark" not in rows.uses
 
 
 def test_every_failure_of_a_kernel_has_a_message():

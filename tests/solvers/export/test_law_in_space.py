@@ -11,35 +11,11 @@ from wetdoublet.solvers.export.law.space import declarations
 from wetdoublet.solvers.space.pairs import Bodies
 
 from ...helpers.exported_law import FOUND, Law, written
+from .conftest import OWN, SPHERES, STRICT
 
 pytestmark = pytest.mark.skipif("gcc" not in FOUND, reason="needs gcc and g++")
 GRANULATION = Scene.load("granulation")
-OWN = GRANULATION.with_entries(
-    {
-        "particles.reduced_radius": "0.2 mm", "particles.reduced_mass": "3e-5 g", "particles.dry_restitution": 0.8,
-        "liquid.viscosity": 0.3, "partner.radius": "0.3 mm", "partner.mass": "3e-5 g", "bridge.volume": 0.02,
-    }
-)  # fmt: skip
 WALL = GRANULATION.with_entries({"partner.wall": True})
-STRICT = ("-pedantic", "-Wall", "-Wextra", "-Werror", "-march=native")
-
-
-@pytest.fixture(scope="module")
-def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The exported folder of unequal spheres."""
-    return written(OWN, tmp_path_factory.mktemp("law") / "spheres")
-
-
-@pytest.fixture(scope="module")
-def law(folder: Path) -> Law:
-    """The law of unequal spheres; it compiles as C99 without a warning."""
-    return Law(OWN, folder, *STRICT)
-
-
-@pytest.fixture(scope="module")
-def walled(tmp_path_factory: pytest.TempPathFactory) -> Law:
-    """The law of a sphere and a wall."""
-    return Law(WALL, written(WALL, tmp_path_factory.mktemp("law") / "wall"), *STRICT)
 
 
 def arrivals(scene: Scene, count: int, seed: int = 1) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -90,92 +66,31 @@ def agree(law: Law, scene: Scene, count: int) -> None:
             close(found[name][rows], given[rows], scale.get(name, given)[rows], rtol)
 
 
-@pytest.mark.slow
 def test_two_spheres_are_those_of_collide_pair(law: Law):
-    """In planes, out of them and along the line of centres, of a material far from the presets."""
-    agree(law, OWN, 120)
+    """In planes, out of them and along the line of centres."""
+    agree(law, SPHERES, 40)
+
+
+RUBS = {"particles.friction": 0.2, "particles.contact_tangential_restitution": 0.5, "model.contact_friction": "all"}
+RESTS = {"particles.friction": 0.1, "particles.dry_restitution": 0.2, "liquid.viscosity": "1 mPa s"}
+OTHERS = {
+    "a wall that moves": WALL,
+    "in solid contact": OWN.with_entries({**RESTS, "liquid.glass_transition_pressure": "1e12 Pa"}),
+    "rubbing": OWN.with_entries(RUBS),
+}
 
 
 @pytest.mark.slow
-def test_a_sphere_and_a_wall_are_those_of_collide_pair(walled: Law):
-    """A wall that moves, with sliding, rolling and twist in different directions."""
-    agree(walled, WALL, 60)
-
-
-@pytest.mark.slow
-def test_spheres_that_rest_in_friction_are_those_of_collide_pair(tmp_path: Path):
-    """They slide and roll in solid contact until their rotation opens it, or for good."""
-    entries = {"particles.friction": 0.1, "particles.dry_restitution": 0.2, "liquid.viscosity": "1 mPa s"}
-    scene = OWN.with_entries(entries | {"liquid.glass_transition_pressure": "1e12 Pa"})
-    agree(Law(scene, written(scene, tmp_path / "resting"), *STRICT), scene, 60)
-
-
-@pytest.mark.slow
-def test_spheres_that_rub_are_those_of_collide_pair(tmp_path: Path):
-    """With Coulomb friction at every rebound, which changes the spins across the plane of approach as well."""
-    rough = {"particles.friction": 0.2, "particles.contact_tangential_restitution": 0.5}
-    scene = OWN.with_entries(rough | {"model.contact_friction": "all"})
-    law = Law(scene, written(scene, tmp_path / "rough"), *STRICT)
-    agree(law, scene, 60)
-    pairs = arrivals(OWN, 60)
-    spins = [collide_pair(each, *pairs, engine="taylor").spins.values for each in (scene, OWN)]
-    assert np.nanmax(np.abs(spins[0] - spins[1])) > 1.0  # rad/s: friction acts
-
-
-@pytest.mark.slow
-def test_a_stick_depends_on_the_pair_alone(law: Law, folder: Path):
-    """Another compilation, lanes and tolerance change when its integration stops, and nothing of what is returned."""
-    rows = law.pairs(*arrivals(OWN, 150, seed=7))
-    plain = Law(OWN, folder, "-O0", "-DGRANULATION_LANES=1", "-ffp-contract=off")
-    tight, loose, other = law.collide_pairs(rows, 1e-11), law.collide_pairs(rows, 1e-6), plain.collide_pairs(rows, 1e-9)
-    sticks = (tight["outcome"] == 0) & (loose["outcome"] == 0) & (other["outcome"] == 0)
-    assert np.count_nonzero(sticks) > 30
-    for name in ("restitution", "time", "gap", "position", "velocities", "spins", "angular_velocity"):
-        size = np.abs(tight[name]).max(axis=tuple(range(1, tight[name].ndim)), keepdims=True)
-        assert np.array_equal(tight[name][sticks], loose[name][sticks])
-        assert np.all(np.abs(tight[name] - other[name])[sticks] <= 1e-14 * size[sticks]), name
-
-
-@pytest.mark.slow
-def test_what_is_conserved(law: Law):
-    """Momentum and angular momentum to rounding, sticks' too; energy is never created."""
-    normal, velocities, spins = arrivals(OWN, 300, seed=2)
-    found, bodies = law.collide_pairs(law.pairs(normal, velocities, spins)), Bodies.of(OWN)
-    mass, inertia = np.array(bodies.mass)[:, None], np.array(bodies.inertia)[:, None]
-    before, after = ((mass * each).sum(axis=1) for each in (velocities, found["velocities"]))
-    close(after, before, (mass * np.abs(velocities)).sum(axis=1), 1e-14)
-
-    def momentum(apart: np.ndarray, moving: np.ndarray, turning: np.ndarray) -> np.ndarray:
-        orbital = bodies.reduced_mass * np.cross(apart, moving[:, 1] - moving[:, 0])
-        return np.asarray(orbital + (inertia * turning).sum(axis=1))
-
-    def energy(moving: np.ndarray, turning: np.ndarray) -> np.ndarray:
-        return np.asarray((mass * moving**2 + inertia * turning**2).sum(axis=(1, 2)))
-
-    first = momentum(law.contact_distance() * normal, velocities, spins)
-    size = np.abs(inertia * spins).sum(axis=1)
-    size += bodies.reduced_mass * law.contact_distance() * np.abs(velocities).sum(axis=1)
-    close(momentum(found["position"], found["velocities"], found["spins"]), first, size, 1e-12)
-    assert np.all(energy(found["velocities"], found["spins"]) <= energy(velocities, spins))
-
-
-def test_a_turned_picture_gives_a_turned_answer(law: Law):
-    """Whichever way the axes point, and however fast the frame moves."""
-    normal, velocities, spins = arrivals(OWN, 60, seed=3)
-    turn, _ = np.linalg.qr(np.random.default_rng(4).normal(size=(3, 3)))
-    turn *= np.sign(np.linalg.det(turn))
-    found = law.collide_pairs(law.pairs(normal, velocities, spins))
-    drift = np.array([1.0, -2.0, 0.5])
-    other = law.collide_pairs(law.pairs(normal @ turn.T, velocities @ turn.T + drift, spins @ turn.T))
-    assert np.array_equal(found["outcome"], other["outcome"])
-    away = found["outcome"] > 0
-    close((other["velocities"] - drift)[away] @ turn, found["velocities"][away], velocities[away] + drift)
-    close(other["spins"][away] @ turn, found["spins"][away], np.abs(spins[away]).max(axis=1, keepdims=True) + 1.0)
+@pytest.mark.parametrize("name", OTHERS)
+def test_others_are_those_of_collide_pair(name: str, tmp_path: Path):
+    """Sliding, rolling and twist beside a wall; solid contact until rotation opens it; friction at every rebound."""
+    scene = OTHERS[name]
+    agree(Law(scene, written(scene, tmp_path), *STRICT), scene, 60)
 
 
 def test_one_by_one_is_the_batch(law: Law):
     """A pair's answer does not depend, to the last bit, on those beside it."""
-    rows = law.pairs(*arrivals(OWN, 150, seed=5))
+    rows = law.pairs(*arrivals(SPHERES, 60, seed=5))
     whole = law.collide_pairs(rows)
     assert b"".join(law.collide_pairs(rows[k : k + 1]).tobytes() for k in range(rows.size)) == whole.tobytes()
 
@@ -220,9 +135,9 @@ def test_what_cannot_collide_has_a_status(law: Law):
 
 def test_particles_are_moved_in_place(law: Law):
     """Momentum and angular momentum about the origin, and the centre of mass; without an answer nothing moves."""
-    bodies = Bodies.of(OWN)
+    bodies = Bodies.of(SPHERES)
     mass, inertia = np.array(bodies.mass)[:, None], np.array(bodies.inertia)[:, None]
-    normal, velocities, spins = arrivals(OWN, 12, seed=6)
+    normal, velocities, spins = arrivals(SPHERES, 12, seed=6)
     for k in range(12):
         both = np.zeros(2, law.dtype("particle"))
         both["position"] = [[1e-3, -2e-3, 5e-4], np.array([1e-3, -2e-3, 5e-4]) + law.contact_distance() * normal[k]]
@@ -249,9 +164,9 @@ def test_particles_are_moved_in_place(law: Law):
 
 def test_a_pair_found_late_is_brought_back_to_contact(law: Law):
     """The same end as of the pair at contact, at the same moment; momentum and angular momentum as found."""
-    bodies = Bodies.of(OWN)
+    bodies = Bodies.of(SPHERES)
     mass, inertia = np.array(bodies.mass)[:, None], np.array(bodies.inertia)[:, None]
-    normal, velocities, spins = arrivals(OWN, 12, seed=7)
+    normal, velocities, spins = arrivals(SPHERES, 12, seed=7)
     distance = law.contact_distance()
     for k in range(12):
         both = np.zeros(2, law.dtype("particle"))
@@ -285,27 +200,6 @@ def test_a_pair_that_is_not_in_contact_stays(law: Law):
         found = law.collide_particles(both, tolerance=tolerance)[0]
         assert found["status"] == law.number(status)
         assert both.tobytes() == before.tobytes()
-
-
-@pytest.mark.slow
-def test_in_cpp_and_plain_doubles(folder: Path, tmp_path: Path):
-    """The folder's own check, as C++ without vector registers, agrees with the pairs computed when it was exported."""
-    sources = [str(folder / "check.c"), str(folder / "granulation.c")]
-    command = [
-        "g++",
-        "-x",
-        "c++",
-        "-std=c++11",
-        "-O0",
-        *STRICT[:4],
-        "-DGRANULATION_LANES=1",
-        "-o",
-        str(tmp_path / "check"),
-    ]
-    subprocess.run([*command, *sources, "-lm"], check=True)
-    done = subprocess.run([tmp_path / "check"], capture_output=True, text=True, check=False)
-    assert "pairs in space differ" in done.stdout
-    assert done.returncode == 0, done.stdout
 
 
 @pytest.mark.parametrize(

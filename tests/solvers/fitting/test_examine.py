@@ -177,22 +177,6 @@ def test_entries_that_the_data_cannot_tell() -> None:
 
 
 @pytest.mark.slow
-def test_contradicting_data_end_a_fit_soon() -> None:
-    """Slow bounces and fast sticks contradict all values: few evaluations, no intervals, and that is said first."""
-    random, done = np.random.default_rng(3), []
-    speed = np.concatenate([random.uniform(0.001, 0.01, 12), random.uniform(20, 40, 12)])
-    seen = {"speed": speed, "angle": random.uniform(0, 1, 24), "outcome": ["bounce"] * 12 + ["stick"] * 12}
-    names = ["liquid.viscosity", "liquid.coating_thickness"]
-    found = fit("lactose-pvp", seen, names, progress=lambda *count: done.append(count))
-    assert found.rows.contradicted
-    assert str(found).split("\n")[2].startswith("At least half of the impacts contradict the model")
-    assert all(one.low is one.high is None for one in found.estimates.values())
-    assert found.combinations == ()
-    # usual evaluations: a fit of two entries with intervals takes 100 to 400, one that is given up at most 60
-    assert max(count for count, _ in done[:-1]) < 100
-
-
-@pytest.mark.slow
 def test_a_distant_first_guess_is_no_contradiction() -> None:
     """A viscosity 30 times the first guess is found, although all impacts contradict the first guess."""
     true = Scene.load("lactose-pvp").with_entries({"liquid.viscosity": "210 mPa s"})

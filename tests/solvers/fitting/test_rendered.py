@@ -22,6 +22,9 @@ NAMES = ("speed", "angle", "restitution", "tangential_restitution")
 PAGE = Path(__file__).parents[3] / "docs" / "how-to" / "films.md"
 
 
+pytestmark = pytest.mark.slow
+
+
 def shots(count: int, seed: int):
     """Pictures of impacts on `lactose-pvp`, ten frames to a diameter, with what they show."""
     scene, random = Scene.load("lactose-pvp"), np.random.default_rng(seed)
@@ -33,7 +36,6 @@ def shots(count: int, seed: int):
         yield one, rendered(film, DISC / 2, random), {"rate": rate, "scale": diameter / DISC}
 
 
-@pytest.mark.slow
 def test_films_tracked_well_give_their_collisions() -> None:
     """Of 40 films: speed, angle, e_n and e_t within two standard deviations in 95 %, and every stick a stick."""
     errors, refused = [], 0
@@ -52,7 +54,6 @@ def test_films_tracked_well_give_their_collisions() -> None:
     assert np.mean(np.abs(errors) < 2) >= 0.95
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("kind", BAD)
 def test_films_tracked_badly_are_refused_or_said(kind: str) -> None:
     """No outcome is wrong, and where the impact is off by more than four deviations a remark tells of the tracker."""

@@ -7,7 +7,8 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 import pytest
-from wetdoublet.solvers import InputError, Scene, collide, fit, tracks
+from wetdoublet.solvers import InputError, Scene, collide, tracks
+from wetdoublet.solvers.fitting.measurements import read_data
 
 from tests.helpers.command import run
 from tests.helpers.films import filmed
@@ -39,17 +40,17 @@ def test_without_noise_it_is_the_collision(name: str, stokes: float, angle: floa
 @pytest.mark.slow
 @pytest.mark.parametrize(("name", "stokes", "angle"), [("granulation", 0.03, 60), ("lactose-pvp", 12, 40)])
 def test_uncertainties_are_those_of_many_films(name: str, stokes: float, angle: float) -> None:
-    """Over 200 films of one collision the error in standard deviations has mean 0 and variance 1.
+    """Over 80 films of one collision the error in standard deviations has mean 0 and variance 1.
 
-    Of 200 normal deviates the mean has a standard error of 0.071, the standard deviation one of 0.05: four of each.
+    Of 80 normal deviates the mean has a standard error of 0.112, the standard deviation one of 0.079: four of each.
     """
     errors = []
-    for seed in range(200):
+    for seed in range(80):
         film, rate, scene, one = film_of(name, stokes, angle, 0.2, seed)
         found = tracks(film, scene, rate=rate, scale=PIXEL).columns
         errors.append([(found[each][0] - getattr(one, each)) / found[f"{each}_sd"][0] for each in NAMES])
-    assert np.abs(np.mean(errors, axis=0)).max() < 4 * 0.071
-    assert np.abs(np.std(errors, axis=0) - 1).max() < 4 * 0.05
+    assert np.abs(np.mean(errors, axis=0)).max() < 4 * 0.112
+    assert np.abs(np.std(errors, axis=0) - 1).max() < 4 * 0.079
 
 
 def test_the_scale_is_uncertain() -> None:
@@ -83,25 +84,17 @@ def test_turns_that_cannot_be_counted_are_left_out() -> None:
     assert "turns cannot be counted" in found.remarks[0]
 
 
-@pytest.mark.slow
-def test_the_table_is_read_by_fit(tmp_path: Path) -> None:
-    """Films in one file, through the command, to a fit that finds the viscosity of the films."""
-    true = Scene.load("lactose-pvp")
-    random, parts = np.random.default_rng(6), []
-    for label in range(12):
-        one = collide(true, stokes=random.uniform(6, 14), angle=random.uniform(0.3, 0.9), trajectory=True)
-        film = filmed(true, one, 2e5, PIXEL, 0.2, random)
-        parts.append(pd.DataFrame({"impact": label, **film}))
-    pd.concat(parts).to_csv(tmp_path / "films.csv", index=False)
-    words = ("tracks", tmp_path / "films.csv", "lactose-pvp", "--rate", 2e5, "--scale", "2 um")
-    done = run(*words, "-o", tmp_path / "impacts.csv")
-    assert done.exit_code == 0, done.output
-    record = json.loads(run(*words, "--json").stdout)
-    assert len(record["speed"]) == 12
-    first = true.with_entries({"liquid.viscosity": "10 mPa s"})
-    found = fit(first, tmp_path / "impacts.csv", "liquid.viscosity")
-    one = found.estimates["liquid.viscosity"]
-    assert one.low < true.liquid.viscosity < one.high
+def test_the_command_writes_what_fit_reads(tmp_path: Path) -> None:
+    """Films in one file: a row for each, with the numbers of `tracks`."""
+    film, rate, scene, _ = film_of("lactose-pvp", 12, 40, 0.2, 1)
+    pd.concat([pd.DataFrame({"impact": label, **film}) for label in "ab"]).to_csv(tmp_path / "films.csv", index=False)
+    words = ("tracks", tmp_path / "films.csv", "lactose-pvp", "--rate", rate, "--scale", "2 um")
+    assert run(*words, "-o", tmp_path / "impacts.csv").exit_code == 0
+    found = tracks(film, scene, rate=rate, scale=PIXEL).columns
+    assert json.loads(run(*words, "--json").stdout)["speed"] == pytest.approx(2 * list(found["speed"]))
+    data = read_data(tmp_path / "impacts.csv", scene)
+    assert data.relative
+    assert data.speed == pytest.approx(2 * list(found["relative_speed"]), rel=1e-5)
 
 
 def test_a_film_that_ends_before_contact_is_left_out() -> None:

@@ -10,8 +10,20 @@ from matplotlib.axes import Axes
 from matplotlib.contour import QuadContourSet
 from matplotlib.figure import Figure
 from matplotlib.legend import Legend
-from wetdoublet.solvers import Scene, atlas, band, boundary, collide, fit, plot, regime_map, sensitivities
-from wetdoublet.solvers.verify.budget import restitution_budget
+from wetdoublet.solvers import (
+    ComputationError,
+    ModelWarning,
+    Scene,
+    atlas,
+    band,
+    boundary,
+    collide,
+    fit,
+    plot,
+    regime_map,
+    sensitivities,
+)
+from wetdoublet.solvers.boundaries import on_map
 
 NAME = "a-very-long-name-of-a-scene-that-somebody-has-given-to-say-all-about-it-and-its-liquid"
 LONG = Scene.load("granulation").with_entries({"name": NAME})
@@ -82,26 +94,13 @@ def test_a_band_does_not_join_outcomes() -> None:
 
 
 @pytest.mark.slow
-def test_a_budget_does_not_join_outcomes() -> None:
-    """Each panel of terms is broken where the outcome changes."""
-    stokes = np.geomspace(0.01, 0.5, 12)
-    data = restitution_budget("granulation", stokes=stokes, angle=np.radians([60, 75]))
-    panels = [axes for axes in plot(data).axes if "terms" in axes.get_title()]
-    for axes, row in zip(panels, (1, 0), strict=True):
-        outcome = data.outcome.values[row]
-        assert np.unique(outcome).size == 3
-        of_curves = [span for span in joined(axes) if span[0] > 0]  # not the line at zero, which has no outcome
-        assert over([span for span in of_curves if span[1] < 0.5], stokes, outcome) == []
-
-
-@pytest.mark.slow
 def test_a_fit_does_not_join_outcomes() -> None:
     """The curve of the restitution over the speed, and its band, are broken where the outcome changes."""
     speed = [0.2, 0.5, 0.9, 1.5, 2.6]
     many = [collide("granulation", speed=each, angle="60 deg", ledger=False) for each in speed]
     data = {"speed": speed, "angle": [np.pi / 3] * 5, "outcome": [each.outcome for each in many]}
     data |= {"restitution": [each.restitution or np.nan for each in many], "restitution_sd": [0.02] * 5}
-    axes = fit("granulation", data, "liquid.viscosity").plot().axes[1]
+    axes = fit("granulation", data, "liquid.viscosity", starts=0).plot().axes[1]
     (line,) = (line for line in axes.lines if line.get_label().endswith("°"))
     x, y = np.transpose(line.get_xydata())
     assert np.isnan(x).sum() == 2  # stick, escape, bounce
@@ -120,6 +119,18 @@ def test_a_legend_of_a_map_has_what_occurs(scene: Scene | str) -> None:
     names = [text.get_text().partition(": ")[2] for text in legend.get_texts()]
     words = np.array(["stick", "stick-rotate-separate", "bounce"])
     assert [name for name in names if name] == words[np.unique(data.outcome)].tolist()
+
+
+def test_a_map_goes_without_boundaries_that_take_minutes(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The cells are drawn without them, and a warning says why."""
+
+    def long(*_: object) -> None:
+        raise ComputationError("thousands of collisions")
+
+    monkeypatch.setattr(on_map, "curves_of", long)
+    data = regime_map("granulation", stokes=[0.05, 0.1], angle=[0.5, 1.0])
+    with pytest.warns(ModelWarning, match="lacks boundaries: thousands of collisions"):
+        assert on_map.map_curves(data) == {0: []}
 
 
 @pytest.mark.parametrize("vary", [{}, {"liquid.viscosity": [1.0, 2.0]}])

@@ -2,7 +2,6 @@
 
 import ctypes
 import os
-import re
 import signal
 import subprocess
 import sys
@@ -10,9 +9,6 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from wetdoublet.solvers import collide_many
-from wetdoublet.solvers.engines.taylor.build import kernel
-from wetdoublet.solvers.host import emitted
 from wetdoublet.solvers.host import user_cache as cache
 from wetdoublet.solvers.host.compiler import compiler, library
 
@@ -97,59 +93,7 @@ def test_a_damaged_entry_is_made_again(damage: Callable[[Path], None], shelf: Pa
     assert capfd.readouterr().err == f"{path} was damaged: it is made again\n"
 
 
-@pytest.mark.slow
-@compiling
-def test_a_damaged_kernel_is_compiled_again(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
-):
-    """The kernel's library cut short: no crash, the same numbers, one line."""
-
-    def found() -> float:
-        kernel.cache_clear()
-        data = collide_many("granulation-dry-bridge", stokes=0.5, angle=0.0, engine="taylor")
-        assert data.attrs["engine"] == "taylor"
-        return float(data.restitution.values[0])
-
-    try:
-        before, whole = found(), cache.folder()
-        monkeypatch.setenv("WETDOUBLET_CACHE", str(tmp_path))
-        for path in whole.glob("taylor-head_on-*.so"):
-            content = path.read_bytes()
-            (tmp_path / path.name).write_bytes(content[: len(content) // 2])
-        assert found() == before
-    finally:
-        kernel.cache_clear()
-    (said,) = capfd.readouterr().err.splitlines()
-    assert re.fullmatch(rf"{tmp_path}/taylor-head_on-\S+.so was damaged: it is made again", said)
-
-
-def test_a_damaged_derivation_is_derived_again(
-    shelf: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
-):
-    """An emitted module in the cache that was edited is not run but derived again."""
-    monkeypatch.setattr("wetdoublet.derive.emit.one.structure_text", lambda name: f"STATES = ('{name}',)\n")
-    text = "STATES = ('gap',)\n"
-    assert emitted.derived_once("one.py", "structure_text", "gap") == text
-    only(shelf).write_text("raise SystemExit('run')\n")
-    assert emitted.derived_once("one.py", "structure_text", "gap") == text
-    assert "was damaged: it is made again" in capfd.readouterr().err
-
-
 _CACHE = "from wetdoublet.solvers.host import user_cache as cache"
-_INCH = 'from wetdoublet.solvers.scene.units import quantity; print(quantity("1 inch", "m", "x", "a length"))'
-
-
-@pytest.mark.slow
-def test_a_damaged_unit_is_read_again(shelf: Path, tmp_path: Path):
-    """A unit that pint has judged is kept in our cache alone; in pieces it is judged again, and is not unknown."""
-    settings = {"XDG_CACHE_HOME": str(tmp_path / "home")}
-    first = in_process(_INCH, **settings)
-    for path in shelf.iterdir():
-        garbage(path)
-    again = in_process(_INCH, **settings, WETDOUBLET_HUSHED="1")  # a worker
-    assert (first.stdout, first.stderr, again.stdout) == ("0.0254\n", "", "0.0254\n")
-    assert {line.rpartition(" was ")[2] for line in again.stderr.splitlines()} == {"damaged: it is made again"}
-    assert not (tmp_path / "home").exists()  # pint's own cache, a pickle, is not used
 
 
 _RACE = """
@@ -241,50 +185,6 @@ def test_a_full_disk(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
             said = "No space left on device; what is derived or compiled is kept in"
             assert done.stderr == f"{disk / 'cache'}: {said} {place} while this runs\n"
             assert [path.name for path in temporary.iterdir()] == ([Path(place).name] if killed else [])
-
-
-def test_no_folder_at_all(tmp_path: Path):
-    """A cache whose place is a file: everything works, and one line names it."""
-    (tmp_path / "file").write_text("")
-    done = in_process(
-        "from wetdoublet.solvers.host import user_cache as cache; print(cache.kept('a.b', lambda: b'own'))",
-        WETDOUBLET_CACHE=str(tmp_path / "file" / "cache"),
-    )
-    assert done.stdout == "b'own'\n"
-    assert done.stderr.startswith(f"{tmp_path / 'file' / 'cache'}: Not a directory; ")
-
-
-_MAKING = """
-import time
-from wetdoublet.solvers.host import user_cache as cache
-with cache.room() as place:
-    (place / "half.o").write_text("")
-    print("made", flush=True)
-    time.sleep(600)
-"""
-
-
-@posix
-def test_what_a_kill_leaves_is_swept(shelf: Path):
-    """Folders of a process that was killed are removed by the next that makes something, nobody else's."""
-    running = [
-        subprocess.Popen([sys.executable, "-c", _MAKING], stdout=subprocess.PIPE, text=True, start_new_session=True)
-        for _ in range(2)
-    ]
-    try:
-        for process in running:
-            assert process.stdout is not None
-            assert process.stdout.readline() == "made\n"
-        assert len(list(shelf.iterdir())) == 2
-        running[0].kill()
-        running[0].wait()
-        assert in_process(f"{_CACHE}; cache.kept('a.b', bytes)").returncode == 0
-        assert len(list(shelf.glob(".making-*"))) == 1
-        assert len(list(shelf.glob(".making-*/half.o"))) == 1
-    finally:
-        for process in running:
-            process.kill()
-            process.communicate()
 
 
 _SWEEPING = """

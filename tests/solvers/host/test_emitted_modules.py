@@ -22,7 +22,7 @@ def copied(mine: Path, tmp_path: Path) -> Path:
     return Path(shutil.copytree(mine, tmp_path / "mine"))
 
 
-@pytest.mark.parametrize("name", ["laws/bridge_yielding.py", "oblique_bridge_reduced.py", "scaling.py"])
+@pytest.mark.parametrize("name", ["laws/bridge_yielding.py", "scaling.py"])
 def test_tampered_code_is_not_run(mine: Path, tmp_path: Path, name: str):
     """A file that is not what was emitted is refused before any of it runs, with what to run instead."""
     folder = copied(mine, tmp_path)
@@ -61,15 +61,6 @@ def test_generate_check_and_clean_up(mine: Path, tmp_path: Path):
     (tmp_path / "mine.py").write_text('from wetdoublet.derive.user import *\nlaw("bridge", "one", force=1 + 0*h)\n')
     assert run(*arguments).exit_code == 0
     assert {path.name for path in folder.rglob("*.*")} == {"bridge_one.py", "manifest.json", "model.py", "notes.txt"}
-
-
-def test_failing_checks_emit_nothing(tmp_path: Path):
-    """A law that is not homogeneous is named, exit 1, and leaves no folder."""
-    (tmp_path / "bad.py").write_text('from wetdoublet.derive.user import *\nlaw("bridge", "bad", force=mu*a)\n')
-    done = run("generate", str(tmp_path / "bad.py"), "--out", str(tmp_path / "out"))
-    assert done.exit_code == 1
-    assert "fails dimensions" in done.output
-    assert not (tmp_path / "out").exists()
 
 
 _COLLIDE = """

@@ -4,7 +4,6 @@ import os
 import signal
 import subprocess
 import sys
-import time
 
 import numpy as np
 import pytest
@@ -12,7 +11,7 @@ import xarray as xr
 from wetdoublet.solvers import ComputationError, InputError, Scene, regime_map
 from wetdoublet.solvers.many.blocks import blocks
 
-from ...helpers.command import PATIENCE, run
+from ...helpers.command import run
 
 pytest.importorskip("zarr")
 distributed = pytest.importorskip("distributed")
@@ -60,6 +59,7 @@ def test_blocks_cover_a_map_once(shape, engine):
         assert (count == 1).all()
 
 
+@pytest.mark.slow
 def test_a_stored_map_is_the_map(tmp_path, serial):
     """The store that a map is written to has the Dataset that is made in memory; a second one takes its place."""
     same(regime_map("granulation", **GRID, store=tmp_path / "map.zarr"), serial)
@@ -69,27 +69,6 @@ def test_a_stored_map_is_the_map(tmp_path, serial):
     ).exit_code == 0  # fmt: skip
     same(regime_map("granulation", **small, store=tmp_path / "map.zarr"), regime_map("granulation", **small))
     assert [path.name for path in tmp_path.iterdir()] == ["map.zarr"]
-
-
-@pytest.mark.slow
-def test_an_interrupted_store_is_continued(tmp_path, serial):
-    """Finished blocks are kept, the store has no name before it is complete, and the next run computes the rest."""
-    path, seen = tmp_path / "map.zarr", []
-
-    def until_some_are_done(done, total):
-        seen.append(done)
-        if len(seen) == 4:
-            raise KeyboardInterrupt
-
-    with pytest.raises(KeyboardInterrupt):
-        regime_map("granulation", **GRID, store=path, progress=until_some_are_done)
-    assert not path.exists()
-    again = []
-    found = regime_map("granulation", **GRID, store=path, progress=lambda done, _total: again.append(done))
-    assert again[0] == seen[-1] > 0
-    assert len(seen) + len(again) == len(blocks((120, 125), "taylor")) + 2
-    same(found, serial)
-    assert [each.name for each in tmp_path.iterdir()] == ["map.zarr"]
 
 
 def interrupted_after(blocks):
@@ -123,17 +102,6 @@ def test_a_damaged_unfinished_store(tmp_path, serial):
     assert [each[0] for each in counts] == [sum(sizes[1:4]), 0]
 
 
-def test_a_store_that_was_being_replaced(tmp_path, serial):
-    """What a run leaves that ended while it replaced a store does not stop the next one."""
-    store = tmp_path / "map.zarr"
-    regime_map("granulation", stokes=[0.1], angle=[1.0], store=store)
-    with pytest.raises(KeyboardInterrupt):
-        regime_map("granulation", **GRID, store=store, progress=interrupted_after(4))
-    next(tmp_path.glob("*.unfinished")).with_suffix(".former").joinpath("outcome").mkdir(parents=True)
-    same(regime_map("granulation", **GRID, store=store), serial)
-    assert [path.name for path in tmp_path.iterdir()] == ["map.zarr"]
-
-
 KILLED = """
 import os, signal, sys
 import numpy as np
@@ -165,28 +133,6 @@ def test_a_killed_client_loses_nothing_that_was_written(tmp_path, serial):
     found = regime_map("granulation", **GRID, store=tmp_path / "map.zarr", progress=lambda done, _: seen.append(done))
     assert seen == [sum(sizes[: 4 + k]) for k in range(len(sizes) - 3)]
     same(found, serial)
-
-
-@pytest.mark.skipif(os.name != "posix", reason="signals are sent as on POSIX")
-@pytest.mark.slow
-def test_a_killed_command_goes_on(tmp_path):
-    """`map --scheduler` killed in mid-run with its workers, and given again: the map that one run makes."""
-    line = ["map", "granulation", "--stokes", "log:0.005:0.5:300", "--angle", "0:85:300", "--scheduler", "local:2"]
-    command = [sys.executable, "-m", "wetdoublet.solvers", *line, "-o", "map.zarr"]
-    first = subprocess.Popen(command, cwd=tmp_path, stdout=-3, stderr=-3, start_new_session=True)
-    deadline = time.monotonic() + PATIENCE
-    while first.poll() is None and not any(tmp_path.glob("*.unfinished/outcome/c/*/*")):
-        assert time.monotonic() < deadline
-        time.sleep(0.01)
-    if first.poll() is None:
-        os.killpg(first.pid, signal.SIGKILL)
-    first.wait()
-    written = len([*tmp_path.glob("*.unfinished/outcome/c/*/*")])
-    second = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
-    assert (second.returncode, second.stderr) == (0, "")
-    found = xr.open_zarr(tmp_path / "map.zarr")
-    same(found, regime_map("granulation", stokes=found.stokes.values, angle=found.angle.values))
-    assert written > 0
 
 
 # ---- in memory

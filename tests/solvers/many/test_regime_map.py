@@ -61,15 +61,6 @@ def test_the_grid(data):
     assert np.isnan(data.contact_time.values[sticks.values]).all()
 
 
-@pytest.mark.slow
-def test_the_grid_by_the_kernel(data):
-    """The kernel's answers lie in the cells of their coordinates, in whatever order it was asked for them."""
-    fast = regime_map("granulation", stokes=STOKES, angle=ANGLE, vary={"liquid.viscosity": [1.0, 2.0]}, engine="taylor")
-    np.testing.assert_array_equal(fast.outcome, data.outcome)
-    np.testing.assert_allclose(fast.restitution, data.restitution, rtol=1e-7)
-    assert len(np.unique(data.outcome)) > 1
-
-
 def test_coordinates(data):
     """Axes carry units; speed goes with the Stokes number, and Ce = m omega0^2/sigma is there with a bridge only."""
     assert data.angle.attrs["units"] == "rad"
@@ -183,15 +174,6 @@ def test_table(unlucky, tmp_path):
         assert [float(row[name]) for row in rows[1::2]] == pytest.approx(expected, rel=1e-9), name
 
 
-def test_the_table_names_the_limits_that_are_passed(tmp_path):
-    """`validity` has the words of the flags, and is empty within the model's range."""
-    file = tmp_path / "map.csv"
-    options = ("--relative-speed", "0.5:5 m/s:2", "--angle", "20", "-o", file)
-    assert run("map", "lactose-pvp", *options).exit_code == 0
-    with file.open(newline="") as text:
-        assert [row["validity"] for row in csv.DictReader(text)] == ["", "film_reynolds"]
-
-
 def test_reasons_that_differ_in_numbers_only_are_told_once(data):
     """Reasons are grouped by their words, the most frequent first."""
     marked = data.isel({"liquid.viscosity": 0}).copy(deep=True)
@@ -208,18 +190,6 @@ def test_character_map(unlucky):
     assert "     0.3  BBB" in result.stdout.splitlines()
     assert "     0.1  !!!" in result.stdout.splitlines()
     assert result.stdout.splitlines()[-1].split() == ["deg", "10"]
-
-
-def test_large_character_maps_are_subsampled():
-    """What does not fit is left out, evenly and with a note that says so."""
-    sizes = {"angle": 300, "stokes": 100, "liquid.viscosity": 9}
-    axes = {name: np.linspace(0.1, 1.2, size) for name, size in sizes.items()}
-    data = xr.Dataset({"outcome": (tuple(sizes), np.zeros(tuple(sizes.values()), dtype=np.int8))}, axes)
-    data.attrs["scene"] = Scene.load("granulation").to_toml()
-    lines = table(data).splitlines()
-    assert max(map(len, lines)) <= 88
-    assert len(lines) < 160
-    assert lines[-2] == "shown: 32 of 100 rows, 78 of 300 columns, 4 of 9 maps"
 
 
 def test_progress():
@@ -288,3 +258,15 @@ def test_a_relative_speed_is_an_axis():
     one = regime_map("granulation", speed=[0.25, 0.5], angle=["60 deg"])
     assert data.restitution.values[1] == pytest.approx(one.restitution.values[0], rel=1e-9, nan_ok=True)
     assert data.centrifugal.values[1] == pytest.approx(one.centrifugal.values[0], rel=1e-12)
+
+
+def test_large_character_maps_are_subsampled():
+    """What does not fit is left out, evenly and with a note that says so."""
+    sizes = {"angle": 300, "stokes": 100, "liquid.viscosity": 9}
+    axes = {name: np.linspace(0.1, 1.2, size) for name, size in sizes.items()}
+    data = xr.Dataset({"outcome": (tuple(sizes), np.zeros(tuple(sizes.values()), dtype=np.int8))}, axes)
+    data.attrs["scene"] = Scene.load("granulation").to_toml()
+    lines = table(data).splitlines()
+    assert max(map(len, lines)) <= 88
+    assert len(lines) < 160
+    assert lines[-2] == "shown: 32 of 100 rows, 78 of 300 columns, 4 of 9 maps"

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import ast
 import json
+import os
+import pkgutil
 import shutil
 import subprocess
 import sys
@@ -34,16 +36,15 @@ wd.colide("granulation")
 """
 
 
-def modules(program: str) -> set[str]:
-    """The modules that a program has loaded at its end."""
+def loaded(program: str, **settings: str) -> set[str]:
+    """The modules, of packages outside the standard library, that a program has loaded at its end."""
     tail = "import json, sys; print(json.dumps(sorted(sys.modules)))"
-    done = subprocess.run([sys.executable, "-c", f"{program}\n{tail}"], capture_output=True, text=True, check=True)
-    return set(json.loads(done.stdout))
-
-
-def loaded(program: str) -> set[str]:
-    """The packages that a program has loaded at its end."""
-    return {name.split(".")[0] for name in modules(program)}
+    command, env = [sys.executable, "-c", f"{program}\n{tail}"], os.environ | settings
+    done = subprocess.run(command, capture_output=True, text=True, check=True, env=env)
+    found = json.loads(done.stdout.splitlines()[-1])
+    return {name for name in found if name.split(".")[0] not in sys.stdlib_module_names} | (
+        {"logging", "tempfile", "argparse"} & {*found}
+    )
 
 
 def test_dir_is_the_public_names() -> None:
@@ -51,6 +52,8 @@ def test_dir_is_the_public_names() -> None:
     assert dir(wd) == sorted([*solvers.__all__, "__version__"])
     assert all(getattr(wd, name) is getattr(solvers, name) for name in solvers.__all__)
     assert dir(wd) == sorted([*solvers.__all__, "__version__"])  # what was loaded does not add to it
+    modules = {module.name for module in pkgutil.iter_modules(solvers.__path__)}
+    assert not modules & set(solvers.__all__)  # a module of that name would take its place once it is imported
 
 
 def test_docstring_and_version() -> None:
@@ -66,29 +69,45 @@ def test_a_name_that_is_not_there() -> None:
         _ = wd.colide  # type: ignore[attr-defined]  # misspelt
 
 
-def test_import_loads_no_other_package() -> None:
-    """`import wetdoublet` loads nothing outside the standard library; that is what makes it fast."""
-    third_party = loaded("import wetdoublet") - loaded("pass") - set(sys.stdlib_module_names)
-    assert third_party == {"wetdoublet"}
+COMMAND = """
+import runpy, sys
+sys.argv = ["wetdoublet", {}]
+try:
+    runpy.run_module("wetdoublet", run_name="__main__")
+except SystemExit as done:
+    assert not done.code
+"""
+HEAVY = {"sympy", "pint", "xarray", "matplotlib", "scipy", "dask", "distributed", "zarr", "loky", "jax", "torch"}
+LOADING: dict[str, tuple[str, set[str], set[str]]] = {  # program, what it needs, what it must not load
+    "import": ("import wetdoublet", {"wetdoublet"}, HEAVY | {"numpy", "casadi", "click"}),
+    "public names": ("import wetdoublet as w\nfor name in w.__all__: getattr(w, name)", {"numpy"}, HEAVY - {"scipy"}),
+    "collide": (COMMAND.format('"collide", "pendulum", "--json"'), {"casadi", "numpy"}, HEAVY),
+    "map": (
+        COMMAND.format('"map", "granulation", "--stokes", "0.02:0.1:2", "--angle", "60"'),
+        {"xarray"}, {"distributed", "zarr", "jax", "torch"},
+    ),
+    "scenes": (COMMAND.format('"scenes"'), {"click"}, HEAVY | {"casadi"}),
+}  # fmt: skip
 
 
-def test_public_names_load_nothing_heavy() -> None:
-    """All public names together load neither sympy, xarray, matplotlib, pint, Dask nor Zarr."""
-    packages = loaded("import wetdoublet\nfor name in wetdoublet.__all__: getattr(wetdoublet, name)")
-    assert not packages & {"sympy", "xarray", "matplotlib", "pint", "dask", "distributed", "zarr"}
+@pytest.mark.parametrize("name", LOADING)
+def test_loads_nothing_heavy(name: str) -> None:
+    """What makes a start fast; `python -m wetdoublet` is the command. Of Dask xarray itself loads what it can find."""
+    program, needed, without = LOADING[name]
+    packages = {module.split(".")[0] for module in loaded(program)} - {"__main__"}
+    assert needed <= packages
+    assert not packages & without
+    assert name != "import" or packages == {"wetdoublet"}
 
 
 @pytest.mark.skipif(not kernel_supports(wd.Scene.load("granulation")), reason="no C compiler")
-def test_a_first_collision_loads_what_it_computes_with(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_first_collision_loads_what_it_computes_with(tmp_path: Path) -> None:
     """No package but numpy and casadi, no engine that does not answer; with a kernel, no temporary files."""
-    monkeypatch.setenv("WETDOUBLET_CACHE", str(tmp_path))
     program = "import wetdoublet as wd\nwd.collide('granulation', stokes=0.3, angle=0.5)"
-    heavy = {"sympy", "xarray", "matplotlib", "pint", "scipy", "h5py", "click", "tqdm", "loky", "argparse"}
+    first, then = (loaded(program, WETDOUBLET_CACHE=str(tmp_path)) for _ in range(2))
     engine = {"wetdoublet.solvers.engines.casadi.locate", "wetdoublet.solvers.certificates"}
-    assert not modules(program) & (heavy | engine)
-    third_party = loaded(program) - loaded("import casadi") - set(sys.stdlib_module_names)
-    assert third_party == {"wetdoublet"}
-    assert not loaded(program) & {"logging", "tempfile"}
+    assert not first & (HEAVY | engine | {"h5py", "click", "tqdm", "argparse"})
+    assert {name.split(".")[0] for name in then - loaded("import casadi")} == {"wetdoublet"}
 
 
 def test_type_checkers_see_every_public_name() -> None:
@@ -99,14 +118,6 @@ def test_type_checkers_see_every_public_name() -> None:
         (block,) = [node for node in tree.body if isinstance(node, ast.If) and isinstance(node.test, ast.Name)]
         names = [alias.name for node in block.body if isinstance(node, ast.ImportFrom) for alias in node.names]
         assert sorted(names) == sorted(expected)
-
-
-def test_the_package_is_a_command() -> None:
-    """`python -m wetdoublet` is the command `wetdoublet`."""
-    done = subprocess.run(
-        [sys.executable, "-m", "wetdoublet", "scenes"], check=True, capture_output=True, text=True, timeout=600
-    )
-    assert "granulation" in done.stdout
 
 
 def test_every_folder_is_packaged() -> None:

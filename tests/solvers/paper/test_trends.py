@@ -42,7 +42,7 @@ def test_turning_doublets_forget_their_film(name: str, of_thickness: float, angl
 def test_softer_spheres_rebound_at_lower_stokes_numbers() -> None:
     """Davis et al., JFM 2002: St* falls as elasticity grows, weakly; e_n rises with St over St*."""
     critical_numbers = []
-    for modulus in (1e8, 1e9, 1e10, 1e11):
+    for modulus in (1e8, 1e9, 1e10):
         elastic = {"particles.youngs_modulus": modulus, "particles.poisson_ratio": 0.3}
         soft = PLANE.with_entries({**elastic, "particles.roughness": "0.01 um"})
         [one] = critical(soft, angle=0.0).rows

@@ -94,7 +94,7 @@ def test_a_restitution_beside_the_outcome_tells_no_less() -> None:
     scene = Scene.load("granulation")
     names = ("liquid.viscosity", "bridge.volume")
     values = np.array([scene.entries[name] for name in names])
-    plan = planned(scene, [0.10, 0.11, 0.115, 0.12], [20.0, 24.0, 24.0, 30.0], 0.03, 1.5)
+    plan = planned(scene, [0.11, 0.115], [24.0, 24.0], 0.03, 1.5)
     found = information(scene, names, values, plan)
     assert ((found.probability > 1e-3).sum(axis=1) == 3).any()
     added = (found.total - found.outcome) * np.outer(values, values)

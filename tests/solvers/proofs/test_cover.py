@@ -39,17 +39,10 @@ def test_the_line_is_covered_by_stretches_that_are_proved_again() -> None:
     assert holds(found)
 
 
-MUTANTS = {
-    "an end off": ('"stokes": (low, high)}', '"stokes": (low, math.sqrt(low * high))}'),
-    "a stretch that is not proved": (".outcome:\n                proved", ".outcome >= 0:\n                proved"),
-    "a stretch dropped": ("    gaps = [", "    del proved[3]\n    gaps = ["),
-}
-
-
 @pytest.mark.slow
-@pytest.mark.parametrize("change", MUTANTS.values(), ids=MUTANTS)
-def test_a_broken_cover_is_noticed(change: tuple[str, str]) -> None:
-    """A stretch whose end is not enclosed, one whose proof failed, and one that is missing."""
+def test_a_broken_cover_is_noticed() -> None:
+    """A stretch whose proof failed."""
+    change = (".outcome:\n                proved", ".outcome >= 0:\n                proved")
     text = inspect.getsource(proved_boundary)
     assert text.count(change[0]) == 1
     space: dict[str, object] = {"__name__": proved_boundary.__name__, "__package__": proved_boundary.__package__}

@@ -23,27 +23,35 @@ pytestmark = pytest.mark.skipif(compiler() is None, reason="no C compiler")
 OUTCOMES = ("stick", "stick-rotate-separate", "bounce")
 
 
-def test_cells_cover_the_rectangle_and_hold_for_their_points() -> None:
-    """The cells add up to the rectangle, and a collision anywhere in a proved cell has its outcome."""
-    found = prove_map("granulation", stokes=[0.1, 0.11, 0.12], angle=np.radians([20, 20.5]), depth=8)
+def test_cells_cover_the_rectangle_and_hold_for_their_points(tmp_path: Path) -> None:
+    """The cells add up to the rectangle, and a collision anywhere in a proved cell has its outcome.
+
+    As a Dataset they have the word of their code and their ends; what is undecided is an attribute.
+    """
+    found = prove_map("granulation", stokes=[0.1, 0.11, 0.12], angle=np.radians([20, 20.5]), depth=7)
     whole = math.log(1.2) * math.radians(0.5)
     assert math.isclose(sum(cell.area for cell in found.cells), whole, rel_tol=1e-9)
     assert math.isclose(sum(found.shares.values()), 1.0, rel_tol=1e-12)
-    assert found.shares["undecided"] < 0.1
+    assert 0 < found.shares["undecided"] < 0.2
     random = np.random.default_rng(1)
-    for cell in (found.cells[k] for k in random.integers(0, len(found.cells), 40)):
+    for cell in (found.cells[k] for k in random.integers(0, len(found.cells), 20)):
         if cell.outcome >= 0:
-            one = collide(
-                "granulation", stokes=random.uniform(*cell.stokes), angle=random.uniform(*cell.angle), ledger=False
-            )
-            assert one.outcome == OUTCOMES[cell.outcome]
+            stokes, angle = random.uniform(*cell.stokes), random.uniform(*cell.angle)
+            assert collide("granulation", stokes=stokes, angle=angle, ledger=False).outcome == OUTCOMES[cell.outcome]
+    found.to_dataset().to_netcdf(tmp_path / "cells.nc")
+    data = xr.load_dataset(tmp_path / "cells.nc")
+    area = (np.diff(np.log(data.stokes), axis=1) * np.diff(data.angle, axis=1)).ravel()
+    assert area.sum() == pytest.approx(whole)
+    assert data.undecided_area == pytest.approx(area[data.outcome.values == -1].sum() / area.sum())
+    assert found.to_dict()["undecided_area"] == data.undecided_area == pytest.approx(found.shares["undecided"])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("angle", "stokes", "outcomes", "width"),
     [
-        ("10 deg", (0.08, 0.2), ("stick", "bounce"), 1e-12),
-        pytest.param("45 deg", (0.03, 0.05), ("stick", "stick-rotate-separate"), 1e-8, marks=pytest.mark.slow),
+        ("10 deg", (0.11, 0.13), ("stick", "bounce"), 1e-12),
+        ("45 deg", (0.03, 0.05), ("stick", "stick-rotate-separate"), 1e-8),
     ],
     ids=["bounce", "saddle"],
 )
@@ -61,12 +69,8 @@ def test_a_change_lies_between_proved_outcomes(
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "angle", "stokes", "changes"),
-    [
-        ("granulation", "60 deg", (0.05, 0.5), 1),
-        ("granulation", "70 deg", (0.2, 0.6), 0),
-        ("lactose-pvp", 1.3, (2, 5), 1),
-    ],
-    ids=["one", "none", "stretches without proof"],
+    [("granulation", "60 deg", (0.05, 0.5), 1), ("lactose-pvp", 1.3, (2, 5), 1)],
+    ids=["one", "stretches without proof"],
 )
 def test_between_changes_collisions_have_one_outcome(
     name: str, angle: str | float, stokes: tuple[float, float], changes: int
@@ -91,7 +95,7 @@ def test_between_changes_collisions_have_one_outcome(
 def test_wide_boxes_hold_for_their_points() -> None:
     """Boxes of 1e-3 to 0.15 in Stokes number and angle: impacts within them have the outcome, and e_n is enclosed."""
     random, proved = np.random.default_rng(4), 0
-    for k in range(120):
+    for k in range(40):
         scene = Scene.load(("granulation", "lactose-pvp", "glass-beads-water")[k % 3])
         stokes, angle, width = np.exp(random.uniform(-4, 2)), random.uniform(0.05, 1.2), 10 ** random.uniform(-3, -0.8)
         proof = prove(scene, stokes=float(stokes), angle=float(angle), within=float(width))
@@ -104,7 +108,7 @@ def test_wide_boxes_hold_for_their_points() -> None:
         low, high = proof.restitution
         assert np.all(found.restitution.fillna(0.0) >= low - 1e-8)
         assert np.all(found.restitution.fillna(0.0) <= high + 1e-8)
-    assert proved > 60
+    assert proved > 20
 
 
 def test_a_part_of_a_box_may_rebound_at_initial_contact() -> None:
@@ -128,28 +132,11 @@ def test_cells_from_head_on_impacts_on_hold_both() -> None:
         assert found.shares[outcome] == 1.0
         computed = collide_many(scene, stokes=edges, angle=np.radians([[0.0], [1e-6], [2]]))
         assert {OUTCOMES[code] for code in computed.outcome.values.ravel().tolist()} == {outcome}
+    dry = prove_map("granulation-dry-bridge", stokes=[0.05, 0.051], angle=np.radians([0, 2]), depth=2)
+    assert dry.shares["stick"] == 0.0  # head-on the film alone decides, and at any angle the pair separates
     box = prove(scene, stokes=0.3, angle=0.1, within={"impact.angle": ("0 deg", "2 deg")})
     ends = [collide(scene, stokes=0.3, angle=angle, ledger=False).restitution for angle in (0.0, math.radians(2))]
     assert box.restitution[0] <= min(ends) < max(ends) <= box.restitution[1]
-
-
-@pytest.mark.slow
-def test_without_a_bridge_no_cell_from_head_on_on_is_a_stick() -> None:
-    """Head-on the film alone decides, and at any angle the pair separates: such a cell is undecided."""
-    found = prove_map("granulation-dry-bridge", stokes=[0.05, 0.051], angle=np.radians([0, 2]), depth=2)
-    assert found.shares["stick"] == 0.0
-
-
-def test_a_map_is_a_dataset(tmp_path: Path) -> None:
-    """Cells with the word of their code and their ends cover the rectangle; what is undecided is an attribute."""
-    found = prove_map("granulation", stokes=[0.1, 0.11, 0.12], angle=np.radians([20, 20.5]), depth=7)
-    found.to_dataset().to_netcdf(tmp_path / "cells.nc")
-    data = xr.load_dataset(tmp_path / "cells.nc")
-    area = (np.diff(np.log(data.stokes), axis=1) * np.diff(data.angle, axis=1)).ravel()
-    assert area.sum() == pytest.approx(np.log(1.2) * np.radians(0.5))
-    assert data.undecided_area == pytest.approx(area[data.outcome.values == -1].sum() / area.sum())
-    assert 0 < data.undecided_area < 1
-    assert found.to_dict()["undecided_area"] == data.undecided_area
 
 
 @pytest.mark.parametrize("edges", [{"stokes": [0.2, 0.1]}, {"stokes": [0.1]}, {"angle": [-0.1, 0.1]}, {"depth": -1}])
@@ -222,7 +209,7 @@ def boxes(count: int, farthest: float) -> list[dict[str, tuple[float, float]]]:
 def wrong(tried: Engine, farthest: float, inputs: Inputs) -> tuple[int, int]:
     """Numbers of boxes that are proved, and of those in which a collision, also at a corner, has another outcome."""
     proved, contradicted, random = 0, 0, np.random.default_rng(7)
-    for box in boxes(80, farthest):
+    for box in boxes(40, farthest):
         found = enclose(tried, {**inputs.ranges, **box}, inputs.moving, BOX)
         stokes = [*box["stokes"], *random.uniform(*box["stokes"], 3)]
         angles = [*box["angle"], *random.uniform(*box["angle"], 3)]
@@ -240,32 +227,20 @@ def test_boxes_of_pairs_that_fall_back_are_proved() -> None:
     """Within 3 % of the change of outcome most boxes of up to 1 % are proved, and collisions in them agree."""
     inputs = Inputs.of(NEAR, {"impact.stokes": 1e-6, "impact.angle": 1e-6})
     proved, contradicted = wrong(inputs.engine(), 0.03, inputs)
-    assert proved > 50
+    assert proved > 25
     assert contradicted == 0
 
 
-MUTANTS = {
-    "a part of the set is below the barrier": (
-        "return iv_negative(margin(p, b, s, iv_point(b->gap)));",
-        "return iv_lo(margin(p, b, s, iv_point(b->gap))) < 0.0;",
-    ),
-    "the margin of the centre": ("above[n] = d_add(", "above[n] = d_add(n ? d_value(above[0].v) : "),
-    "twice the work of the bridge": (
-        "return iv_sub(energy, work(b, x[GAP], gap));",
-        "return iv_sub(energy, iv_mul(iv_point(2.0), work(b, x[GAP], gap)));",
-    ),
-}
-
-
 @pytest.mark.slow
-@pytest.mark.parametrize("change", MUTANTS.values(), ids=MUTANTS)
-def test_mutants_of_the_barrier_are_contradicted(change: tuple[str, str]) -> None:
-    """Collisions near the change of outcome contradict a barrier that is wrong."""
+def test_a_barrier_that_is_wrong_is_contradicted() -> None:
+    """Collisions near the change of outcome contradict one that holds twice the work of the bridge."""
     inputs = Inputs.of(NEAR, {"impact.stokes": 1e-6, "impact.angle": 1e-6})
     key = select_model(NEAR, True, fold=True)
     text, known = source(key, False, 2), engine(key, False, 2)
-    assert text.count(change[0]) == 1
-    mutant = loaded(library(text.replace(*change), (*here()[0].flags, *FLAGS)), ctypes.CDLL)
+    right = "return iv_sub(energy, work(b, x[GAP], gap));"
+    assert text.count(right) == 1
+    doubled = text.replace(right, "return iv_sub(energy, iv_mul(iv_point(2.0), work(b, x[GAP], gap)));")
+    mutant = loaded(library(doubled, (*here()[0].flags, *FLAGS)), ctypes.CDLL)
     assert mutant.interval_start()
     mutant.interval_prove.argtypes, mutant.interval_prove.restype = [ctypes.c_void_p] * 5, None
     assert wrong(Engine(mutant, known.quantities, known.room), 0.005, inputs)[1] > 0

@@ -19,7 +19,7 @@ from wetdoublet.derive.user import *
 part = let("{name}", x / R / sqrt(V))
 law("bridge", "fit", force=pi*R*sigma*2*cos(phi)/(1 + 1.05*part + 2.5*part**2)*(1 + x/R)**2)
 '''
-WORDS = sorted(word for word in taken() if word.islower() and word not in VOCABULARY and "_" not in word)[::2]
+WORDS = sorted(word for word in taken() if word.islower() and word not in VOCABULARY and "_" not in word)[::8]
 SHORT = ["c", "of", "s", "v", "vec", "y"]  # arguments of the functions in C
 ALL = '''"""Parts and quantities that bear every word that means something."""
 from wetdoublet.derive.user import *

@@ -17,11 +17,8 @@ from wetdoublet.solvers import (
     sensitivities,
 )
 from wetdoublet.solvers.boundaries.on_map import map_curves
-from wetdoublet.solvers.engines.taylor import source as text
-from wetdoublet.solvers.engines.taylor.call import variant
 from wetdoublet.solvers.export.law.texts import texts as law_texts
 from wetdoublet.solvers.host.compiler import compiler
-from wetdoublet.solvers.model.model import select_model
 
 from ...helpers.command import run
 from ...helpers.reference import collide
@@ -122,24 +119,24 @@ def test_the_kernel_does_as_casadi(snaps: Path):
 
 def test_an_event_that_never_happens_changes_nothing(snaps: Path):
     """With limits that nothing reaches, results and sticks are those of the same law without events."""
-    for stokes in (0.02, 0.08, 0.3):
-        own = collide(scene(snaps), stokes=stokes, angle=ANGLE, rtol=1e-10, engine="rosenbrock")
-        library = Scene.load("granulation").with_entries(PLAIN)
-        other = collide(library, stokes=stokes, angle=ANGLE, rtol=1e-10, engine="rosenbrock")
+    library = Scene.load("granulation").with_entries(PLAIN)
+    for stokes in (0.02, 0.3):
+        own, other = (
+            collide(each, stokes=stokes, angle=ANGLE, rtol=1e-10, engine="rosenbrock")
+            for each in (scene(snaps), library)
+        )
         assert (own.outcome, own.certified) == (other.outcome, other.certified)
         assert own.restitution == pytest.approx(other.restitution, rel=1e-8)
         assert [event.kind for event in own.events] == [event.kind for event in other.events]
 
 
 def test_a_proved_stick_sticks_beside_events(snaps: Path):
-    """Sticks that are proved although an event might have come: it does not, however long they are followed on."""
-    for stokes, angle in ((0.02, ANGLE), (0.117, 0.0), (0.117, 0.1)):
-        own = scene(snaps, critical_rate="6e4 1/s").with_entries(SOFT)
-        stick = collide(own, stokes=stokes, angle=angle, engine="rosenbrock", ledger=False)
-        assert (stick.outcome, stick.certified) == ("stick", True)
-        assert stick.until is not None
-        followed = collide(own, stokes=stokes, angle=angle, until=20 * stick.until, ledger=False)
-        assert followed.outcome == "stick"
+    """A stick that is proved although an event might have come: it does not, however long it is followed on."""
+    own = scene(snaps, critical_rate="6e4 1/s").with_entries(SOFT)
+    stick = collide(own, stokes=0.117, angle=0.1, engine="rosenbrock", ledger=False)
+    assert (stick.outcome, stick.certified) == ("stick", True)
+    followed = collide(own, stokes=0.117, angle=0.1, until=20 * stick.until, ledger=False)
+    assert followed.outcome == "stick"
 
 
 def test_derivatives_pass_the_jump(snaps: Path):
@@ -170,17 +167,14 @@ def test_a_boundary_is_named_after_its_event(snaps: Path):
     assert free.restitution * free.speed == pytest.approx(rate * own.liquid.film_thickness, rel=1e-7)
 
 
-def test_an_atlas_is_refused(snaps: Path):
-    """Kinds of curves are told by functions that know of no declared event, so there is no atlas."""
-    with pytest.raises(InputError, match="spans no atlas of a model that declares events; accepted: boundaries along"):
-        atlas(scene(snaps), over="impact.angle", span=(0.0, 0.3), stokes=(0.1, 0.2))
-
-
-def test_a_map_is_drawn_without_boundaries(snaps: Path):
-    """There is no atlas of such a model to draw over the cells of its map."""
+def test_what_needs_the_kinds_of_curves_is_refused(snaps: Path):
+    """They are told by functions that know of no declared event: no atlas, no lines over a map, no exported law."""
     own = scene(snaps, critical_rate="1e4 1/s")
-    found = regime_map(own, stokes=[0.05, 0.1], angle=[0.5, 1.0])
-    assert map_curves(found, own.package) == {}
+    with pytest.raises(InputError, match="spans no atlas of a model that declares events; accepted: boundaries along"):
+        atlas(own, over="impact.angle", span=(0.0, 0.3), stokes=(0.1, 0.2))
+    assert map_curves(regime_map(own, stokes=[0.05, 0.1], angle=[0.5, 1.0]), own.package) == {}
+    with pytest.raises(InputError, match="few events"):
+        law_texts(own)
 
 
 def test_energy_is_not_created_unsaid(snaps: Path):
@@ -202,19 +196,6 @@ def test_no_rotation_beside_a_wall(tmp_path: Path):
         collide(Scene.load("granulation", model=path).with_entries({"partner.wall": True}))
 
 
-def test_kernels_without_events_are_untouched(snaps: Path):
-    """What only declared events need is no part of another kernel's source, and so not of its name in the cache."""
-    plain, own = Scene.load("granulation"), scene(snaps)
-    texts = []
-    for one in (plain, own):
-        choice = select_model(one, True)
-        wanted = variant(one, choice, 1e-9, False)
-        texts.append(text.source(wanted, ("#define MODEL\n",)))
-    assert "own_event" not in texts[0].lower()
-    assert "OWN_EVENTS" not in texts[0]
-    assert "own_event_jumps" in texts[1]
-
-
 def test_commands_tell_of_declared_events(snaps: Path, tmp_path: Path):
     """`collide` and `export` speak of the event: its word, its sentence, its guard."""
     own = ("--model", str(snaps), "--set", "custom.critical_rate=1e4 1/s", "--stokes", "0.08")
@@ -226,12 +207,6 @@ def test_commands_tell_of_declared_events(snaps: Path, tmp_path: Path):
     page = (tmp_path / "granulation.md").read_text()
     assert "| snap | moving, opening, beyond the film | ends: separated | the bridge is stretched too fast |" in page
     assert "before the event snap" in page
-
-
-def test_a_law_of_too_many_events_is_not_exported(snaps):
-    """The events are more than the kernel has room for, and the error says that the model has none."""
-    with pytest.raises(InputError, match="few events"):
-        law_texts(scene(snaps))
 
 
 TURNS = '''"""The collision ends when the doublet has turned far enough, or after a time."""
@@ -273,26 +248,18 @@ HALF, END = (
 
 @pytest.mark.parametrize("ends_first", [False, True])
 def test_of_two_events_at_once_the_order_of_the_file_counts(tmp_path: Path, ends_first: bool):
-    """Half the speed, then the end; or the end alone: by every engine, with derivatives."""
-    guards = ("place - x", "3*(place - x)*m/x")
-    rows = (
-        [END.format(guards[0]), HALF.format(guards[1])]
-        if ends_first
-        else [HALF.format(guards[1]), END.format(guards[0])]
-    )
-    path = tmp_path / "two.py"
+    """Half the speed, then the end; or the end alone: by every engine."""
+    rows = [HALF.format("3*(place - x)*m/x"), END.format("place - x")]
+    if ends_first:
+        rows = [END.format("place - x"), HALF.format("3*(place - x)*m/x")]
+    path, alone = tmp_path / "two.py", tmp_path / "alone.py"
     path.write_text(TWO.format("\n".join(rows)))
-    own = Scene.load("granulation", model=path).with_impact(stokes=0.08, angle=ANGLE)
-    own = own.with_impact(speed=own.speed, angle=ANGLE)
-    alone = tmp_path / "alone.py"
-    alone.write_text(TWO.format(END.format(guards[0])))
-    single = collide(Scene.load("granulation", model=alone).with_impact(speed=own.speed, angle=ANGLE))
+    alone.write_text(TWO.format(END.format("place - x")))
+    own, single = (Scene.load("granulation", model=model) for model in (path, alone))
+    speed = own.speed_of(0.08)
+    expected = collide(single, speed=speed, angle=ANGLE)
     for engine in ("taylor", "rosenbrock", "cvodes"):
-        found = collide(own, engine=engine)
+        found = collide(own, speed=speed, angle=ANGLE, engine=engine)
         assert [event.kind for event in found.events][1:] == (["end"] if ends_first else ["half", "end"])
-        assert found.restitution == pytest.approx(single.restitution / (1 if ends_first else 2), rel=1e-7)
-        assert found.contact_time == pytest.approx(single.contact_time, rel=1e-7)
-    gradient = sensitivities(own, of=["restitution"], wrt=["custom.place"]).gradient["restitution"]["custom.place"]
-    step = 5e-11
-    sides = [collide(own.with_entries({"custom.place": 5e-6 + s}), rtol=1e-12).restitution for s in (-step, step)]
-    assert gradient == pytest.approx((sides[1] - sides[0]) / (2 * step), rel=1e-6)
+        assert found.restitution == pytest.approx(expected.restitution / (1 if ends_first else 2), rel=1e-7)
+        assert found.contact_time == pytest.approx(expected.contact_time, rel=1e-7)

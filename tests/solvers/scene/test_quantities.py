@@ -1,10 +1,7 @@
 """A scene entry's way into the model: one table, for scenes, batches and sensitivities."""
 
-import numpy as np
 import pytest
 from wetdoublet.derive.vocabulary.quantities import VOCABULARY
-from wetdoublet.solvers import Scene
-from wetdoublet.solvers.scene.groups import si_values
 from wetdoublet.solvers.scene.quantities import Ways, quantities
 from wetdoublet.solvers.scene.schema import FIELDS
 
@@ -48,25 +45,3 @@ def test_every_number_reaches_the_model(name: str) -> None:
     if FIELDS[name].quantity not in ("", "reduced_radius", "reduced_mass"):  # those are the pair's
         factor = before[FIELDS[name].quantity] / entries[name]
         assert after[FIELDS[name].quantity] == pytest.approx(1.01 * factor * entries[name], rel=1e-12)
-
-
-def test_arrays_take_the_same_way_as_scenes() -> None:
-    """Quantities of columns are those of each scene, bit for bit: densities and partners too."""
-    scene = Scene.load("granulation").with_entries({"partner.radius": 1.5e-4, "partner.density": 2200.0})
-    columns = {"particles.radius": np.array([8e-5, 1.1e-4]), "partner.density": np.array([1500.0, 2700.0])}
-    entries = {name: value for name, value in scene.si if name not in ("particles.reduced_radius", "impact.stokes")}
-    found = quantities(entries | columns, scene.ways)
-    for k in range(2):
-        given = {name: float(column[k]) for name, column in columns.items()}
-        one = Scene.from_dict(
-            {
-                table: {
-                    key: given.get(f"{table}.{key}", value)
-                    for name, value in (entries | given).items() if name.split(".")[0] == table
-                    for key in [name.split(".")[1]]
-                }
-                for table in {name.split(".")[0] for name in entries}
-            }
-        )  # fmt: skip
-        expected = si_values(one, None, None)
-        assert {name: np.broadcast_to(found[name], 2)[k] for name in expected} == expected

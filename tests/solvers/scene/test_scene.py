@@ -3,8 +3,6 @@
 import copy
 import math
 import pickle
-import subprocess
-import sys
 from dataclasses import fields
 
 import pytest
@@ -15,8 +13,8 @@ from wetdoublet.solvers.errors import InputError
 from wetdoublet.solvers.scene import scenefile
 from wetdoublet.solvers.scene.scene import Scene
 from wetdoublet.solvers.scene.scenefile import PRESETS
-from wetdoublet.solvers.scene.schema import BRIDGE_LAWS
 
+from ...harness.scenes import scenes
 from ...helpers.data import COLLISIONS as REFERENCE
 from ...helpers.entries import BASE, BRIDGE, refused, tables
 
@@ -61,15 +59,6 @@ def test_another_impact_is_the_scene_with_those_entries(scene):
     assert pickle.loads(before) == scene
 
 
-def test_a_changed_scene_forgets_what_was_computed():
-    """Another viscosity gives another speed at one Stokes number, though both were computed before."""
-    scene = Scene.load("granulation").with_impact(stokes=0.1)
-    assert scene.speed is not None
-    thick = scene.with_entries({"liquid.viscosity": "4 Pa s"}).with_impact(stokes=0.1)
-    assert thick.speed == pytest.approx(2 * scene.speed, rel=1e-14)
-    assert thick.material["viscosity"] == 2 * scene.material["viscosity"] == 4.0
-
-
 @pytest.mark.parametrize("name", PRESETS)
 def test_presets_run_and_say_where_they_are_from(name):
     """Every preset collides, every entry has a comment, and what is no one's number is marked as assumed."""
@@ -111,28 +100,6 @@ def test_reference_speeds_and_lengths(case):
     assert scene.rupture_gap == pytest.approx(case["rupture_gap"], rel=1e-14)
     assert scene.elastic_length(scene.speed) == pytest.approx(case["elastic_length"], rel=1e-14)
     assert scene.with_impact(speed=scene.speed).stokes == pytest.approx(case["impact"]["stokes"], rel=1e-14)
-
-
-def test_a_preset_does_not_wait_for_pint():
-    """Reading a preset imports what its emitted formulas need (casadi), not pint, sympy, click or xarray."""
-    code = (
-        "import sys; from wetdoublet.solvers import Scene; Scene.load('granulation').with_impact(angle='75 deg');"
-        "print(sorted({'pint', 'sympy', 'click', 'xarray', 'matplotlib'} & set(sys.modules)))"
-    )
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    assert done.stdout.strip() == "[]"
-
-
-def test_spheres_from_radius_mass_or_density():
-    """A = R/2, m = M/2, M = 4/3 pi R^3 rho; the entries keep what was given."""
-    rest = {name: value for name, value in BASE.items() if "reduced" not in name}
-    sphere = Scene.from_dict(tables({"particles.radius": "100 um", "particles.density": "2500 kg/m^3", **rest}))
-    assert sphere.particles.reduced_radius == 50e-6
-    assert sphere.particles.reduced_mass == pytest.approx(2 / 3 * math.pi * 1e-12 * 2500)
-    assert list(sphere.entries)[:2] == ["particles.radius", "particles.density"]
-    assert sphere.entries["particles.radius"] == 100e-6
-    heavy = Scene.from_dict(tables({"particles.radius": "100 um", "particles.mass": "1.04e-5 g", **rest}))
-    assert heavy.particles.reduced_mass == pytest.approx(5.2e-9)
 
 
 def test_defaults():
@@ -189,47 +156,11 @@ def test_scenes_are_values():
         type(scene.liquid)(viscosity=-1.0, film_thickness=1e-6, glass_transition_pressure=1e6)
 
 
-positive = st.floats(1e-3, 1e3)
-lengths = positive.map(lambda v: f"{v!r} um") | positive.map(lambda v: f"{v!r} mm") | positive.map(lambda v: v * 1e-6)
-
-
-@st.composite
-def scenes(draw):
-    """Draw a valid scene, tables and spellings at will."""
-    film = draw(positive)
-    entries = {
-        "particles.reduced_radius": f"{film * draw(st.floats(1, 100))!r} um",
-        "particles.reduced_mass": draw(st.sampled_from(["3 mg", "1e-3 lb", 2.5e-6])),
-        "particles.roughness": f"{film * draw(st.floats(0, 0.9))!r} um",
-        "particles.dry_restitution": draw(st.floats(0, 1)),
-        "liquid.viscosity": draw(positive),
-        "liquid.film_thickness": f"{film!r} um",
-        "liquid.glass_transition_pressure": draw(positive.map(lambda v: f"{v!r} MPa")),
-    }
-    if draw(st.booleans()):
-        volume = {"bridge.volume": draw(st.floats(0.2, 5)), "bridge.law": draw(st.sampled_from(BRIDGE_LAWS))}
-        entries |= {"bridge.surface_tension": "20 mN/m", "bridge.contact_angle": draw(st.floats(0, 1.5)), **volume}
-    if draw(st.booleans()):
-        entries |= {"pendulum.length": "3 km", "pendulum.law": "small-angle"}
-    if draw(st.booleans()):
-        entries |= {"impact.stokes": draw(positive), "impact.angle": draw(st.floats(0, 1.57))}
-    name = draw(st.text(st.characters(exclude_categories=["Cs"], exclude_characters="\0"), max_size=20))
-    return Scene(name, tuple(entries.items()))
-
-
-@given(scenes())
-def test_any_scene_round_trips(scene):
-    """Whatever is valid is the same scene, to the last bit, after a journey through TOML."""
-    assert Scene.from_toml(scene.to_toml()) == scene
-
-
-def test_equal_scenes_keep_the_text_they_were_given():
-    """Two scenes of the same SI numbers are equal, and each is still written in its own units."""
-    scene = Scene.load("granulation")
-    first, second = (scene.with_entries({"liquid.viscosity": text}) for text in ("2 Pa s", "2000 mPa s"))
-    assert first == second
-    assert 'viscosity = "2 Pa s"' in first.to_toml()
-    assert 'viscosity = "2000 mPa s"' in second.to_toml()
+@given(scenes(moderate=False), st.text(st.characters(exclude_categories=["Cs"], exclude_characters="\0"), max_size=20))
+def test_any_scene_round_trips(scene, name):
+    """Whatever is valid is the same scene, to the last bit, after a journey through TOML, whatever its name."""
+    named = scene.with_entries({"name": name})
+    assert Scene.from_toml(named.to_toml()) == named
 
 
 def test_an_impact_replaced_keeps_text_and_order():
@@ -237,11 +168,12 @@ def test_an_impact_replaced_keeps_text_and_order():
     scene = Scene.load("granulation").with_impact(angle="20deg").with_impact(speed="1 m/s")
     assert scene.to_toml().endswith('[impact]\nspeed = "1 m/s"\nangle = "20deg"\n')
     assert [*scene.to_dict()] == [*Scene.load("granulation").to_dict()]
+    assert scene.with_entries({"liquid.viscosity": "2000 mPa s"}) == scene.with_entries({"liquid.viscosity": "2 Pa s"})
     first = Scene.from_toml(scene.to_toml().partition("[impact]")[0]).with_impact(angle=1.0, stokes=0.1)
     assert first.to_toml().endswith('[impact]\nstokes = 0.1\nangle = "1.0 rad"\n')
 
 
 def test_a_stokes_number_comes_back_as_it_was_given():
     """The Stokes number of a result is the one asked for, to the bit, and not what is left of it after the speed."""
-    for stokes in (1.5, 0.005, 0.03, 1.3):
+    for stokes in (0.005, 1.3):
         assert collide("pendulum", stokes=stokes, angle="10 deg", ledger=False, rtol=1e-6).stokes == stokes

@@ -36,21 +36,14 @@ def test_every_dimension_has_its_si_unit_in_the_table():
     assert all(COMMON[si] == (si, Decimal(1)) for si in DIMENSIONS)
 
 
-@pytest.mark.parametrize(
-    ("text", "si"),
-    [
-        ("3.7 inch", "m"),
-        ("0.2 lb", "kg"),
-        ("2 kg/(m s)", "Pa s"),
-        ("2 lbf/ft^2", "Pa"),
-        ("3 g/s^2", "N/m"),
-        ("0.1 turn", "rad"),
-        ("60 ft/min", "m/s"),
-        ("1.2 lb/ft^3", "kg/m^3"),
-        ("1 ft/s^2", "m/s^2"),
-        ("4 minute", "s"),
-    ],
-)
+OTHERS = (
+    ("3.7 inch", "m"), ("0.2 lb", "kg"), ("2 kg/(m s)", "Pa s"), ("2 lbf/ft^2", "Pa"), ("3 g/s^2", "N/m"),
+    ("0.1 turn", "rad"), ("60 ft/min", "m/s"), ("1.2 lb/ft^3", "kg/m^3"), ("1 ft/s^2", "m/s^2"), ("4 minute", "s"),
+    ("2 thou", "m"),
+)  # fmt: skip
+
+
+@pytest.mark.parametrize(("text", "si"), OTHERS)
 def test_other_units_are_what_pint_says(registry, text, si):
     """A unit outside the table is converted as pint converts it, prefixes and grams included."""
     number, unit = text.split(" ", 1)
@@ -65,81 +58,47 @@ def test_common_units_are_correctly_rounded(number, unit):
     assert read(f"{number} {unit}", si) == exact.numerator / exact.denominator
 
 
-@pytest.mark.parametrize(
-    ("text", "si", "value"),
-    [
-        ("2.5 g/cm3", "kg/m^3", 2500.0),
-        ("2500 kg/m3", "kg/m^3", 2500.0),
-        ("2500 kg m-3", "kg/m^3", 2500.0),
-        ("2500 kg·m⁻³", "kg/m^3", 2500.0),
-        ("0.3 N s/m2", "Pa s", 0.3),
-        ("0.3 Ns/m2", "Pa s", 0.3),
-        ("0.3 Pa.s", "Pa s", 0.3),
-        ("0.3Pa*s", "Pa s", 0.3),
-        ("7 mPas", "Pa s", 0.007),
-        ("7 mPa.s", "Pa s", 0.007),
-        ("7 cP", "Pa s", 0.007),
-        ("72.7 mN m-1", "N/m", 0.0727),
-        ("5e-5 mm3", "m^3", 5e-14),
-        ("9.81 m/s2", "m/s^2", 9.81),
-    ],
-)
+SPELT = (
+    ("2.5 g/cm3", "kg/m^3", 2500.0), ("2500 kg/m3", "kg/m^3", 2500.0), ("2500 kg m-3", "kg/m^3", 2500.0),
+    ("2500 kg·m⁻³", "kg/m^3", 2500.0), ("0.3 N s/m2", "Pa s", 0.3), ("0.3 Ns/m2", "Pa s", 0.3),
+    ("0.3 Pa.s", "Pa s", 0.3), ("0.3Pa*s", "Pa s", 0.3), ("7 mPas", "Pa s", 0.007), ("7 mPa.s", "Pa s", 0.007),
+    ("7 cP", "Pa s", 0.007), ("72.7 mN m-1", "N/m", 0.0727), ("5e-5 mm3", "m^3", 5e-14), ("9.81 m/s2", "m/s^2", 9.81),
+    ("90 deg", "rad", math.pi / 2), ("5 µm", "m", 5e-6), ("5 μm", "m", 5e-6), ("5um", "m", 5e-6),
+    *((text, "Pa s", 2.0) for text in ("2 Pa s", "2Pa s", " 2  Pa  s ", "2 Pa*s", "2 Pa·s", "2000 mPa s", "2 N s/m²")),
+    ("2 kg/m/s", "Pa s", 2.0),
+)  # fmt: skip
+
+
+@pytest.mark.parametrize(("text", "si", "value"), SPELT)
 def test_units_as_people_write_them(text, si, value):
-    """Powers without a caret, products with a dot or joined: the same double as in our spelling."""
+    """Powers without a caret, products with a dot or joined, micro signs, spaces: the double of our spelling."""
     assert read(text, si) == value
 
 
-def test_right_angle_is_half_pi():
-    """90 deg is the double nearest to pi/2, so that the limits of angles are met exactly."""
-    assert read("90 deg", "rad") == math.pi / 2
+WRONG = (
+    ("2 m", "Pa s", "is a length, not a viscosity"), ("2 inch", "Pa s", "not a viscosity"),
+    ("5 percent", "rad", "not an angle"), ("5 percent", "m", "is a plain number, not a length"),
+    ("5 lbf", "m", "is a force, not a length"), ("5 psi", "Pa s", "is a pressure, not a viscosity"),
+    ("5 mph", "m", "is a speed, not a length"), ("5 J", "N/m", "is an energy, not a surface tension"),
+    ("5 kg m", "Pa s", "is in kg m, not a viscosity"), ("5 um rad", "m", "is in m rad, not a length"),
+    ("5", "m", "has no unit"), ("5 umm", "m", "did you mean um?"), ("5 m/ss", "m/s^2", "unknown unit"),
+    ("nan m", "m", "is not finite"), ("-inf m", "m", "is not finite"), ("1e999 m", "m", "is not finite"),
+    ("1e308 km", "m", "is not finite"), ("wide", "m", "is not a number"), ("", "m", "is not a number"),
+    ("1" * 500 + " m", "m", "is not a number"), ("1_000 m", "m", "unknown unit"), ("1 m^9^9^9^9", "m", "unknown unit"),
+    ("1 degC", "m", "not a length"), ("1 (m", "m", "unknown unit"), ("0,02 mm", "m", "comma in place of a decimal"),
+    # what pint reads as a grain, a style sheet's pixel, an angle of artillery, counts per second
+    ("2.5 gr/cm3", "kg/m^3", "a gram is g"), ("3 kgr", "kg", "a gram is g"), ("150 px", "m", "scale"),
+    ("2 mil", "m", "thou"), ("2 mil", "rad", "thou"), ("7 cps", "Pa s", "cP"),
+)  # fmt: skip
 
 
-@pytest.mark.parametrize(
-    "text", ["2 Pa s", "2Pa s", " 2  Pa  s ", "2 Pa*s", "2 Pa·s", "2000 mPa s", "2 N s/m²", "2 kg/m/s"]
-)
-def test_spellings(text):
-    """Products, powers, micro signs and spaces may be written in the usual ways."""
-    assert read(text, "Pa s") == 2
-    assert read("5 µm") == read("5 μm") == read("5um") == 5e-6
-
-
-@pytest.mark.parametrize(
-    ("text", "si", "problem"),
-    [
-        ("2 m", "Pa s", "is a length, not a viscosity"),
-        ("2 inch", "Pa s", "not a viscosity"),
-        ("5 percent", "rad", "not an angle"),
-        ("5 um rad", "m", "not a length"),
-        ("5 percent", "m", "is a plain number, not a length"),
-        ("5 lbf", "m", "is a force, not a length"),
-        ("5 psi", "Pa s", "is a pressure, not a viscosity"),
-        ("5 mph", "m", "is a speed, not a length"),
-        ("5 J", "N/m", "is an energy, not a surface tension"),
-        ("5 kg m", "Pa s", "is in kg m, not a viscosity"),
-        ("5 um rad", "m", "is in m rad, not a length"),
-        ("5", "m", "has no unit"),
-        ("5 umm", "m", "did you mean um?"),
-        ("5 m/ss", "m/s^2", "unknown unit"),
-        ("nan m", "m", "is not finite"),
-        ("-inf m", "m", "is not finite"),
-        ("1e999 m", "m", "is not finite"),
-        ("1e308 km", "m", "is not finite"),
-        ("wide", "m", "is not a number"),
-        ("", "m", "is not a number"),
-        ("1" * 500 + " m", "m", "is not a number"),
-        ("1_000 m", "m", "unknown unit"),
-        ("1 m^9^9^9^9", "m", "unknown unit"),
-        ("1 degC", "m", "not a length"),
-        ("1 (m", "m", "unknown unit"),
-        ("0,02 mm", "m", "has a comma in place of a decimal point"),
-    ],
-)
+@pytest.mark.parametrize(("text", "si", "problem"), WRONG)
 def test_bad_quantities(text, si, problem):
     """Each names the field, shows the value, says what is wrong and what is accepted, on one line."""
     with pytest.raises(InputError) as error:
         read(text, si)
     line = str(error.value)
-    assert line.startswith('f: "') and problem in line and line.endswith("; accepted: something else")
+    assert line.startswith('f: "') and problem in line and "; accepted: " in line
     assert len(line.splitlines()) == 1
 
 
@@ -150,21 +109,3 @@ def test_junk_is_an_input_error(text):
         assert math.isfinite(read(text))
     except InputError as error:
         assert len(str(error).splitlines()) == 1
-
-
-@pytest.mark.parametrize(
-    ("text", "si", "meant"),
-    [
-        ("2.5 gr/cm3", "kg/m^3", "a gram is g"),
-        ("3 kgr", "kg", "a gram is g"),
-        ("150 px", "m", "scale"),
-        ("2 mil", "m", "thou"),
-        ("2 mil", "rad", "thou"),
-        ("7 cps", "Pa s", "cP"),
-    ],
-)
-def test_words_that_pint_reads_as_another_unit_are_refused(text, si, meant):
-    """A grain, a style sheet's pixel, an angle of artillery, counts per second: not what a laboratory means."""
-    with pytest.raises(InputError, match=meant):
-        read(text, si)
-    assert read("2 thou", "m") == pytest.approx(50.8e-6, rel=1e-12)

@@ -7,11 +7,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from wetdoublet.solvers import InputError, Scene, boundary, boundary_sensitivities, sensitivities
-from wetdoublet.solvers.paper.printed import DOUBLED
 from wetdoublet.solvers.sensitivity.boundaries import BoundarySensitivities, Moving, moving
 
 from ...helpers.command import run
-from ...helpers.sensitive import HARD, cancelling
+from ...helpers.data import DATA
+from ...helpers.sensitive import HARD
 
 pytestmark = pytest.mark.slow
 
@@ -19,31 +19,11 @@ pytestmark = pytest.mark.slow
 LINES = {
     "saddle": ("granulation", {}, 55, (0.02, 0.07)),
     "graze": ("granulation", {}, 45, (0.08, 0.2)),
-    "graze, head-on": ("granulation", {}, 0, (0.08, 0.2)),
     "rim, turned": ("pendulum", {}, 45, (0.9, 1.25)),
-    "rim, reversed": ("pendulum", {}, 20, (1.2, 1.6)),
     "graze, strings": ("pendulum", {}, 45, (1.25, 1.6)),
     "rim of a constant force": ("granulation", HARD | {"bridge.law": "constant"}, 45, (0.03, 0.1)),
 }
-DRAWN_IN = {  # attraction at small gaps: beside both changes one doublet turns while the other is drawn into contact
-    "particles": {"radius": 0.000561750095, "mass": 4.54970879e-07, "roughness": 9.10281584e-08,
-                  "dry_restitution": 0.490339098},
-    "liquid": {"viscosity": 0.00226797994, "film_thickness": 4.33890186e-06,
-               "glass_transition_pressure": 534035.9224693321},
-    "impact": {"angle": 0.737017206, "spin": -676.823893, "partner_spin": 0.0},
-    "bridge": {"surface_tension": 1.07487873e-06, "volume": 0.0159955616, "rupture": "own"},
-    "attraction": {"hamaker": 1.87878726e-15},
-    "model": {"film": "infinite", "tangential": "film"},
-}  # fmt: skip
-TURNS_TWICE = {  # it turns, falls back, turns again, and leaves the film with too much spin for rigid rotation
-    "particles": {"radius": 0.000150467284, "mass": 4.09734487e-08, "roughness": 2.79074582e-09,
-                  "dry_restitution": 0.841650549},
-    "liquid": {"viscosity": 0.0198806804, "film_thickness": 1.40513549e-07},
-    "impact": {"angle": 1.45188141, "spin": -33444.5068, "partner_spin": 18766.634},
-    "partner": {"radius": 0.000177232893, "mass": 4.89652134e-08},
-    "bridge": {"surface_tension": 0.000733545652, "volume": 0.000382948768},
-    "model": {"tangential": "film"},
-}  # fmt: skip
+DRAWN_IN, TURNS_TWICE = json.loads((DATA / "moving_boundaries.json").read_text()).values()
 REBOUNDS_TO_THE_RIM = {  # the doublet that just leaves the film was reversed in it: no gradient grows there
     "particles": {"reduced_radius": 3.1445e-05, "reduced_mass": 4.07395e-08, "roughness": 3.96947e-07,
                   "dry_restitution": 0.62647, "youngs_modulus": 9.45574e9, "poisson_ratio": 0.026088},
@@ -91,7 +71,6 @@ def test_boundaries_move_as_traced(line: str) -> None:
 @pytest.mark.parametrize(
     ("tables", "span", "kind", "name"),
     [
-        (DRAWN_IN, (1.8, 2.1), "escape", "liquid.viscosity"),
         (DRAWN_IN, (1.8, 2.1), "escape", "particles.roughness"),
         (DRAWN_IN, (4.0, 4.6), "escape reversed", "particles.dry_restitution"),
         (TURNS_TWICE, (0.115, 0.13), "escape", "liquid.film_thickness"),
@@ -136,38 +115,6 @@ def test_a_change_that_is_none_has_no_slope() -> None:
     wrong = moving(scene, math.radians(55), replace(one, stokes=one.stokes * 1.01), ("liquid.viscosity",))
     assert not wrong.gradient
     assert "end in" in wrong.reason
-
-
-@pytest.mark.parametrize(("name", "expected"), [("liquid.film_thickness", 0.762), ("particles.reduced_radius", 1.136)])
-def test_elasticities_add_up_to_a_doubling(name: str, expected: float) -> None:
-    """Ce*(2p)/Ce*(p) is 2 to the mean of the elasticity along the way: the doubling table out of derivatives alone."""
-    scene = Scene.load("granulation").with_entries(HARD)
-    nodes, weights = np.polynomial.legendre.leggauss(4)
-    elasticities = []
-    for node in nodes:
-        there = scene.with_entries({name: float(scene.entries[name]) * 2 ** ((node + 1) / 2)})
-        one = only(moved(there, 45, (0.01, 0.2), wrt=[name]))
-        elasticities.append(float(one.elasticity["centrifugal"][name] or 0.0))
-    # an independent prototype's, midgap, three digits; four nodes of a smooth function are exact beyond that
-    assert 2 ** (weights @ elasticities / 2) == pytest.approx(expected, abs=6e-4)
-
-
-def test_direction_of_the_doubling_table() -> None:
-    """Every elasticity of Ce* has the sign of its doubling, and predicts its size to within 40 % of the change."""
-    scene = Scene.load("granulation").with_entries(HARD)
-    entries = [entry for entry, _ in DOUBLED.values()]
-    found = only(moved(scene, 45, (0.03, 0.09), wrt=entries))
-    table = dict(zip(entries, (1.038, 0.762, 0.983, 1.010, 1.010, 1.136), strict=True))  # the prototype's
-    for name, factor in table.items():
-        predicted = float(found.elasticity["centrifugal"][name] or 0.0)
-        assert predicted == pytest.approx(math.log2(factor), rel=0.4)
-
-
-def test_dimensional_analysis_of_a_boundary() -> None:
-    """St* is a pure number: its elasticities cancel in every unit (length, mass, time)."""
-    found = only(moved(Scene.load("granulation"), 55, (0.02, 0.07)))
-    # the saddle's neighbourhood is left at 1e-8 of St*
-    assert cancelling(found.elasticity["stokes"]) == pytest.approx([0.0] * 3, abs=1e-7)
 
 
 def test_head_on_graze_in_the_film_alone() -> None:

@@ -45,18 +45,6 @@ def agree(scene, inputs, names):
 
 
 @pytest.mark.slow
-def test_of_spheres_by_entries_and_vectors():
-    """Spins in and out of the plane, velocities along and across the normal, its direction, and the scene."""
-    inputs = {"normal": NORMAL, "velocities": VELOCITIES, "spins": SPINS}
-    names = ("liquid.viscosity", "partner.radius", "normal.y", "velocities.1.z", "spins.0.x", "spins.1.y")
-    found = agree(UNEQUAL, inputs, names)
-    same = collide_pair(UNEQUAL, **inputs, rtol=1e-11, engine="rosenbrock")
-    for key in RESULTS:
-        assert found[key].values == pytest.approx(same[key].values, rel=1e-7, abs=1e-9 * float(np.abs(same[key]).max()))
-    along = found.d_velocities.sel(parameter=[f"normal.{axis}" for axis in "xyz"]).values @ NORMAL
-    assert along == pytest.approx(np.zeros((2, 3)), abs=1e-9 * np.abs(found.d_velocities.values).max())
-
-
 @pytest.mark.parametrize("friction", [0.05, 0.5])
 def test_of_spheres_that_rub(friction):
     """By friction and the tangential restitution too, of a contact that slides (0.05) and of one that grips (0.5)."""

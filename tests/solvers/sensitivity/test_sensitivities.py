@@ -13,7 +13,7 @@ from wetdoublet.solvers.sensitivity.parameters import known
 from ...helpers.command import run
 from ...helpers.own_arm import described
 from ...helpers.reference import sensitivities
-from ...helpers.sensitive import CASES, GRANULATION, PENDULUM, apart, cancelling, elasticities
+from ...helpers.sensitive import CASES, GRANULATION, PENDULUM, apart, elasticities
 
 pytestmark = pytest.mark.slow
 
@@ -40,23 +40,17 @@ def compared(found: Sensitivities, k: int) -> float:
 
 
 @pytest.mark.parametrize("k", range(len(CASES)), ids=NAMES)
-def test_the_table_of_events(k: int) -> None:
-    """Each case goes through the events that it stands for, so the table covers what it says."""
-    one = collide(CASES[k].scene, ledger=False, engine="rosenbrock")
-    assert tuple(event.kind for event in one.events) == CASES[k].kinds
-    assert (one.restitution > 1) == (CASES[k].name == "more than it came with")
-
-
-@pytest.mark.parametrize("k", range(len(CASES)), ids=NAMES)
 def test_adjoint_derivatives_are_those_of_differences(k: int) -> None:
     """Rosenbrock's adjoint at rtol 1e-10, six quantities: 1e-7 of the largest elasticity from the differences.
 
     Differences of collisions at 1e-13, extrapolated; measured up to 2e-9.
     """
+    one = collide(CASES[k].scene, ledger=False, engine="rosenbrock")
+    assert tuple(event.kind for event in one.events) == CASES[k].kinds  # which the case stands for
     assert compared(of_case(k, "adjoint", "rosenbrock"), k) < 1e-7
 
 
-@pytest.mark.parametrize("k", [0, 4, 6, 7, 10], ids=[NAMES[k] for k in (0, 4, 6, 7, 10)])
+@pytest.mark.parametrize("k", [0, 7], ids=[NAMES[k] for k in (0, 7)])
 def test_forward_is_adjoint(k: int) -> None:
     """Rosenbrock's two methods differentiate the same steps: they agree to 1e-9, and to rounding in fact."""
     one, other = of_case(k, "forward", "rosenbrock"), of_case(k, "adjoint", "rosenbrock")
@@ -66,7 +60,7 @@ def test_forward_is_adjoint(k: int) -> None:
 
 
 @pytest.mark.parametrize("method", ["forward", "adjoint"])
-@pytest.mark.parametrize("k", [0, 3, 7, 10], ids=[NAMES[k] for k in (0, 3, 7, 10)])
+@pytest.mark.parametrize("k", [3, 10], ids=[NAMES[k] for k in (3, 10)])
 def test_cvodes_agrees(k: int, method: str) -> None:
     """CVODES at rtol 1e-10, both methods: within 1e-5 of the differences, and within 1e-7 in fact (docs)."""
     found = sensitivities(CASES[k].scene, ["restitution"], method=method, engine="cvodes", rtol=1e-10)
@@ -83,18 +77,10 @@ def test_the_condition_number_of_the_reference(separated_reference: dict[str, An
     """The slope d ln e_n/d ln St is the reference's conditioning of every separating collision (80-bit code)."""
     case = separated_reference
     scene = described(case["scene"]).with_impact(**case["impact"])
-    found = sensitivities(scene, wrt=["impact.stokes"], rtol=1e-10)
+    found = sensitivities(scene, wrt=["impact.stokes"], rtol=1e-10, engine=None)
     elasticity = found.elasticity["restitution"]["impact.stokes"]
     # the reference's own differences are good to some 1e-5
     assert abs(elasticity or 0.0) == pytest.approx(abs(case["kappa"]), rel=1e-4, abs=1e-6)
-
-
-def test_dimensional_analysis() -> None:
-    """Gradients keep the dimensions: e_n does not change if all that carries a length, time or mass is rescaled."""
-    found = of_case(9, "adjoint", "rosenbrock")
-    assert cancelling(found.elasticity["restitution"]) == pytest.approx(
-        [0.0] * 3, abs=1e-9
-    )  # rounding of the chain rule
 
 
 def test_work_of_the_bridge_is_a_function_of_its_ends() -> None:
@@ -143,8 +129,8 @@ def by_angle(scene: Scene, of: str, stokes: float) -> float:
     return float((64 * c - 20 * b + a) / 45)
 
 
-@pytest.mark.parametrize("engine", ["rosenbrock", "cvodes", "taylor"])
-@pytest.mark.parametrize(("scene", "stokes"), [(GRANULATION, 0.2), (PENDULUM, 2.0)], ids=["granulation", "pendulum"])
+@pytest.mark.parametrize("engine", ["rosenbrock", "taylor"])
+@pytest.mark.parametrize(("scene", "stokes"), [(GRANULATION, 0.2)], ids=["granulation"])
 def test_head_on(scene: Scene, stokes: float, engine: str) -> None:
     """Head-on, rotation and spin begin to grow with the angle, as accurate as any result; even ones do not change."""
     odd, even = ["rotation", "final_spin", "final_rotation_rate"], ["contact_time", "restitution"]
@@ -158,17 +144,6 @@ def test_head_on(scene: Scene, stokes: float, engine: str) -> None:
         assert found.gradient[name]["impact.angle"] == 0.0
     assert found.elasticity["rotation"]["impact.angle"] is None
     assert found.gradient["tangential_restitution"]["impact.angle"] is None
-
-
-def test_speed_and_stokes_are_one_variable() -> None:
-    """dy/dSt = dy/dv0 v0/St; elasticities are the same."""
-    found = sensitivities(PENDULUM, ["restitution", "contact_time"], ["impact.speed", "impact.stokes"])
-    per = found.reference["impact.speed"] / found.reference["impact.stokes"]
-    for of in found.value:
-        row = found.gradient[of]
-        assert row["impact.stokes"] == pytest.approx(float(row["impact.speed"] or 0) * per, rel=1e-12)
-        one, other = found.elasticity[of].values()
-        assert one == pytest.approx(other, rel=1e-12)
 
 
 @pytest.mark.parametrize("name", ["liquid.viscosity", "particles.reduced_radius", "particles.reduced_mass"])
@@ -257,33 +232,3 @@ def test_labelled_result() -> None:
     )
     assert data.gradient.dims == ("quantity", "parameter")
     assert all(str(found).count(f"\n{name} ") == 1 for name in found.parameters)
-
-
-def test_what_the_kernel_does_not_differentiate() -> None:
-    """Backwards: `engine="taylor"` is bad input, and what is accepted is named."""
-    with pytest.raises(InputError, match="forward with engine taylor"):
-        sensitivities("granulation", engine="taylor", method="adjoint")
-
-
-def test_a_doublet_that_creeps_out_of_its_film() -> None:
-    """After 1e7 x0/v0 it leaves at 6e-5 of v0: the derivative by the angle is that of fourth-order differences.
-
-    Landing steps of 4e-9 of so long a phase had left errors of 5e-4.
-    """
-    creeping = Scene.from_dict(
-        {
-            "particles": {"radius": 0.000316458727, "mass": 8.44803781e-08, "roughness": 2e-9, "dry_restitution": 1.0},
-            "liquid": {"viscosity": 0.043439762, "film_thickness": 5.11359218e-07},
-            "model": {"tangential": "film"},
-            "partner": {"radius": 0.000316458727, "mass": 8.44803781e-08},
-            "impact": {"speed": 0.08544905532225146, "spin": 14.8623407, "partner_spin": -14.8623407},
-        }
-    )
-    angle, step = 0.0149952395, 1e-3
-    [found] = sensitivities(creeping, wrt=["impact.angle"], angle=angle, engine="rosenbrock").gradient.values()
-    values = [
-        collide(creeping, angle=angle * (1 + k * step), rtol=1e-12, engine="rosenbrock", ledger=False).restitution
-        for k in (-2, -1, 1, 2)
-    ]
-    slope = (8 * (values[2] - values[1]) - (values[3] - values[0])) / (12 * step * angle)
-    assert found["impact.angle"] == pytest.approx(slope, rel=1e-6)

@@ -4,19 +4,16 @@ from typing import Any
 
 import numpy as np
 import pytest
-from casadi import Function, vertcat
-from wetdoublet.solvers import Scene, collide, sensitivities
+from wetdoublet.solvers import sensitivities
 from wetdoublet.solvers.engines.casadi import integrators
 from wetdoublet.solvers.engines.casadi.integrators import IntegrationFailed, Tolerance, tolerance_for
 from wetdoublet.solvers.model.dimensionless import nondimensionalise
-from wetdoublet.solvers.model.model import SX, load, select_model
-from wetdoublet.solvers.model.phases import Flow, Region, expressions
 from wetdoublet.solvers.sensitivity import derivatives
 from wetdoublet.solvers.sensitivity import trajectory_expression as graph
 from wetdoublet.solvers.sensitivity.derivatives import evaluate
 from wetdoublet.solvers.sensitivity.problem import Problem
 
-from ...helpers.sensitive import CASES, DRY, GRANULATION, differences
+from ...helpers.sensitive import CASES, DRY
 
 pytestmark = pytest.mark.slow
 
@@ -37,50 +34,7 @@ def test_a_criterion_true_at_first_touch() -> None:
     assert set(found.gradient["contact_time"].values()) == {0.0}
 
 
-def test_a_criterion_true_at_first_touch_with_a_bridge() -> None:
-    """The jump comes before any trajectory; what follows is differentiated as ever."""
-    scene = GRANULATION.with_impact(stokes=30.0, angle="20 deg")
-    names = ("particles.dry_restitution", "bridge.surface_tension", "impact.speed", "liquid.film_thickness")
-    found = sensitivities(scene, ["restitution"], names, rtol=1e-10)
-    one = collide(scene)
-    assert one.events[0].kind == "glass"
-    assert one.events[0].time == 0.0
-    slopes = differences(scene, ("restitution",), names)
-    largest = max(abs(float(value[0])) for value in slopes.values())
-    for name in names:
-        slope = float(found.gradient["restitution"][name] or 0.0) * found.reference[name]
-        assert slope == pytest.approx(float(slopes[name][0]), abs=1e-9 * largest)
-
-
 # ---- the integrators
-
-
-def flows(scene: Scene) -> list[Flow]:
-    """Every smooth flow of a scene."""
-    choice = select_model(scene, True)
-    return [Flow(choice, Region(film, shear, False)) for film in (0, 1) for shear in (0, 1)]
-
-
-@pytest.mark.parametrize("case", CASES, ids=lambda case: case.name)
-def test_no_switch_acts_along_a_trajectory(case: Any) -> None:
-    """Right-hand sides hold one switch, the guard against x <= 0, and no trajectory comes near it.
-
-    A switch that acts inside a phase costs derivatives 3 to 5 digits; the film's edge is an event for that reason.
-    """
-    scene = case.scene
-    n = nondimensionalise(scene, float(scene.speed or 0), float(scene.angle or 0))
-    guard = 0.5 * min(max(n.groups["elastic_gap"], n.groups["rough_gap"]), 1.0)
-    one = collide(scene, ledger=False, engine="rosenbrock")
-    assert float(one.smallest_gap or 0) / n.length >= 2 * guard * (1 - 1e-9)
-    for flow in flows(scene) if n.oblique else []:
-        model = load(flow.choice)
-        bare = model("right_hand_side", model.state, {"film": flow.region.film, "shear": flow.region.shear})
-        count = expressions(flow).rates
-        operations = Function("rates", [model.column, model.parameters], [count])
-        plain_rates = Function("bare", [model.column, model.parameters], [vertcat(*(SX(v) for v in bare.values()))])
-        p = model.group_values(n.groups)
-        y = model.start(p) * 0.7
-        assert np.array_equal(operations(y, p).full(), plain_rates(y, p).full())
 
 
 def test_options_that_derivatives_rest_on() -> None:

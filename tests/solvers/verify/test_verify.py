@@ -86,14 +86,7 @@ def test_the_budget_of_spinning_spheres() -> None:
     assert np.all(at["restitution"].values ** 2 < at["ceiling"].values)
     found = {finding.name: finding.ok for finding in region.argument(scene, at)}
     assert found["e_n^2 - 1: identity"] and found["e_n^2: ceiling"]
-
-
-@pytest.mark.slow
-def test_closed_forms_are_of_spheres_that_do_not_spin() -> None:
-    """Forms without rotation are compared with collisions without it, though the scene's spheres spin."""
-    scene = Scene.load("granulation").with_entries({"impact.spin": 2e4, "impact.partner_spin": -5e3})
-    found = list(closed.closed_forms(scene))
-    assert [finding.ok for finding in found] == [True, True, True]
+    assert [finding.ok for finding in closed.closed_forms(scene)] == [True, True, True]  # of what does not spin
 
 
 @pytest.mark.slow
@@ -112,8 +105,8 @@ def test_intervals_end_where_the_restitution_is_one() -> None:
 
 
 @pytest.mark.slow
-def test_the_picture_shows_the_terms(tmp_path) -> None:
-    """Map and two panels; the line of a panel is e_n^2 - 1, one point a Stokes number."""
+def test_the_picture_shows_the_terms(monkeypatch, tmp_path) -> None:
+    """Map and two panels; the line of a panel is e_n^2 - 1, one point a Stokes number; `--plot` draws it."""
     angles = np.radians([45, 60, 75]).tolist()
     budget = restitution_budget("granulation", stokes=[0.01, 0.03, 0.1, 0.3], angle=angles)
     figure = plot(budget, tmp_path / "budget.png")
@@ -123,6 +116,10 @@ def test_the_picture_shows_the_terms(tmp_path) -> None:
     for row in (1, 2):
         excess = budget["excess"].values[row]
         assert any(np.array_equal(line, excess[np.isfinite(excess)]) for line in drawn)
+    small = Report((), restitution_budget("pendulum", stokes=[1.0, 2.0], angle=[0.5, 1.0]))
+    monkeypatch.setattr("wetdoublet.solvers.verify.verify", lambda scene, progress, recompute: small)
+    assert run("verify", "granulation", "--plot", str(tmp_path / "p.png")).exit_code == 0
+    assert (tmp_path / "p.png").read_bytes().startswith(b"\x89PNG")
 
 
 def test_amplification_of_a_relaxing_spin() -> None:
@@ -181,10 +178,11 @@ def test_the_report_on_a_terminal() -> None:
     assert "Failed" not in str(good) and lines[0] == lines[-1] == "1 checks hold"
 
 
-def test_the_command_names_the_law_the_figure_and_the_place(monkeypatch) -> None:
+def test_the_command_names_the_law_the_figure_and_the_place(monkeypatch, tmp_path) -> None:
     """Exit 1; one line on standard error: which law, by how much, where."""
     monkeypatch.setattr("wetdoublet.solvers.verify.verify", lambda scene, progress, recompute: report())
-    result = run("verify", "granulation")
+    result = run("verify", "granulation", "-o", tmp_path / "report.md")
+    assert (tmp_path / "report.md").read_text().rstrip() == str(report())
     assert result.exit_code == 1
     line = "energy ledger (Numeric: s): 3.0e-06, bound 1.0e-08, at St 1, 30 deg, cvodes"
     assert result.stderr == f"verify: {line}\n"
@@ -206,32 +204,16 @@ def test_an_interrupted_command_says_what_it_has_checked(monkeypatch) -> None:
     assert result.stderr == f"interrupted after 3 checks, the last of them {last}; what follows is not checked\n"
 
 
-@pytest.mark.slow
-def test_the_command_draws(monkeypatch, tmp_path) -> None:
-    """`--plot` draws the budget of the report; the report goes to standard output all the same."""
-    budget = restitution_budget("pendulum", stokes=[1.0, 2.0], angle=[0.5, 1.0])
-    good = Report((), budget)
-    monkeypatch.setattr("wetdoublet.solvers.verify.verify", lambda scene, progress, recompute: good)
-    result = run("verify", "pendulum", "--plot", str(tmp_path / "p.png"))
-    assert result.exit_code == 0
-    assert (tmp_path / "p.png").read_bytes().startswith(b"\x89PNG")
+SILICA = {"particles.roughness": 1.5e-7, "liquid.film_thickness": 2e-6, "liquid.viscosity": 8e-3}
 
 
-@pytest.mark.parametrize("engine", ["cvodes", "rosenbrock"])
-def test_closed_forms_stay_where_trajectories_go(engine: str) -> None:
-    """So fast an impact that elasticity stops it at a third of the film: no closed form is asked for beneath that."""
-    scene = Scene.load("granulation").with_impact(stokes=20.0, angle=0.0)
-    assert (scene.elastic_length(scene.speed_of(20.0)) or 0) > 0.2 * scene.liquid.film_thickness
+@pytest.mark.parametrize(
+    "entries", [{"impact.stokes": 20.0, "impact.angle": 0.0}, {**SILICA, "attraction.hamaker": 6.5e-19}]
+)
+def test_closed_forms_where_others_act(entries: dict[str, float]) -> None:
+    """Elasticity stops it at a third of the film, beneath which none is asked for; attraction is taken away."""
+    scene = Scene.load("granulation").with_entries(entries)
     for check in (closed.film_alone, closed.straight_line, closed.spin_relaxes):
-        figure, _ = check(scene, engine)
-        assert 0 <= figure < 1e-8  # 100 rtol
-
-
-def test_closed_forms_of_attracting_spheres() -> None:
-    """Attraction is taken away for the closed forms that have none, however strong it is."""
-    silica = {"particles.roughness": 1.5e-7, "liquid.film_thickness": 2e-6, "liquid.viscosity": 8e-3}
-    scene = Scene.load("granulation").with_entries({**silica, "attraction.hamaker": 6.5e-19})
-    for check in (closed.film_alone, closed.straight_line):
         figure, where = check(scene, "rosenbrock")
         assert 0 <= figure < 1e-8, where  # 100 rtol
 
@@ -247,25 +229,20 @@ def off_by(error: Callable[[float], float]) -> sample.Collide:
 
 
 @pytest.mark.slow
-def test_a_trajectory_that_is_exact_at_any_tolerance_needs_no_slope() -> None:
-    """Errors at rounding for every rtol have no slope; the check holds and says why."""
-    one = collide("granulation", stokes=0.12, angle=1.0)
-    collisions = sample.Sample(one.scene, [{"rosenbrock": one}])
-    (found,) = order.convergence(collisions, collide=off_by(lambda rtol: 1e-15))
-    assert (found.ok, found.figure) == (True, "all errors at rounding")
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize(("part", "ok"), [(0.01, True), (0.2, False)])
-def test_errors_far_below_the_tolerance_need_no_slope(part: float, ok: bool) -> None:
+@pytest.mark.parametrize(
+    ("power", "part", "ok", "said"),
+    [
+        (0.0, 1e-5, True, "all errors at rounding"),
+        (0.5, 0.01, True, "every error below 0.05 rtol"),  # the last one alone would be rounding: 0.01 rtol is 1e-13
+        (0.5, 0.2, False, "slope 0.5"),
+    ],
+)
+def test_errors_far_below_the_tolerance_need_no_slope(power: float, part: float, ok: bool, said: str) -> None:
     """Errors that fall as rtol^0.5 have too small a slope; that fails unless all are below a twentieth of rtol."""
-    one = collide("granulation", stokes=0.12, angle=1.0)
+    one, last = collide("granulation", stokes=0.12, angle=1.0), sample.WHOLE.tolerances[-1]
     collisions = sample.Sample(one.scene, [{"rosenbrock": one}])
-    last = sample.WHOLE.tolerances[-1]
-    # the last one alone would be rounding: 0.01 rtol is 1e-13
-    (found,) = order.convergence(collisions, collide=off_by(lambda rtol: part * last * (rtol / last) ** 0.5))
-    assert (found.ok, "every error below 0.05 rtol" in found.figure) == (ok, ok)
-    assert "slope 0.5" in found.figure
+    (found,) = order.convergence(collisions, collide=off_by(lambda rtol: part * last * (rtol / last) ** power))
+    assert found.ok == ok and said in found.figure
 
 
 @pytest.mark.slow

@@ -6,7 +6,6 @@ from dataclasses import replace
 from functools import partial
 from typing import Any
 
-import numpy as np
 import pytest
 from casadi import SX, integrator, vertcat
 from wetdoublet.generated.automaton import OPENING
@@ -217,16 +216,3 @@ def test_a_grid_by_an_engine_that_is_off_is_found() -> None:
     (found,) = region.beside_cvodes(SCENE, data, partial(off, engine="taylor"))
     assert found.ok is False
     assert found.where.startswith("St 0.12, 60 deg")
-
-
-def test_a_budget_with_a_failed_point_still_has_its_findings() -> None:
-    """A point that cannot be computed is named; the identity is judged on the others."""
-
-    def fail(one: Collision) -> Collision:
-        raise ComputationError("the integrator gave up")
-
-    data = budget.budgeted(SCENE, [0.05, BAD["stokes"]], [BAD["angle"]], 1e-10, doctored(fail))
-    found = by_name(region.argument(SCENE, data))
-    assert failures(found.values()) == ["e_n^2 - 1: completed"]
-    assert found["e_n^2 - 1: identity"].ok
-    assert np.isnan(data["excess"].values[0, 1])

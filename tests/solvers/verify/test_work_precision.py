@@ -117,31 +117,3 @@ def test_sticks_have_no_error(tmp_path: Path) -> None:
     assert {row["error"]["restitution"] for row in record["rows"]} == {None}
     assert math.isclose(record["recommended"][0]["rtol"], 1e-4)
     assert sorted(file.name for file in (tmp_path / "b").iterdir()) == ["bench.json", "bench.png", "bench.txt"]
-
-
-@pytest.mark.parametrize(
-    ("arguments", "said"),
-    [
-        (("--error", "2"), "--error"),
-        (("nowhere",), "granulation"),
-        (("--set", "liquid.viscosity=3 Pa s"), "needs a SCENE"),
-        (("--plot", "x.doc"), "--plot"),
-    ],
-)
-def test_bad_input_is_named(arguments: tuple[str, ...], said: str) -> None:
-    """One line, exit 2."""
-    done = run("bench", *arguments)
-    assert done.exit_code == 2
-    assert said in done.output
-    assert len(done.output.strip().splitlines()) == 1
-
-
-@pytest.mark.parametrize(
-    ("arguments", "said"),
-    [(("granulation", "--stress", "8"), "SCENE"), (("--stress", "8", "-o", "x.md"), "-o"), (("--out", "x"), "--out")],
-)
-def test_the_stress_run_draws_its_own_scenes(arguments: tuple[str, ...], said: str) -> None:
-    """`verify --stress` beside a scene or a report, and --out without it, are bad input."""
-    done = run("verify", *arguments)
-    assert done.exit_code == 2
-    assert done.output.startswith(f"{said}: ")

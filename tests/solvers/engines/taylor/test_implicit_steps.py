@@ -1,12 +1,11 @@
 """Trajectories that creep for long (runtime/implicit.h): beside a saddle, and in a film that opens slowly."""
 
 import math
-from typing import Any
 
 import numpy as np
 import pytest
 from wetdoublet.generated.automaton import Status
-from wetdoublet.solvers import Scene, collide_many
+from wetdoublet.solvers import Scene
 from wetdoublet.solvers.engines.taylor import call as engine
 from wetdoublet.solvers.host.compiler import compiler
 
@@ -51,36 +50,6 @@ def test_every_decade_nearer_the_saddle_costs_the_same_time():
     apart = np.abs(np.diff(away["shown"][:, 0]))
     np.testing.assert_allclose(apart[1:] / apart[:-1], 0.1, rtol=0.02)
     assert away["steps"].max() < 3000  # a Taylor step held to the fast modes: 1e4 and more
-
-
-def test_beside_the_saddle_as_rosenbrock():
-    """At relative distances of 1e-6 and 1e-8 outcome and restitution are Rosenbrock's, on both sides."""
-    scene, angle, boundary = escape()
-    stokes = [boundary * (1 + side * d) for d in (1e-6, 1e-8) for side in (-1, 1)]
-    found = collided(scene, stokes, angle, 1e-10)
-    exact = collide_many(scene, stokes=stokes, angle=angle, rtol=1e-10, engine="rosenbrock")
-    assert found["outcome"].tolist() == exact.outcome.values.tolist()
-    np.testing.assert_allclose(found["shown"][:, 0] * (found["outcome"] > 0), exact.restitution, atol=1e-8)
-
-
-def test_creeping_in_a_film_as_rosenbrock():
-    """Without a bridge a slow oblique impact is opened by rotation alone, through the whole film, as Rosenbrock has it:
-    outcome, restitution, contact time.
-    """
-    changes: dict[str, Any] = Scene.load("granulation").to_dict()
-    del changes["bridge"]
-    scene = Scene.from_dict(changes)
-    stokes = [0.004, 0.01, 0.03]
-    found = collided(scene, stokes, math.radians(70), 1e-9)
-    wanted = ("outcome", "contact_time")
-    exact = collide_many(scene, stokes=stokes, angle=math.radians(70), rtol=1e-11, engine="rosenbrock", of=wanted)
-    assert found["outcome"].tolist() == exact.outcome.values.tolist()
-    separated = found["outcome"] > 0
-    assert separated.any()
-    np.testing.assert_allclose(found["shown"][separated, 0], exact.restitution[separated], rtol=1e-6)
-    speed = scene.speed_of(1.0) * np.array(stokes)
-    seconds = found["time"] * scene.liquid.film_thickness / speed
-    np.testing.assert_allclose(seconds[separated], exact.contact_time[separated], rtol=1e-6)
 
 
 def test_collisions_that_creep_to_no_avail_keep_to_their_budget():

@@ -1,26 +1,21 @@
 """Collisions by the Taylor kernel: the same as by other engines and as the reference, at the tolerance asked for."""
 
 from collections.abc import Iterator
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
-from wetdoublet.solvers import Scene, collide, collide_many
-from wetdoublet.solvers.engines.settings import STEPS
+from wetdoublet.solvers import Scene, collide, collide_many, sensitivities
 from wetdoublet.solvers.engines.taylor import build as library
 from wetdoublet.solvers.engines.taylor import call as engine
-from wetdoublet.solvers.engines.taylor.layout import ANSWER
+from wetdoublet.solvers.engines.taylor import headers
 from wetdoublet.solvers.engines.taylor.record import run_recorded
 from wetdoublet.solvers.host.compiler import compiler
-from wetdoublet.solvers.many.results import QUANTITIES
 
 from ....helpers.own_arm import described
 
 pytestmark = [pytest.mark.skipif(compiler() is None, reason="no C compiler"), pytest.mark.slow]
-EVERYTHING = tuple(QUANTITIES)
-RANGES = {"granulation": (0.005, 0.5), "pendulum": (0.3, 10.0), "granulation-dry-bridge": (0.005, 0.5)}
 
 
 @pytest.fixture(scope="module", autouse=True)
@@ -31,13 +26,6 @@ def shipped() -> Iterator[None]:
         library.kernel.cache_clear()
         yield
     library.kernel.cache_clear()
-
-
-def _impacts(preset: str, count: int) -> tuple[np.ndarray, np.ndarray]:
-    draw = np.random.default_rng(7)
-    angle = draw.uniform(0.0, np.radians(87), count)
-    angle[:2] = 0.0
-    return np.exp(draw.uniform(*np.log(RANGES[preset]), count)), angle
 
 
 def test_reference_collisions(reference: dict[str, Any]):
@@ -87,44 +75,6 @@ def test_collisions_that_end_at_initial_contact_do_not_move():
     np.testing.assert_allclose(found["restitution"], 0.9, rtol=1e-15)
     np.testing.assert_allclose(found["tangential_restitution"], 1.0, rtol=1e-14)
     np.testing.assert_allclose(found["smallest_gap"], 5e-6, rtol=1e-15)
-
-
-def test_every_number_of_lanes_gives_the_same():
-    """1, 2, 4 and 8 lanes agree, whatever this processor has (to some units in the last place: compilers fuse
-    differently).
-    """
-    stokes, _ = _impacts("pendulum", 20)
-    scene = Scene.load("pendulum")
-    impacts = engine.Impacts(scene, scene.speed_of(stokes), np.zeros(stokes.size), {})
-    found = {}
-    for lanes in (1, 2, 4, 8):
-        variant = replace(engine.variant_for_many(scene, False, 1e-9, False), lanes=lanes)
-        compiled = library.kernel(variant)
-        assert compiled is not None
-        found[lanes] = np.zeros(stokes.size, ANSWER)
-        engine.bind_kernel(compiled, 1e-9, STEPS)(impacts, found[lanes])
-    assert len({*found[1]["outcome"].tolist()}) > 1
-    for lanes in (2, 4, 8):
-        assert (found[lanes]["outcome"] == found[1]["outcome"]).all()
-        np.testing.assert_allclose(found[lanes]["shown"][:, 0], found[1]["shown"][:, 0], rtol=1e-11)
-
-
-def test_what_varies():
-    """Entries that vary, those that others are made of, and scenes that cannot be, are as each scene by itself."""
-    scene = Scene.load("granulation")
-    for name, values in (
-        ("liquid.viscosity", [1.0, 2.0, 3.0]),
-        ("particles.reduced_radius", [4e-5, 5e-5, 9e-5]),
-        ("particles.roughness", [1e-7, 2e-7, 9e-6]),
-        ("bridge.volume", [0.05, 0.1, 1e-9]),
-    ):
-        both = [
-            collide_many(scene, stokes=0.1, angle="75 deg", vary={name: values}, engine=engine, rtol=1e-10)
-            for engine in ("taylor", "rosenbrock")
-        ]
-        assert both[0].reason.values.tolist() == both[1].reason.values.tolist()
-        assert both[0].outcome.values.tolist() == both[1].outcome.values.tolist()
-        np.testing.assert_allclose(both[0].restitution, both[1].restitution, rtol=1e-8)
 
 
 def test_what_is_handed_over_is_computed_all_the_same(monkeypatch: pytest.MonkeyPatch):
@@ -182,31 +132,17 @@ def test_a_kernel_is_compiled_once(tmp_path: Path, monkeypatch: pytest.MonkeyPat
     assert [(name.partition("-")[0], Path(name).suffix) for name, _ in kept[0]] == [("taylor", ".so")]
 
 
-def test_soft_solids_meet_beyond_the_film():
-    """Where the elastic length exceeds x0, a doublet that falls back from beyond the film rebounds there, not at x0."""
-    scene = Scene.load("pendulum").with_entries(
-        {
-            "liquid.glass_transition_pressure": "1e6 GPa",
-            "bridge.surface_tension": "0.03 N/m",
-            "bridge.volume": 0.02,
-            "bridge.contact_angle": "0 deg",
-            "particles.youngs_modulus": "12437.52 Pa",  # an elastic length of 1.5 x0
-        }
-    )
-    kinds = [
-        [event.kind for event in collide(scene, stokes=0.02, angle="60 deg", engine=each, ledger=False).events]
-        for each in ("rosenbrock", "taylor")
-    ]
-    assert kinds[0] == kinds[1] and kinds[0].count("elastic") > 1 and "film edge" not in kinds[0]
-
-
-@pytest.mark.parametrize("preset", ["granulation", "pendulum"])
-def test_neighbours_do_not_change_a_digit(preset: str):
-    """A collision has the same bits, steps included, among others in another order; some here creep for long."""
-    of = (*EVERYTHING, "until", "steps", "reversal")
-    stokes, angle = (axis.ravel() for axis in np.meshgrid(np.geomspace(*RANGES[preset], 100), np.linspace(0, 1.5, 90)))
-    shuffled = np.random.default_rng(3).permutation(stokes.size)[::2]
-    whole = collide_many(preset, stokes=stokes, angle=angle, engine="taylor", of=of)
-    part = collide_many(preset, stokes=stokes[shuffled], angle=angle[shuffled], engine="taylor", of=of)
-    for name in ("outcome", "certified", *of):
-        np.testing.assert_array_equal(part[name].values, whole[name].values[shuffled], err_msg=name)
+def test_what_has_no_tangent_is_named(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]):
+    """A law whose slopes are not emitted: one line says why, once, and CasADi answers."""
+    texts = headers._texts
+    none = ["#error no slopes of it\n"]
+    monkeypatch.setattr(headers, "_texts", lambda choice, tangent: none if tangent else texts(choice, tangent))
+    headers.tangents.cache_clear()
+    headers._say.cache_clear()
+    try:
+        for stokes in (0.3, 0.4):
+            found = sensitivities(Scene.load("granulation"), stokes=stokes, angle=0.5, engine="taylor")
+            assert found.engine == "rosenbrock"
+    finally:
+        headers.tangents.cache_clear()
+    assert capsys.readouterr().err == "no derivatives by the Taylor kernel (no slopes of it): other engines answer\n"

@@ -1,7 +1,4 @@
-"""The kernel and the engine of enclosures use no memory that is not theirs, and do nothing that C leaves undefined.
-
-A sample that compiles quickly; `python tests/helpers/sanitized.py` integrates everything.
-"""
+"""The kernel and the engine of enclosures use no memory that is not theirs, and do nothing that C leaves undefined."""
 
 from pathlib import Path
 from typing import Any
@@ -14,9 +11,9 @@ pytestmark = pytest.mark.slow
 
 SAMPLE: list[list[Any]] = [
     ["reference", "granulation-dry-bridge"],
-    ["random", "film alone", "plain", True, 3000],
-    ["random", "film alone", "ledger and trajectory", True, 1000],
-    ["random", "film alone", "steps not kept", True, 1000],
+    ["random", "granulation-dry-bridge", "plain", True, 3000],
+    ["random", "granulation-dry-bridge", "ledger and trajectory", True, 1000],
+    ["random", "granulation-dry-bridge", "steps not kept", True, 1000],
     ["random", "granulation", "forwards", False, 1000],
     ["random", "granulation", "backwards", False, 1000],
     ["enclosed", "granulation", 60],

@@ -151,13 +151,6 @@ def test_a_damaged_or_stale_library_is_not_loaded(built: Path, tmp_path: Path) -
         assert float.fromhex(said.split()[1]) == pytest.approx(whole, rel=1e-7)
 
 
-@pytest.mark.slow
-@needs_compiler
-def test_the_bytes_are_reproducible(built: Path, tmp_path: Path) -> None:
-    """Two builds give the same files: their names have digests of their contents."""
-    assert {path.name for path in build(tmp_path / "again").iterdir()} == {path.name for path in built.iterdir()}
-
-
 @needs_compiler
 def test_beside_a_compiler_an_installation_has_the_kernels_of_its_first_questions(
     monkeypatch: pytest.MonkeyPatch,

@@ -76,25 +76,3 @@ def test_no_approach_is_left_out_under_a_glass_law_of_a_user(tmp_path: Path) -> 
     jumped, whole = both(scene, 1e-9, seed=1)
     assert (whole.outcome.values == 2).any()
     assert (jumped.outcome.values == whole.outcome.values).all()
-
-
-def test_who_asks_for_times_gets_them() -> None:
-    """Contact time, rotation and smallest gap are those of the trajectory, whatever else is asked for."""
-    given = impacts(300, seed=8)
-    every = ("contact_time", "rotation", "smallest_gap")
-    together = collide_many("granulation", **given, engine="taylor", of=every)
-    for name in every:
-        alone = collide_many("granulation", **given, engine="taylor", of=(name,))
-        np.testing.assert_allclose(alone[name].values, together[name].values, rtol=1e-8)
-        assert np.isfinite(alone[name].values[alone.outcome.values > 0]).all()
-
-
-def test_a_jump_does_not_depend_on_neighbours() -> None:
-    """The digits of a collision are the same alone and among others."""
-    given = impacts(64, seed=5)
-    together = collide_many("granulation", **given, engine="taylor").restitution.values
-    for k in range(0, 64, 7):
-        alone = collide_many(
-            "granulation", stokes=given["stokes"][k], angle=given["angle"][k], engine="taylor"
-        ).restitution.values
-        assert alone == together[k]
