@@ -38,13 +38,15 @@ _SPELT = {  # as trackers name columns, in small letters and underscores; of sev
     "impact": "impact film video",
     "x": "x position_x x_position pos_x axis_2 xm",
     "y": "y position_y y_position pos_y axis_1 ym",
-    "particle": "particle track_id trackid particle_id track trajectory track_n",
+    "particle": "particle track_id trackid particle_id track trajectory track_n id",
 }
 _KINDS = {  # columns by which a table is known, of several kinds the first
     "TrackMate's table of spots": {"position_x", "visibility"},
     "a table of LapTrack": {"tree_id"},
     "a table of trackpy": {"particle"},
     "a table of napari": {"track_id", "t"},
+    "tracks of napari": {"id", "t"},
+    "points of napari": {"axis_0"},
     "ImageJ's Results": {"slice", "x"},
     "an export of DLTdv, a row for each frame": {"pt1_cam1_x"},
 }
@@ -87,6 +89,8 @@ def read_film(source: Any, particles: Any, solids: float, lengths: Units) -> Fil
     kind, columns, lines = _table(source)
     given = ", ".join(column.name for column in columns)
     words = [re.sub(r"\W+", "_", column.name.strip().lower()).strip("_") for column in columns]
+    if "axis_3" in words:  # of napari: t, z, y, x
+        words = [{"axis_2": "y", "axis_3": "x"}.get(word, word) for word in words]
     by_word: dict[str, Column] = {}
     for word, column in zip(words, columns):
         by_word[word] = _same(by_word.get(word, column), column)

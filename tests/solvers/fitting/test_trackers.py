@@ -134,6 +134,11 @@ def long(film: Film, names: dict[str, str], others: dict[str, float], **csv: obj
     return table.to_csv(**{"index": False} | csv)
 
 
+def napari_points(film: Film, names: dict[str, str]) -> str:
+    """Points of a film, or of a stack of planes of which it is one: an index, and no particle."""
+    return long_table(film).assign(z=7)[list(names)].rename(columns=names).to_csv(index_label="index")
+
+
 DLTDV = ("pt1_cam1_X", "pt1_cam1_Y", "pt2_cam1_X", "pt2_cam1_Y")
 SPELT: dict[str, tuple[str, Callable[[Film], str]]] = {
     "trackpy": ("trackpy", lambda film: long(film, {}, {"mass": 9.5, "ep": 0.1}, index=True)),
@@ -141,6 +146,13 @@ SPELT: dict[str, tuple[str, Callable[[Film], str]]] = {
     "trackpy-tab": ("trackpy", lambda film: long(film, {"x": "X", "y": "Y", "frame": "Frame"}, {}, sep="\t")),
     "laptrack": ("LapTrack", lambda film: long(film, {"particle": "track_id"}, {"tree_id": 0, "index": 4})),
     "napari": ("napari", lambda film: long(film, {"particle": "track_id", "frame": "t"}, {})),
+    "napari-layer": ("napari", lambda film: long(film, {"particle": "ID", "frame": "T", "y": "Y", "x": "X"}, {})),
+    "napari-points": (
+        "napari", lambda film: napari_points(film, {"frame": "axis-0", "y": "axis-1", "x": "axis-2"})
+    ),
+    "napari-stack": (
+        "napari", lambda film: napari_points(film, {"frame": "axis-0", "z": "axis-1", "y": "axis-2", "x": "axis-3"})
+    ),
     "trackmate": ("TrackMate", trackmate),
     "trackmate-mm": ("TrackMate", lambda film: trackmate(film, "mm", 1e3 * PIXEL)),
     "trackmate-micron": ("TrackMate", lambda film: trackmate(film, "micron", 1e6 * PIXEL)),
