@@ -32,10 +32,7 @@ deviations) contradicts the model; from there its log-likelihood falls with the 
 
 _BEYOND = 6.0  # standard deviations of noise and angle beyond which a restitution is impossible
 _NAMED = 8  # rows in a message
-_ROOM, _NARROW = (
-    1.3,
-    0.6,
-)  # widening of an integrand, and width (standard deviations of the scatter) below which it counts
+_ROOM, _NARROW = 1.3, 0.6  # widening of an integrand, and its width (deviations of the scatter) below which it counts
 _FINEST = 32  # most by which the points of a segment are multiplied
 _SIDES = -0.02, 0.02  # relative steps of the differences by the scatter
 _USUAL = Resolution().lines * Resolution().nodes

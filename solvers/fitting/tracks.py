@@ -185,11 +185,11 @@ def tracks(
         raise InputError("tracks", found.header, "a column frame, or time [s]", "has no time")
     time = _numbers(clock, lines, "s", per_frame, "rate" * (clock.name == "frame"))
     unit_of_clock = f" {clock.unit}" if clock.unit and clock.name == "time" else ""
-    films = [str(each) for each in known["impact"].cells] if "impact" in known else ["1"] * time.size
+    films = np.array([str(each) for each in known["impact"].cells] if "impact" in known else ["1"] * time.size, object)
     reaches = radii, radii + loaded.liquid.film_thickness, radii + loaded.rupture_gap
     rows, sigmas, remarks, labels, left_out = [], [], [], list[str](), list[InputError]()
-    for label in dict.fromkeys(films or ["1"]):
-        frames = np.flatnonzero([each == label for each in films])
+    for label in dict.fromkeys(films.tolist() or ["1"]):
+        frames = np.flatnonzero(films == label)
         which = frames[np.isfinite(positions[frames]).all(axis=1)]
         if lost := frames.size - which.size:
             remarks.append(f"impact {label}: {lost} of {frames.size} frames lack a position and are not used")
