@@ -8,7 +8,7 @@ Derivatives are taken at a fixed interpolation variable: the points of a segment
 roots cancel.
 """
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -21,7 +21,7 @@ from ..scene.schema import SPINS
 from .free_entries import NOISE
 from .measurements import SCATTER, Measurements, rows_of
 from .rare_outcomes import RARE, beyond_reach
-from .scatter import REACH, Resolution, ScatterLines, SegmentMap, Segments, in_deviations, nearest_normals
+from .scatter import REACH, Resolution, ScatterLines, SegmentMap, Segments, in_deviations, nearest_normals, segment_map
 
 NEGLIGIBLE = 1e-12  # probability of the scatter below which a segment is left out
 FINER = (3, 7)
@@ -32,10 +32,8 @@ deviations) contradicts the model; from there its log-likelihood falls with the 
 
 _BEYOND = 6.0  # standard deviations of noise and angle beyond which a restitution is impossible
 _NAMED = 8  # rows in a message
-_ROOM, _NARROW = (
-    1.3,
-    0.6,
-)  # widening of an integrand, and width (standard deviations of the scatter) below which it counts
+_ROOM, _NARROW = 1.3, 0.6  # widening of an integrand, and its width (deviations of the scatter) below which it counts
+_FINEST = 32  # most by which the points of a segment are multiplied
 _SIDES = -0.02, 0.02  # relative steps of the differences by the scatter
 _USUAL = Resolution().lines * Resolution().nodes
 _FIXED, _EXACT = 0.3, 3.0  # cost of an evaluation that does not depend on its nodes; factor of exact derivatives
@@ -220,8 +218,9 @@ class Likelihood:
         dense_part = segments.part(which)
         results = dense_part.results(experiment, lines, ends[:, which], self.measured, resolution)
         for part, mapping, value, slope in results:
-            at_ends = ends[:, which[part]]
-            terms.append(self._integrals(dense_part.part(part), noise, at_ends, mapping, value, slope, moments))
+            for some, finer in self._resolved(dense_part.row[part], noise, mapping, value):
+                at_ends, of = ends[:, which[part[some]]], dense_part.part(part[some])
+                terms.append(self._integrals(of, noise, at_ends, finer, value[:, some], slope[:, some], moments))
         rows, scores = _sums(terms, size, len(self.names))
         rare = np.flatnonzero((probability < RARE) & (factors > 0))
         if rare.size:
@@ -275,6 +274,20 @@ class Likelihood:
         centre[row[less]], width[row[less]] = np.clip(mean, -REACH, REACH)[less], size[less]
         values_there = {name: there.value[k][less] for k, name in enumerate(self.measured)}
         return _Narrow(centre, width, row[less], values_there, {name: each[less] for name, each in spread.items()})
+
+    def _resolved(
+        self, row: np.ndarray, noise: Mapping[str, float], mapping: SegmentMap, value: np.ndarray
+    ) -> Iterator[tuple[np.ndarray, SegmentMap]]:
+        """Indices of segments, and the map with points so dense that results change by their noise between two."""
+        steps = np.ones(row.size)
+        for k, name in enumerate(self.measured):
+            measured, sd = (each[row] for each in self.data.observed[name])
+            change = np.abs(np.diff(value[k] @ mapping.interpolate.T)).max(axis=1) / (sd * noise.get(name, 1.0))
+            steps = np.fmax(steps, np.where(np.isfinite(measured), change, 1.0))
+        times = 2 ** np.ceil(np.log2(np.minimum(steps, _FINEST))).astype(int)
+        for each in np.unique(times).tolist():
+            count = each * mapping.at_points.size
+            yield np.flatnonzero(times == each), segment_map(mapping.kind, mapping.at_nodes.size, count)
 
     def _integrals(
         self, segments: Segments, noise: Mapping[str, float], ends: np.ndarray, mapping: SegmentMap, value: np.ndarray,

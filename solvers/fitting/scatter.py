@@ -288,11 +288,13 @@ class SegmentMap:
     """Place on a segment, from 0 to 1, as a function g of the variable in which results are interpolated.
 
     Attributes:
+        kind: as of `Segments`.
         at_nodes: g at the nodes of the interpolation.
         at_points, rate, weight: g, g' and weights at the points of the quadrature.
         interpolate: (points, nodes), from values at the nodes to values at the points.
     """
 
+    kind: int
     at_nodes: np.ndarray
     at_points: np.ndarray
     rate: np.ndarray
@@ -322,7 +324,7 @@ def segment_map(kind: int, nodes: int, points: int) -> SegmentMap:
     g, rate = _MAPS[kind]
     chebyshev = np.polynomial.chebyshev.chebvander
     matrix = chebyshev(2 * s - 1, nodes - 1) @ np.linalg.inv(chebyshev(2 * t - 1, nodes - 1))
-    return SegmentMap(g(t), g(s), rate(s), weight / points, matrix)
+    return SegmentMap(kind, g(t), g(s), rate(s), weight / points, matrix)
 
 
 @lru_cache(maxsize=256)

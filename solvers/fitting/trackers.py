@@ -124,7 +124,8 @@ def read_film(source: Any, particles: Any, solids: float, lengths: Units) -> Fil
     shared: dict[str, Column] = {name: known[name] for name in ("frame", "time", "impact") if name in known}
     if long:
         one, two = (table[table.particle.isin(each)] for each in pair)
-        both = one.merge(two, how="outer", on=["at", "film"], suffixes=("1", "2")).sort_values(["film", "at"])
+        both = one.merge(two, how="outer", on=["at", "film"], suffixes=("1", "2"))
+        both = both.iloc[np.argsort(both.row1.fillna(both.row2))]  # films as they come in the table
         rows = both.row1.fillna(both.row2).astype(int).tolist()
         shared = {name: replace(each, cells=[each.cells[k] for k in rows]) for name, each in shared.items()}
         for place in PLACES:

@@ -9,6 +9,7 @@ import re
 import sys
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from numbers import Real
 from pathlib import Path
 from typing import Any
 
@@ -162,9 +163,9 @@ def tracks(
     loaded = Scene.load(scene)
     if loaded.radius_ratio is None or loaded.pendulum is not None:
         raise InputError("tracks", loaded.name, "two spheres in free flight", "has a wall or strings")
-    pixel = None if scale is None else _size(scale, "m", "scale", plain=None)
-    if not isinstance(scale_sd, (int, float)) or not 0 <= scale_sd < 1:
+    if not (isinstance(scale_sd, Real) and 0 <= scale_sd < 1):
         raise InputError("scale_sd", scale_sd, "a number from 0 to below 1, as 0.005")
+    pixel = None if scale is None else _size(scale, "m", "scale", plain=None)
     per_frame = None if rate is None else 1 / _size(rate, "1/s", "rate")
     radii = 2 * loaded.particles.reduced_radius * (1 + loaded.radius_ratio)
     found = read_film(film, particles, radii, lambda column: _factor(column, "m", pixel, "scale"))
@@ -183,11 +184,11 @@ def tracks(
         raise InputError("tracks", found.header, "a column frame, or time [s]", "has no time")
     time = _numbers(clock, lines, "s", per_frame, "rate" * (clock.name == "frame"))
     unit_of_clock = f" {clock.unit}" if clock.unit and clock.name == "time" else ""
-    films = [str(each) for each in known["impact"].cells] if "impact" in known else ["1"] * time.size
+    films = np.array([str(each) for each in known["impact"].cells] if "impact" in known else ["1"] * time.size, object)
     reaches = radii, radii + loaded.liquid.film_thickness, radii + loaded.rupture_gap
     rows, sigmas, remarks, labels, left_out = [], [], [], list[str](), list[InputError]()
-    for label in dict.fromkeys(films or ["1"]):
-        frames = np.flatnonzero([each == label for each in films])
+    for label in dict.fromkeys(films.tolist() or ["1"]):
+        frames = np.flatnonzero(films == label)
         which = frames[np.isfinite(positions[frames]).all(axis=1)]
         if lost := frames.size - which.size:
             remarks.append(f"impact {label}: {lost} of {frames.size} frames lack a position and are not used")
@@ -349,8 +350,8 @@ def _impact(
             problem = f"{off[worst]:.3g} m off its line at {names[frames[worst]]}, others {usual:.2g} m"
             raise InputError(where, None, "positions along straight lines", problem)
     check_times(gap)
+    end = float(np.median(distance[max(first, time.size - LEAST) :]) if sticks else distance[nearest])
     if sticks:
-        end = float(np.median(distance[max(first, time.size - LEAST) :]))
         if apart_still and not (rests and end < (1 + REACH) * solids):
             problem = f"end {end:.4g} m apart, before the films meet at {touch:.4g} m"
             problem += ", and stay there: is the scale, the diameter or the tracker off?" * rests
@@ -359,11 +360,11 @@ def _impact(
             problem = f"has {time.size - first} after they meet"
             raise InputError(where, None, f"at least {LEAST} frames after the films meet", problem)
         remarks.append(f"together to the end, {time[-1] - time[first]:.3g} s after they met: taken for a stick")
-        if apart_still or end < (1 - 2 * _RESTING) * solids - _CLEAR * sigma:
-            remarks.append(
-                f"its distance no longer changes at {end:.4g} m, where solids touch at {solids:.4g} m and films at "
-                f"{touch:.4g} m: look at the scale, the diameter and the tracker"
-            )
+    if (sticks and apart_still) or end < (1 - 2 * _RESTING) * solids - _CLEAR * sigma:
+        remarks.append(
+            f"its distance {'no longer changes' if sticks else 'is least'} at {end:.4g} m, where solids touch at "
+            f"{solids:.4g} m and films at {touch:.4g} m: look at the scale, the diameter and the tracker"
+        )
 
     sense = math.copysign(1.0, _flight(lines[0][0])[1])
 

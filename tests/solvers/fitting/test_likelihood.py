@@ -81,6 +81,29 @@ def test_gradient_is_that_of_differences(name: str, table: tuple):
         np.testing.assert_allclose(exact[:, k] / scale, slope / scale, atol=1e-6)
 
 
+@pytest.mark.parametrize("sd", [3e-3, 5e-4, 1e-4])
+def test_precise_results_leave_the_impact_that_has_them(sd: float):
+    """The likelihood of exact e_n and e_t is the density of the scatter there over their Jacobian, however exact.
+
+    The next term is of the order of the square of what they leave of the scatter.
+    """
+    scene, degrees, wide, step = Scene.load("lactose-pvp"), [55.0, 57.0, 63.0], 0.02, 1e-5
+    speed, angle = np.array([9.0, 17.0, 14.0]) / scene.stokes_per_speed, np.radians(degrees)
+    moves = step * np.array([[0, 0], [1, 0], [-1, 0], [0, 1], [0, -1]])[:, :, None]
+    names = ("restitution", "tangential_restitution")
+    found = collide_many(scene, speed=speed * (1 + wide * moves[:, 0]), angle=angle + wide * moves[:, 1], of=names,
+                         rtol=1e-12)  # fmt: skip
+    values = np.stack([found[name].values for name in names])
+    jacobian = np.stack([values[:, 1] - values[:, 2], values[:, 3] - values[:, 4]]) / (2 * step)
+    expected = -np.log(2 * np.pi) - np.log(np.abs(np.linalg.det(jacobian.transpose(2, 0, 1))))
+    observed = {name: (each[0], np.full(3, sd)) for name, each in zip(names, values, strict=True)}
+    data = Measurements(speed, angle, wide * speed, np.full(3, wide), np.full(3, -1, np.int8), observed)
+    likelihood, value = Likelihood(scene, ("liquid.viscosity",), data), np.array([scene.entries["liquid.viscosity"]])
+    likelihood.aim(value)
+    left = sd * np.linalg.norm(np.linalg.inv(jacobian.transpose(2, 0, 1)), axis=(1, 2))
+    np.testing.assert_array_less(np.abs(likelihood(value).plain - expected), left**2 + 0.05)
+
+
 def test_finer_integrals_change_little():
     """The integrals over the scatter agree with ones that are twice as fine."""
     scene = Scene.load("pendulum")

@@ -277,6 +277,13 @@ def crowd(film: Film) -> pd.DataFrame:
     return pd.concat([table, *others]).sort_values(["frame", "particle"], ignore_index=True)
 
 
+def test_films_keep_their_order(film: Film) -> None:
+    """Impacts come in the order of their films in the table, long or wide: the tenth is the last."""
+    many = pd.concat([pd.DataFrame(film).assign(impact=k) for k in range(1, 11)])
+    long = pd.concat([long_table(film).assign(impact=k) for k in range(1, 11)])
+    assert read(long).labels == read(many).labels == tuple(str(k) for k in range(1, 11))
+
+
 def test_of_several_the_two_that_meet_or_that_are_named(tmp_path: Path, film: Film) -> None:
     """Without an option those that meet; a track that goes on under another number is joined by "+"."""
     table = crowd(film)

@@ -177,3 +177,18 @@ def test_what_is_wrong_is_named() -> None:
         assert words in str(error.value).replace('"', "")
     with pytest.raises(InputError, match="strings"):
         tracks(film, "pendulum", rate=rate, scale=PIXEL)
+
+
+def test_spheres_that_would_overlap_are_said() -> None:
+    """Positions that are too small by a fifth have the centres nearer than solids touch; true ones have not."""
+    film, rate, scene, _ = film_of("lactose-pvp", 12, 40, 0.2, 1)
+    said = {share: " ".join(tracks(film, scene, rate=rate, scale=share * PIXEL).remarks) for share in (0.8, 1.0)}
+    assert "distance is least at" in said[0.8]
+    assert "is least" not in said[1.0]
+
+
+@pytest.mark.parametrize("scale_sd", [math.nan, -0.01, 1.0, "1 %"])
+def test_an_uncertainty_that_is_none_is_refused(scale_sd: object) -> None:
+    film, rate, scene, _ = film_of("lactose-pvp", 12, 40, 0.2, 1)
+    with pytest.raises(InputError, match="scale_sd"):
+        tracks(film, scene, rate=rate, scale=PIXEL, scale_sd=scale_sd)  # type: ignore[arg-type]
