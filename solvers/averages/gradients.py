@@ -29,9 +29,8 @@ def gradients(experiment: Experiment, pairs: int, batches: Sequence[Batch]) -> t
     Raises:
         ComputationError: the kernel has no derivatives of this scene.
     """
-    total = np.zeros(
-        (3, pairs, SLOPES, len(experiment.rows.names))
-    )  # by Kronrod's rule, and with Gauss's along either variable
+    entries = len(experiment.rows.names)
+    total = np.zeros((3, pairs, SLOPES, entries))  # by Kronrod's rule, and with Gauss's along either variable
     lost = np.zeros(total.shape[1:])
     for batch in batches:
         _add_integrands(experiment, batch, total, lost)

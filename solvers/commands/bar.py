@@ -78,10 +78,6 @@ class Bar:
         first, began = self._first
         return forecast(self.done, self.total, self.clock() - began, self.unit, before=first, **self._options)
 
-    def note(self, text: str) -> None:
-        if self.shown is not None:
-            self.shown.set_postfix_str(text)
-
     def __enter__(self) -> Bar:
         return self
 

@@ -63,7 +63,7 @@ def command(
         -o FILE (output): Write the report to FILE as well.
         --plot FILE.png: Draw the region e_n > 1 and its energy budget: .png, .pdf or .svg.
         --stress N: Instead: compare all engines on N scenes, drawn and beside boundaries [500].
-        --out DIR: Folder for records, tables and plots of --stress [stress].
+        --out DIR: Folder for record, tables and worst scenes of --stress [stress].
         --recompute: Make the symbolic verdicts again, though they are kept.
     """
     if stress is not None:

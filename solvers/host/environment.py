@@ -13,7 +13,7 @@ from .compiled import FLAGS
 from .compiler import compiler
 from .cores import usable_cores
 
-_PACKAGES = ("wetdoublet", "casadi", "numpy", "scipy", "heyoka", "scikit-sundae", "numba", "diffrax", "jax")
+_PACKAGES = ("wetdoublet", "casadi", "numpy", "scipy", "heyoka", "numba", "diffrax", "jax")
 
 
 @contextmanager

@@ -28,10 +28,7 @@ from .uncertainty import LEVELS, check_samples, deviations, normal_deviates, pos
 _BESIDE = 1e-6  # relative distance of the collisions that confirm a speed on both sides
 _NEAR, _FINE, _COARSE = 3.0, 100, 12  # factor about the speed within which draws are searched finely; samples a decade
 _WIDTH = 1e-5  # to which the speed of a draw is enclosed, relative
-_REACH, _PLACES = (
-    10.0,
-    21,
-)  # factor up to which an entry is followed for an extreme of the speed, and at how many values
+_REACH, _PLACES = 10.0, 21  # factor up to which an entry is followed for an extreme, and number of its values
 _STICK = OUTCOMES.index(STICK)
 
 

@@ -567,9 +567,7 @@ def test_35_those_that_separate_lose_more() -> None:
     """Where all stick in closed form: what rigid rotation keeps. Elsewhere beside the ledgers of single collisions."""
     body = bodies_of(GRANULATION)
     r = body.contact + body.film_thickness
-    stretch = (
-        r / body.contact
-    ) ** 2  # of the sideways velocity, squared: that of the centres over that of the surfaces
+    stretch = (r / body.contact) ** 2  # squared sideways velocity of the centres, over that of the surfaces
     closed = 1 - stretch / (1 + stretch) * r**2 / (r**2 + 6.4 * body.a**2)
     assert closed == pytest.approx(0.6206806, rel=1e-6)
     assert mean("granulation", "kinetic_energy_loss", 0.5) == pytest.approx(closed, rel=1e-9)
