@@ -76,7 +76,7 @@ class Rows:
         slopes = jacobian(stacked, column[: len(names)]) if names else SX(stacked.numel(), 0)
         self._map = Function("quantities", [column], [densify(stacked), densify(slopes)])
 
-    def lengths(self, known: Mapping[str, Any]) -> dict[str, Any]:
+    def lengths(self, by_quantity: Mapping[str, Any]) -> dict[str, Any]:
         """LENGTHS from quantities, where they are needed."""
         return {}
 

@@ -39,13 +39,13 @@ class Flights:
         names: of ARRIVING and what is measured of DEPARTING.
         reach: (rows,), distance of the centres (m) at which speeds and angles of the rows' scatter are taken.
         values: (names, rows), as measured.
-        given: (rows, names, names), error of a value that is expected by those of the values before it.
+        regression: (rows, names, names), error of a value that is expected by those of the values before it.
     """
 
     names: tuple[str, ...]
     reach: np.ndarray
     values: np.ndarray
-    given: np.ndarray
+    regression: np.ndarray
 
     @classmethod
     def of(
@@ -60,9 +60,9 @@ class Flights:
         """
         places = [list(FLIGHT).index(name) for name in measured]
         values, sd = (np.array(each) for each in zip(*measured.values()))
-        known = np.isfinite(values) & (sd > 0)
-        sd = np.where(known, sd, 1.0)
-        both = known.T[:, :, None] & known.T[:, None]
+        valid = np.isfinite(values) & (sd > 0)
+        sd = np.where(valid, sd, 1.0)
+        both = valid.T[:, :, None] & valid.T[:, None]
         rows = np.where(both, (1 - _ROUNDED) * correlation[:, places][:, :, places], 0.0)
         rows += np.eye(len(places)) * np.where(both, _ROUNDED, 1.0)
         try:
@@ -70,13 +70,13 @@ class Flights:
         except np.linalg.LinAlgError:
             raise InputError("data, column correlation", None, "a positive definite matrix", "is none") from None
         own = np.diagonal(lower, axis1=1, axis2=2)
-        given = np.eye(len(places)) - np.linalg.inv(lower / own[:, None])
-        given *= sd.T[:, :, None] / sd.T[:, None]
+        regression = np.eye(len(places)) - np.linalg.inv(lower / own[:, None])
+        regression *= sd.T[:, :, None] / sd.T[:, None]
         passing = values[1] + 3 * sd[1]  # a line that passes beyond has no angle there
-        return cls(tuple(measured), np.maximum(reach, passing), np.where(known, values, 0.0), given), sd * own.T
+        return cls(tuple(measured), np.maximum(reach, passing), np.where(valid, values, 0.0), regression), sd * own.T
 
     def part(self, which: np.ndarray) -> Flights:
-        return Flights(self.names, self.reach[which], self.values[:, which], self.given[which])
+        return Flights(self.names, self.reach[which], self.values[:, which], self.regression[which])
 
 
 class FlightRows(Rows):
@@ -86,15 +86,17 @@ class FlightRows(Rows):
         self.flights = flights
         super().__init__(*others)
 
-    def lengths(self, known: Mapping[str, Any]) -> dict[str, Any]:
-        ratio = known["radius_ratio"]
-        solids = known["reduced_radius"] * (1 + ratio) ** 2 / ratio
+    def lengths(self, by_quantity: Mapping[str, Any]) -> dict[str, Any]:
+        ratio = by_quantity["radius_ratio"]
+        solids = by_quantity["reduced_radius"] * (1 + ratio) ** 2 / ratio
         rupture: Callable[..., Any] = lambda: 1.0  # noqa: E731 -- the film's
         names: tuple[str, ...] = ()
         if self.scene.bridge is not None:
             rupture, names = formulas(self.scene)["rupture_gap"]
-        film = known["film_thickness"]
-        return dict(zip(LENGTHS, (solids, solids + film, solids + film * rupture(*(known[name] for name in names)))))
+        film = by_quantity["film_thickness"]
+        return dict(
+            zip(LENGTHS, (solids, solids + film, solids + film * rupture(*(by_quantity[name] for name in names))))
+        )
 
     def unchecked(self, values: np.ndarray) -> Experiment:
         return FlightExperiment(**vars(super().unchecked(values)))
@@ -135,13 +137,13 @@ class FlightExperiment(Experiment):
         arrival = self._arrival(row, speed, angle)
         at, by = _with_slopes(_at_contact, arrival)
         flown = bool(set(names) & set(DEPARTING))
-        there = self.collisions.results(
+        of_collision = self.collisions.results(
             _COLLIDED if flown else names, row, at[0], at[1], forward=forward, budget=budget
         )
         free = np.array([self.slopes[name][row] for name in LENGTHS])  # of the distances
         moved = np.einsum("cdn,dnp->cnp", by[:, :3], free)  # normal speed and angle at contact
-        of_contact = np.array([there.speed, there.angle])
-        value, by_free = there.value, there.free + np.einsum("crn,cnp->rnp", of_contact, moved)
+        of_contact = np.array([of_collision.speed, of_collision.angle])
+        value, by_free = of_collision.value, of_collision.free + np.einsum("crn,cnp->rnp", of_contact, moved)
         by_speed, by_angle = (np.einsum("crn,cn->rn", of_contact, by[:, k]) for k in (4, 5))
         if flown:
             first, at_first = _with_slopes(_approach, arrival)
@@ -159,7 +161,7 @@ class FlightExperiment(Experiment):
                 for k, slope in ((4, by_speed), (5, by_angle))
             )  # fmt: skip
             value, by_free, by_speed, by_angle = self._expected(names, row, value, by_free, by_speed, by_angle)
-        return replace(there, value=value, free=by_free, speed=by_speed, angle=by_angle)
+        return replace(of_collision, value=value, free=by_free, speed=by_speed, angle=by_angle)
 
     def _expected(
         self, names: tuple[str, ...], row: np.ndarray, value: np.ndarray, *slopes: np.ndarray
@@ -172,8 +174,8 @@ class FlightExperiment(Experiment):
         flights, row = self.rows.flights, row % self.rows.size
         places = [list(FLIGHT).index(name) for name in flights.names]
         which = [flights.names.index(name) for name in names]
-        own = (np.eye(len(places)) - flights.given)[row]
-        first = value[places] + np.einsum("njk,kn->jn", flights.given[row], flights.values[:, row] - value[places])
+        own = (np.eye(len(places)) - flights.regression)[row]
+        first = value[places] + np.einsum("njk,kn->jn", flights.regression[row], flights.values[:, row] - value[places])
         return [first[which], *(np.einsum("njk,kn...->jn...", own, each[places])[which] for each in slopes)]
 
 

@@ -87,50 +87,50 @@ def read_film(source: Any, particles: Any, solids: float, lengths: Units) -> Fil
         InputError: a table of no such kind; particles that are not there, or several pairs that meet.
     """
     kind, columns, lines = _table(source)
-    given = ", ".join(column.name for column in columns)
+    header = ", ".join(column.name for column in columns)
     words = [re.sub(r"\W+", "_", column.name.strip().lower()).strip("_") for column in columns]
     if "axis_3" in words:  # of napari: t, z, y, x
         words = [{"axis_2": "y", "axis_3": "x"}.get(word, word) for word in words]
     by_word: dict[str, Column] = {}
     for word, column in zip(words, columns):
         by_word[word] = _same(by_word.get(word, column), column)
-    known = {name: replace(by_word[word], name=name) for name, spelt in _SPELT.items()
+    by_name = {name: replace(by_word[word], name=name) for name, spelt in _SPELT.items()
              for word in [next((each for each in spelt.split() if each in by_word), None)] if word}  # fmt: skip
     if not kind:
         kind = next((name for name, some in _KINDS.items() if some <= by_word.keys()), "")
-    if long := {"x", "y"} <= known.keys():
-        known, lines = _below_names(known, lines)
-        if not {"frame", "time"} & known.keys():
-            raise InputError("tracks", given, _ACCEPTED, "has no frame and no time")
+    if long := {"x", "y"} <= by_name.keys():
+        by_name, lines = _below_names(by_name, lines)
+        if not {"frame", "time"} & by_name.keys():
+            raise InputError("tracks", header, _ACCEPTED, "has no frame and no time")
         kind = kind or "a long table, a row for each particle and frame"
-        names = known["particle"].cells if "particle" in known else None
-        table = _as_long(known, {"": ("x", "y")}, names, lines)
+        names = by_name["particle"].cells if "particle" in by_name else None
+        table = _as_long(by_name, {"": ("x", "y")}, names, lines)
     else:
         bodies = _bodies(words)
         if len(bodies) < 2:
             lack = [f"has no {name}" for name in PLACES if name not in words]
-            raise InputError("tracks", given, _ACCEPTED, lack[0] if 1 <= len(lack) < 4 else "is none of these")
-        if not {"frame", "time"} & known.keys() and len(words) == 2 * len(bodies):
-            known["frame"] = Column("frame", None, list(range(len(lines))))
+            raise InputError("tracks", header, _ACCEPTED, lack[0] if 1 <= len(lack) < 4 else "is none of these")
+        if not {"frame", "time"} & by_name.keys() and len(words) == 2 * len(bodies):
+            by_name["frame"] = Column("frame", None, list(range(len(lines))))
     every = [each for each in dict.fromkeys(table.particle) if each] if long else list(bodies)
-    linked = long and ("particle" not in known or len(every) == 1)  # TrackMate's track of two that merge
+    linked = long and ("particle" not in by_name or len(every) == 1)  # TrackMate's track of two that merge
     if long and len(every) == 1:
         table, every = _linked(table), ["1", "2"]
     pair, of_films = _chosen(every, particles), ""
     if pair is None:
-        table = table if long else _as_long(known | by_word, bodies, None, lines)
-        distance = solids / lengths(known["x"] if long else by_word[bodies[every[0]][0]])
+        table = table if long else _as_long(by_name | by_word, bodies, None, lines)
+        distance = solids / lengths(by_name["x"] if long else by_word[bodies[every[0]][0]])
         table, pair, of_films = _meeting(table, distance)
-    shared: dict[str, Column] = {name: known[name] for name in ("frame", "time", "impact") if name in known}
+    shared: dict[str, Column] = {name: by_name[name] for name in ("frame", "time", "impact") if name in by_name}
     if long:
-        one, two = (table[table.particle.isin(each)] for each in pair)
-        both = one.merge(two, how="outer", on=["at", "film"], suffixes=("1", "2"))
+        first, second = (table[table.particle.isin(each)] for each in pair)
+        both = first.merge(second, how="outer", on=["at", "film"], suffixes=("1", "2"))
         both = both.iloc[np.argsort(both.row1.fillna(both.row2))]  # films as they come in the table
         rows = both.row1.fillna(both.row2).astype(int).tolist()
         shared = {name: replace(each, cells=[each.cells[k] for k in rows]) for name, each in shared.items()}
         for place in PLACES:
-            cells = [None if k != k else known[place[0]].cells[int(k)] for k in both[f"row{place[1]}"]]
-            shared[place] = replace(known[place[0]], name=place, cells=cells)
+            cells = [None if k != k else by_name[place[0]].cells[int(k)] for k in both[f"row{place[1]}"]]
+            shared[place] = replace(by_name[place[0]], name=place, cells=cells)
         lines = [lines[k] for k in rows]
     else:
         four = [word for body in pair for word in bodies[body[0]]]
@@ -143,7 +143,7 @@ def read_film(source: Any, particles: Any, solids: float, lengths: Units) -> Fil
     how = ", linked from frame to frame by their distance" if linked else ""
     where = f", positions in {shared['x1'].unit}" if shared["x1"].unit else ""
     remark = f"the table was taken for {kind or 'two paths side by side'}{which}{how}{where}"
-    return Film(shared, lines, remark, given)
+    return Film(shared, lines, remark, header)
 
 
 def with_one_clock(film: Film, rate: float | None, times: Units) -> Film:
@@ -249,24 +249,24 @@ def _from_xml(text: str, source: str) -> dict[str, list[Any]]:
     return {name: list(each) for name, each in zip(header, zip(*rows)) if name != "t [frame]"}
 
 
-def _below_names(known: dict[str, Column], lines: list[int]) -> tuple[dict[str, Column], list[int]]:
+def _below_names(by_name: dict[str, Column], lines: list[int]) -> tuple[dict[str, Column], list[int]]:
     """The columns of a long table without TrackMate's three rows of names, the last of which has the units."""
-    clocks = [known[name].cells for name in ("x", "frame", "time") if name in known]
+    clocks = [by_name[name].cells for name in ("x", "frame", "time") if name in by_name]
     names = 0
     while names < min(3, len(lines)) and all(math.isnan(_number(each[names])) for each in clocks):
         names += 1
-    for name, column in known.items():
+    for name, column in by_name.items():
         below = re.fullmatch(r"\s*\((.+)\)\s*", str(column.cells[names - 1])) if names else None
         unit = below[1] if below else column.unit
-        known[name] = replace(column, cells=column.cells[names:], unit=_UNITS.get((unit or "").lower(), unit))
-    time = known.get("time")
+        by_name[name] = replace(column, cells=column.cells[names:], unit=_UNITS.get((unit or "").lower(), unit))
+    time = by_name.get("time")
     whole = (
-        time and time.unit is None and "frame" not in known and not any(_number(cell) % 1 > 0 for cell in time.cells)
+        time and time.unit is None and "frame" not in by_name and not any(_number(cell) % 1 > 0 for cell in time.cells)
     )
     if time and (time.unit == "frame" or whole):  # napari
-        del known["time"]
-        known.setdefault("frame", replace(time, name="frame", unit=None))
-    return known, lines[names:]
+        del by_name["time"]
+        by_name.setdefault("frame", replace(time, name="frame", unit=None))
+    return by_name, lines[names:]
 
 
 def _bodies(words: Iterable[str]) -> dict[str, tuple[str, str]]:
@@ -279,20 +279,20 @@ def _bodies(words: Iterable[str]) -> dict[str, tuple[str, str]]:
 
 
 def _as_long(
-    known: Mapping[str, Column], bodies: Mapping[str, tuple[str, str]], names: list[Any] | None, lines: list[int]
+    by_name: Mapping[str, Column], bodies: Mapping[str, tuple[str, str]], names: list[Any] | None, lines: list[int]
 ) -> pd.DataFrame:
     """A row for each particle and frame: film, at, particle, x, y, and the row of the table."""
     import pandas as pd
 
     rows = range(len(lines))
-    clock = known.get("frame") or known.get("time") or Column("", None, list(rows))
+    clock = by_name.get("frame") or by_name.get("time") or Column("", None, list(rows))
     at = [_number(cell) for cell in clock.cells]
     for k in (k for k in rows if not math.isfinite(at[k])):
         raise InputError(f"tracks, line {lines[k]}, column {clock.name}", clock.cells[k], "a number")
-    films = pd.factorize(np.array([_name(each) for each in known["impact"].cells]))[0] if "impact" in known else 0
+    films = pd.factorize(np.array([_name(each) for each in by_name["impact"].cells]))[0] if "impact" in by_name else 0
     parts = [
         pd.DataFrame({"film": films, "at": at, "particle": body if names is None else [_name(each) for each in names],
-                      **{axis: [_number(cell) for cell in known[word].cells] for axis, word in zip("xy", both)},
+                      **{axis: [_number(cell) for cell in by_name[word].cells] for axis, word in zip("xy", both)},
                       "row": rows}) for body, both in bodies.items()
     ]  # fmt: skip
     table = pd.concat(parts)
@@ -337,8 +337,8 @@ def _meeting(table: pd.DataFrame, solids: float) -> tuple[pd.DataFrame, tuple[li
     if meet and all(len(each) == 1 for each in films) and table.particle.index.is_unique:
         number = {(film, name): str(k + 1) for film, each in enumerate(films) for k, name in enumerate(each[0])}
         names = [number.get(each, "") for each in zip(table.film, table.particle)]
-        told = "; ".join(" and ".join(each[0]) for each in films[:6]) + " ..." * (len(films) > 6)
-        return table.assign(particle=names), (["1"], ["2"]), told
+        text = "; ".join(" and ".join(each[0]) for each in films[:6]) + " ..." * (len(films) > 6)
+        return table.assign(particle=names), (["1"], ["2"]), text
     accepted = 'two that meet, or particles="A,B" (--particles); "A+C,B" if the tracker goes on with A as C'
     several = "; ".join(f"{a},{b}" for a, b in meet[:6]) + " ..." * (len(meet) > 6)
     nowhere = "come near each other nowhere: do their tracks break, or is the scale off?"
@@ -358,7 +358,7 @@ def _near(table: pd.DataFrame, solids: float) -> list[tuple[str, str]]:
             pair = (min(names[j], names[k]), max(names[j], names[k]))
             nearest[pair] = min(float(math.dist(places[j], places[k])), nearest.get(pair, math.inf))
     meet = [pair for pair, distance in nearest.items() if distance >= low]
-    return [(one, two) for one, two in meet if len(frames[one] & frames[two]) >= LEAST]
+    return [pair for pair in meet if len(frames[pair[0]] & frames[pair[1]]) >= LEAST]
 
 
 def _calibrated(columns: dict[str, Column], solids: float) -> dict[str, Column]:

@@ -168,23 +168,25 @@ def tracks(
     pixel = None if scale is None else _size(scale, "m", "scale", plain=None)
     per_frame = None if rate is None else 1 / _size(rate, "1/s", "rate")
     radii = 2 * loaded.particles.reduced_radius * (1 + loaded.radius_ratio)
-    found = read_film(film, particles, radii, lambda column: _factor(column, "m", pixel, "scale"))
-    found = with_one_clock(found, per_frame and 1 / per_frame, lambda column: _factor(column, "s", None, ""))
-    known, lines = found.columns, found.lines
-    per_frame = None if "time" in known else per_frame
-    coordinates = [_numbers(known[name], lines, "m", pixel, "scale", gaps=True) for name in PLACES]
+    paths = read_film(film, particles, radii, lambda column: _factor(column, "m", pixel, "scale"))
+    paths = with_one_clock(paths, per_frame and 1 / per_frame, lambda column: _factor(column, "s", None, ""))
+    columns, lines = paths.columns, paths.lines
+    per_frame = None if "time" in columns else per_frame
+    coordinates = [_numbers(columns[name], lines, "m", pixel, "scale", gaps=True) for name in PLACES]
     positions = np.stack(coordinates, axis=1)
-    unit = _factor(known["x1"], "m", pixel, "scale")
+    unit = _factor(columns["x1"], "m", pixel, "scale")
     rounding = _rounding(positions / unit) * unit * math.sqrt(2)  # of a relative coordinate
 
     given = None if noise is None else math.sqrt(2) * _size(noise, "m", "noise", pixel=pixel, plain=unit)
     gap = None if near is None else _size(near, "m", "near", pixel=pixel, plain=None)
-    clock = known.get("time") or known.get("frame")
+    clock = columns.get("time") or columns.get("frame")
     if clock is None:
-        raise InputError("tracks", found.header, "a column frame, or time [s]", "has no time")
+        raise InputError("tracks", paths.header, "a column frame, or time [s]", "has no time")
     time = _numbers(clock, lines, "s", per_frame, "rate" * (clock.name == "frame"))
     unit_of_clock = f" {clock.unit}" if clock.unit and clock.name == "time" else ""
-    films = np.array([str(each) for each in known["impact"].cells] if "impact" in known else ["1"] * time.size, object)
+    films = np.array(
+        [str(each) for each in columns["impact"].cells] if "impact" in columns else ["1"] * time.size, object
+    )
     reaches = radii, radii + loaded.liquid.film_thickness, radii + loaded.rupture_gap
     rows, sigmas, remarks, labels, left_out = [], [], [], list[str](), list[InputError]()
     for label in dict.fromkeys(films.tolist() or ["1"]):
@@ -213,12 +215,12 @@ def tracks(
         remarks += [f"impact {label}: {each}" for each in said]
     if not rows:
         raise left_out[0]
-    remarks.append(found.remark)
+    remarks.append(paths.remark)
     if rate is not None and per_frame is None:
         why = "the times are those of the column time. With a column frame the rate counts"
         remarks.append(f"the rate {rate} is not used: {why}")
-    if scale is not None and known["x1"].unit not in _PIXELS:
-        remarks.append(f"the scale {scale} is not used for the positions: these are in {known['x1'].unit}")
+    if scale is not None and columns["x1"].unit not in _PIXELS:
+        remarks.append(f"the scale {scale} is not used for the positions: these are in {columns['x1'].unit}")
     gaps = f"x0 = {1e6 * loaded.liquid.film_thickness:.4g} um and x_f = {1e6 * loaded.rupture_gap:.4g} um"
     remarks.append(
         f"Speed, angle, e_n, e_t, contact time and rotation are those at the scene's gaps, {gaps}; no standard "

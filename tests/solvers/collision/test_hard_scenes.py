@@ -53,4 +53,4 @@ def test_a_batch_says_the_same() -> None:
     for row in list(ROWS.values())[:4]:
         many = collide_many(scene_of(row), engine="taylor")
         assert ("stick", "stick-rotate-separate", "bounce")[int(many.outcome[0])] == row["outcome"]
-    assert np.isfinite(many.restitution.values).all()
+        assert np.isfinite(many.restitution.values).all()

@@ -223,7 +223,7 @@ def test_a_collision_is_located_once_for_both_engines(monkeypatch: pytest.Monkey
 def test_an_interrupt_keeps_what_is_judged(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """Ctrl-C before the last case: earlier blocks are in the report, the last line counts them, and the status is 130."""
+    """Ctrl-C before the last case: earlier blocks are in the report, the last line counts them, the status is 130."""
     usual, verdicts = stress_test.judge, []
 
     def interrupted(case: Any) -> Any:
