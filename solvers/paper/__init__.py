@@ -55,7 +55,7 @@ def reproduce(which: Sequence[str], folder: Path, *, progress: Progress | None =
         rest, file = ", ".join(which[len(parts) :]), folder / "report.md"
         stopped = KeyboardInterrupt(f"interrupted: {len(parts)} of {len(which)} parts are in {file}; without {rest}")
     ours, date = f"wetdoublet {version('wetdoublet')}", time.strftime("%Y-%m-%d", time.gmtime())
-    how = f"Computed by {ours} in one run on {date}; none of our numbers is typed in."
+    how = f"Computed by {ours} in one run on {date}; what is quoted names its source."
     written = write_all_in(folder, report(TITLE, blocks(parts, how)))
     if stopped is not None:
         raise stopped

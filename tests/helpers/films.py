@@ -102,7 +102,7 @@ def lossy(film: dict[str, np.ndarray], lost: object) -> dict[str, np.ndarray]:
 def pushed(
     film: dict[str, np.ndarray], diameter: float, most: float = 3.5 / 24, reach: float = 0.4
 ) -> dict[str, np.ndarray]:
-    """The film as trackpy 0.7 with its preprocessing has it: centres pushed apart, by 3.5 px of 24 where they touch.
+    """The film of a tracker that pushes near discs apart, as the preprocessing of trackpy does.
 
     Arguments:
         diameter: px.
