@@ -241,7 +241,6 @@ class Atlas(Boundaries):
         at: x of the lines; `angles` are their impact angles.
         curves, points: boundaries, and points where they meet, have a fold or change in kind.
         unsettled: places (x, St) where collisions and curves disagree, with the reason.
-        sought: resolution of the search by lattice and lines.
         lattice: columns and rows of the lattice; fewer without a kernel for the scene.
 
     Example:
