@@ -99,10 +99,10 @@ MUTANTS = {
         'restitution=1.3*outputs["restitution"] if separated',
         "test_conservation.py::test_restitution_stays_below_its_ceiling",
     ),
-    "a pair of heavier spheres": Mutant(
-        "derive/physics/partners/bodies.py",
-        "sp.factor(equal_sphere * mass * radius**2)",
-        "sp.factor(sp.Rational(101, 100) * equal_sphere * mass * radius**2)",
+    "a partner that is too large": Mutant(
+        "solvers/scene/quantities.py",
+        '{"radius_ratio": radius_ratio, "mass_ratio": mass_ratio}',
+        '{"radius_ratio": 1.01 * radius_ratio, "mass_ratio": mass_ratio}',
         "test_symmetries.py::test_a_partner_equal_to_the_sphere_is_the_sphere",
     ),
     "a heavier wall": Mutant(
