@@ -1,5 +1,6 @@
 """Collisions in the plane and in space beside a reference in Cartesian vectors, written from the documents."""
 
+import math
 from dataclasses import replace
 
 import numpy as np
@@ -22,9 +23,9 @@ PAIRS = [each for each in STRUCTURES if not (each["strings"] or (each["partner"]
 pytestmark = pytest.mark.filterwarnings("ignore::wetdoublet.solvers.ModelWarning")
 
 
-def followed(scan: Scan) -> Outcome:
-    """The reference's end; what it does not decide soon is no example."""
-    scan.most = 1500
+def followed(scan: Scan, finer: float = 1.0) -> Outcome:
+    """The reference's end, with steps so many times as accurate; what it does not decide soon is no example."""
+    scan.most, scan.accuracy = 1500, scan.accuracy / finer
     try:
         return scan.run()
     except UndecidedError:
@@ -44,6 +45,8 @@ def test_equals_the_reference(structures: list[Structure], data: st.DataObject) 
     assert collision.outcome == end.outcome
     if end.outcome == "stick":
         return
+    again = followed(scan_of(scene, rtol=1e-11), 10.0)
+    assume(math.isclose(end.time, again.time, rel_tol=1e-7))  # pairs that roll at rest for long are not resolved by it
     assert [event.kind for event in collision.events] == [kind for kind, _ in end.events]
     scale = computed.slopes["restitution"] + 1.0
     assert collision.restitution == pytest.approx(end.restitution, abs=3e-8 * scale)

@@ -137,7 +137,7 @@ class Scan:
         self.inside, self.sheared = True, b.edge >= b.film_thickness
         self.closing, self.resting = True, False
         self.sliding = 0.0  # in resting contact with friction: the sign of the slip (in space: 1); 0 while rolling
-        self.t, self.steps, self.most = 0.0, 0, STEPS
+        self.t, self.steps, self.most, self.accuracy = 0.0, 0, STEPS, ACCURACY
         self.result = Outcome()
 
     # ---- mechanics
@@ -464,7 +464,7 @@ class Scan:
             [1e-6 * self.y[X], *3 * [1e-2], *3 * [1e-2 * self.v0], *6 * [1e-2 * self.fastest() / b.radii[0]]]
         )
         first = 1e-6 * self.y[X] / (abs(self.opening(self.y)) + 1e-6 * self.v0)
-        solver = LSODA(self.rates, self.t, self.y, math.inf, first, rtol=ACCURACY, atol=ACCURACY * sizes)
+        solver = LSODA(self.rates, self.t, self.y, math.inf, first, rtol=self.accuracy, atol=self.accuracy * sizes)
         before = None
         while solver.status == "running":
             self.steps += 1
