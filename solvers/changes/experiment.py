@@ -321,5 +321,5 @@ def _value(answers: np.ndarray, name: str) -> np.ndarray:
 def _without_derivatives() -> ComputationError:
     return ComputationError(
         "derivatives by the compiled kernel are needed, which this scene or machine has not",
-        advice="install a C compiler, or leave out laws that have no derivative",
+        advice="install a C compiler, or leave out declared events and laws that have no derivative",
     )

@@ -214,7 +214,9 @@ def _one_header(text: str) -> tuple[str, str]:
             kind = _TRACKER if text.lstrip().lower().startswith("#multi") else "bodies side by side"
             return kind, "\n".join([*[""] * k, separator.join(names), *lines[k + 1 :]])
         filled = [next((each for each in cells[j::-1] if each), "") for j in range(len(cells))]
-        above = [re.sub(r"\W+", "_", f"{name}_{each}".strip("_")) for name, each in zip(above or [""] * 999, filled)]
+        above = [
+            re.sub(r"\W+", "_", f"{name}_{each}".strip("_")) for name, each in zip(above or [""] * len(filled), filled)
+        ]
     return "", text
 
 
