@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -15,6 +15,7 @@ from .call import CHUNK, Impacts, in_chunks, task, variant
 from .headers import has_events
 from .layout import ANSWER, HAPPENING, LEDGER, OWN_LEDGER, number, step_row
 from .source import Variant
+from .undecided import no_kernel
 
 _ROOM = 64, 256  # events and steps of a collision
 
@@ -88,8 +89,9 @@ def run_recorded(
     peaks: bool = False,
     events: bool = True,
     room: tuple[int, int] = _ROOM,
-) -> Recorded | None:
-    """Trajectories of impacts, all oblique or all head-on, with the angle turned; None if no kernel is available.
+    until: float | None = None,
+) -> Recorded:
+    """Trajectories of impacts, all oblique or all head-on, with the angle turned; ComputationError without a kernel.
 
     Arguments:
         ledger: also the energy ledger; the spin is then a state of its own.
@@ -101,11 +103,13 @@ def run_recorded(
         peaks: also the largest margin of the glass criterion; only with a trajectory.
         room: events and steps of a collision that there is room for; where that is not enough, all are integrated
             again.
+        until: time (x0/v0) to which a single collision is followed, a stick beyond its proof.
     """
     wanted = variant_to_record(impacts.scene, oblique, rtol, ledger, trajectory, fold)
+    wanted = wanted if until is None else replace(wanted, limit=True, lanes=1)
     library = kernel(wanted)
     if library is None:
-        return None
+        raise no_kernel()
     size, keep = impacts.angle.size, keep and trajectory
     margins = np.full(size, -np.inf) if peaks else None
     log_room, step_room = room[0] * events, room[1] * size
@@ -115,6 +119,7 @@ def run_recorded(
         rows = np.empty(step_room, step_row(library)) if keep else None  # the kernel counts the rows that it fills
         one = task(library, impacts, rtol, budget, answers)
         one.number("purpose", purpose)
+        one.number("until", until or 0.0)
         if events:
             one.buffer("log", log)
         one.buffer("books", books)
