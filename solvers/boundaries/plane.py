@@ -9,7 +9,6 @@ import numpy as np
 from ...generated.automaton import LAST_ANSWER, Purpose
 from ..engines.taylor.call import run_kernel
 from ..engines.taylor.record import run_recorded
-from ..engines.taylor.undecided import no_kernel
 from ..errors import ComputationError, InputError
 from ..host.cores import usable_cores
 from ..many.batch import Batch, ascending, checked_numbers, checked_vary
@@ -99,8 +98,6 @@ class Plane:
         impacts, sound = impacts_of(self._request(points))
         self.collisions += sound.size
         answers = run_kernel(impacts, self.rtol, threads=usable_cores() if sound.size > _THREADED else 1)
-        if answers is None:
-            raise no_kernel()
         outcome, reversal = np.full(sound.size, -1), np.full(sound.size, -1)
         outcome[sound] = np.where(answers["status"] <= LAST_ANSWER, answers["outcome"], -1)
         reversal[sound] = answers["reversal"]
