@@ -18,7 +18,7 @@ Graph = dict[str, set[str]]
 ORDER = (
     "derive.vocabulary", "derive.physics", "derive.equations", "derive.user", "derive.emit", "derive.checks",
     "generated", "solvers.errors", "solvers.host", "solvers.formatting", "solvers.scene",
-    "solvers.model", "solvers.certificates", "solvers.engines", "solvers.collision", "solvers.many",
+    "solvers.model", "solvers.engines", "solvers.collision", "solvers.many",
     "solvers.proofs", "solvers.space", "solvers.changes", "solvers.boundaries", "solvers.sensitivity",
     "solvers.averages", "solvers.fitting", "solvers.planning", "solvers.verify", "solvers.export",
     "solvers.explorer", "solvers.paper", "solvers.bindings", "solvers.commands", "solvers",

@@ -73,8 +73,8 @@ def collide(
     collision at STEEPEST.
 
     Arguments:
-        locating: leave collisions undecided that take long; others that the kernel does not complete go to an engine
-            that does, NaN where none does.
+        locating: leave collisions undecided that take long, without their results. Otherwise these are NaN where the
+            kernel does not decide a collision.
 
     Raises:
         ComputationError: there is no compiled kernel.
@@ -94,14 +94,8 @@ def collide(
     if not locating:
         rates = rates_of(experiment.scene, answers, experiment.impacts(pair, normal, within))
         spins = np.stack([rates[name] for name in _RESULTS[2:]])
-    late = np.flatnonzero(~decided)
-    if late.size and not locating:
-        block = experiment.completed(pair[late], normal[late], within[late], _RESULTS)
-        known = block["outcome"] >= 0
-        label[late] = np.where(known, block["outcome"].astype(np.int64) * _CRITERIA * _EVENTS * 2, UNDECIDED)
-        completed = np.where(known, np.nan_to_num([block[name] for name in _RESULTS]), np.nan)
-        found[:, late], spins[:, late] = completed[:2], completed[2:]
-        outcome[late] = block["outcome"]
+        found[:, ~decided] = spins[:, ~decided] = np.nan
+        outcome[~decided] = UNDECIDED
     found[0] *= flatter
     if locating:
         return Collided(label, found)

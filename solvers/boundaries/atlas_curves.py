@@ -21,9 +21,7 @@ from .result import LATTICE, Atlas, Curve, Point
 from .survey import Survey, lattice, passes, surveyed
 from .trace import Traced, trace
 
-# Columns and rows of the lattice, and number of random collisions for verification; with the kernel, and where
-# collisions are integrated one by one.
-BY_KERNEL, BY_ROSENBROCK = (*LATTICE, 4096), (17, 49, 256)
+_RANDOM = 4096  # random collisions for verification
 _ROUNDS = 3  # rounds of refinement where results disagree
 _FINER_ROWS, _MORE = 769, 12  # rows of a column through a collision that disagrees; most columns per round
 _AGREES = 1e-6  # tolerance in ln St between a line and a curve
@@ -33,7 +31,7 @@ _NEAR = 2 * CHORD  # collisions closer to a curve are not compared, relative to 
 
 def curves_of(plane: Plane, lines: int, tell: Callable[[int, int], None]) -> Atlas:
     """The boundaries of a plane, found from a lattice of collisions and `lines` seed lines."""
-    at, labels = lattice(plane, *(BY_KERNEL if plane.kernel else BY_ROSENBROCK)[:2])
+    at, labels = lattice(plane, *LATTICE)
     x = np.linspace(*plane.span, lines)
     traced = _lines(plane, x, tell)
     survey = surveyed(plane, at, labels, _changes(plane, x, traced))
@@ -62,14 +60,14 @@ def _changes(plane: Plane, x: np.ndarray, traced: Traced) -> list[tuple[np.ndarr
 
 def _settled(plane: Plane, survey: Survey, x: np.ndarray, traced: Traced, at: np.ndarray, labels: np.ndarray) -> Atlas:
     """The verified boundaries of a survey, after refinement where collisions disagree with it."""
-    random = np.random.default_rng(20121).random(((BY_KERNEL if plane.kernel else BY_ROSENBROCK)[2], 2))
+    random = np.random.default_rng(20121).random((_RANDOM, 2))
     points = np.vstack([at.reshape(-1, 2), random])
-    outcomes = np.concatenate([labels.ravel(), plane.seen(random, most=0)[0]])
-    middle = _known_along(plane, at[:, at.shape[1] // 2], labels[:, labels.shape[1] // 2])
+    outcomes = np.concatenate([labels.ravel(), plane.labels(random)])
+    column, middle = _along(plane, at, labels)
     for attempt in range(_ROUNDS + 1):
         pieces = [monotone(plane, arc) for arc in survey.arcs]
         arcs = refined(plane, [part for parts, _ in pieces for part in parts], ascending=True)
-        regions = slabs(arcs, at[:, 0, 0], middle)
+        regions = slabs(arcs, column, middle)
         wrong = _wrong(arcs, regions, points, outcomes)
         if attempt == _ROUNDS or not wrong.size:
             break
@@ -92,18 +90,14 @@ def _settled(plane: Plane, survey: Survey, x: np.ndarray, traced: Traced, at: np
     return _made(plane, parts, places, unsettled, x, traced, int(middle[middle.size // 2]), labels.shape)
 
 
-def _known_along(plane: Plane, points: np.ndarray, outcomes: np.ndarray) -> np.ndarray:
-    """Outcomes at points, unknown ones (-1) computed once more; ComputationError where that fails."""
-    result = outcomes.copy()
-    for k in np.flatnonzero(result < 0).tolist():
-        result[k] = plane.seen(points[k : k + 1], most=1)[0][0]
-        if result[k] < 0:
-            x, stokes = float(plane.x(points[k])), float(plane.stokes_at(points[k]))
-            raise ComputationError(
-                f"no collision could be computed at {plane.over} = {x:.6g}, St {stokes:.6g}, needed there",
-                advice="try another span, or other Stokes numbers",
-            )
-    return result
+def _along(plane: Plane, at: np.ndarray, labels: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Where outcomes are known in the middle row of a lattice, and these; ComputationError where none is."""
+    row = labels.shape[1] // 2
+    known = labels[:, row] >= 0
+    if not known.any():
+        stokes = float(plane.stokes_at(at[0, row]))
+        raise ComputationError(f"no collision could be computed at St {stokes:.6g}", advice="try other Stokes numbers")
+    return at[known, row, 0], labels[known, row]
 
 
 def _wrong(arcs: list[Arc], regions: list[Slab], points: np.ndarray, outcomes: np.ndarray) -> np.ndarray:

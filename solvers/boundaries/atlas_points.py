@@ -7,15 +7,16 @@ from itertools import pairwise
 
 import numpy as np
 
-from ..errors import ComputationError
+from ...generated.automaton import Purpose
+from ..engines.taylor.call import Impacts
+from ..engines.taylor.record import run_recorded
 from ..model.dimensionless import nondimensionalise
 from ..model.model import load, select_model
 from .arcs import Arc
+from .barrier import Potential
 from .changes import FREE, GRAZE, REVERSED
 from .continuation import crossings
-from .line import WITHOUT_SOLIDS, UnstoppedTrajectory
 from .plane import ANGLE, Plane
-from .saddle import barrier_of
 from .survey import Meeting
 
 TRIPLE, FOLD, CROSSING, CORNER = "triple point", "fold", "crossing", "corner"
@@ -65,7 +66,7 @@ def _codes(plane: Plane, arc: Arc, at: np.ndarray) -> np.ndarray:
     if 2 not in (arc.right, arc.left):
         return np.zeros(len(at), dtype=int)
     aside = BESIDE * _normals(arc, at) * (1 if arc.left == 2 else -1)
-    labels, reversal = plane.seen(np.clip(at + aside, 0, 1), most=0)
+    labels, reversal = plane.seen(np.clip(at + aside, 0, 1))
     criterion = np.where(labels == 2, reversal, -2)
     codes: np.ndarray = 1 + np.maximum(criterion, 0)
     known = criterion >= 0
@@ -140,13 +141,12 @@ def _between(plane: Plane, arc: Arc, one: np.ndarray, other: np.ndarray, count: 
 
 def _at_barriers(plane: Plane, stretch: Stretch, points: list[tuple[str, np.ndarray]]) -> list[Stretch]:
     """An escape boundary split where the barrier reaches the rupture gap."""
-    arc = stretch.arc
-    if stretch.kind == GRAZE or plane.scene.bridge is None:
+    arc, scene = stretch.arc, plane.scene
+    if stretch.kind == GRAZE or scene.bridge is None or scene.pendulum is not None:
         return [stretch]
     inner = np.unique(np.linspace(0, len(arc.points) - 1, _LOOKS).round().astype(int))[1:-1]
-    seen = [(int(k), _passes_saddle(plane, arc.points[k], stretch.kind == REVERSED)) for k in inner]
-    known = [(k, saddle) for k, saddle in seen if saddle is not None]
-    for (k, before), (last, after) in pairwise(known):
+    saddles = [_passes_saddle(plane, arc.points[k]) for k in inner]
+    for (k, before), (last, after) in pairwise(zip(inner.tolist(), saddles, strict=True)):
         if before != after:
             one, other = arc.points[k], arc.points[last]
             while np.linalg.norm(other - one) > _AT:
@@ -155,10 +155,9 @@ def _at_barriers(plane: Plane, stretch: Stretch, points: list[tuple[str, np.ndar
                 reach = np.array([max(1e-3 * abs(other[0] - one[0]), 1e-4)])
                 middle = crossings(plane.labels, guess, np.array([[0.0, 1.0]]), reach, np.array([arc.right]),
                                    np.array([arc.left]))[0]  # fmt: skip
-                saddle = None if np.isnan(middle).any() else _passes_saddle(plane, middle, stretch.kind == REVERSED)
-                if saddle is None:
+                if np.isnan(middle).any():
                     return [stretch]
-                one, other = (middle, other) if saddle == before else (one, middle)
+                one, other = (middle, other) if _passes_saddle(plane, middle) == before else (one, middle)
             place = 0.5 * (one + other)
             points.append((RIM, place))
             j = int(np.searchsorted(arc.points[:, 0], place[0]))
@@ -168,18 +167,16 @@ def _at_barriers(plane: Plane, stretch: Stretch, points: list[tuple[str, np.ndar
     return [stretch]
 
 
-def _passes_saddle(plane: Plane, place: np.ndarray, rebound: bool) -> bool | None:
-    """True if an escape passes a barrier below the rupture gap; None if unknown."""
+def _passes_saddle(plane: Plane, place: np.ndarray) -> bool:
+    """True if an escape passes a saddle, and not the rim at the rupture gap."""
     scene, angle = plane.scene_at(float(plane.x(place)))
     n = nondimensionalise(scene, scene.speed_of(float(plane.stokes_at(place))), angle)
-    groups = n.groups if rebound else n.groups | WITHOUT_SOLIDS
-    try:
-        probe = UnstoppedTrajectory(load(select_model(scene, n.oblique)), groups, plane.rtol)
-        probe.run()
-        barrier = barrier_of(probe)
-    except ComputationError:
-        return None
-    return None if barrier is None else bool(barrier.gap < groups["rupture_gap"] * (1 - 1e-12))
+    model = load(select_model(scene, n.oblique))
+    impact = Impacts(scene, np.array([n.speed]), np.array([n.angle]), {})
+    ran = run_recorded(impact, n.oblique, plane.rtol, trajectory=True, purpose=Purpose.ESCAPE, fold=False, events=False)
+    assert ran.steps is not None
+    end = ran.steps.states(ran.answers["time"])[:, 0]
+    return Potential(model, model.group_values(n.groups), plane.rtol).passes_saddle(end)
 
 
 def named(

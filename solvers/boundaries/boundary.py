@@ -6,7 +6,6 @@ from typing import Any
 
 import numpy as np
 
-from ..engines.choice import collision_engine
 from ..engines.settings import RTOL, check_rtol
 from ..errors import InputError
 from ..host.arguments import check_function, check_whole
@@ -20,7 +19,7 @@ from .trace import Traced, traces
 from .window import stokes_range
 
 _LARGEST = 1e30  # largest Stokes number; its inverse is the smallest
-_WORTH, _WORTH_BY_KERNEL = 4, 100  # fewest angles for which starting a process pays
+_WORTH = 100  # fewest angles for which starting a process pays
 _MOST = 10_000  # most lines
 
 
@@ -46,6 +45,7 @@ def boundary(
 
     Raises:
         InputError: an invalid angle or Stokes number. A line that fails raises nothing; it is marked.
+        ComputationError: no kernel of the scene can be compiled.
 
     Example:
         >>> from wetdoublet.solvers import boundary
@@ -60,8 +60,7 @@ def boundary(
     rtol, tell = check_rtol(rtol), check_function(progress, "progress") or (lambda _done: None)
     warn(loaded)
     order = np.argsort(angles, kind="stable")
-    worth = _WORTH_BY_KERNEL if collision_engine(loaded) == "taylor" else _WORTH
-    cores = min(usable_cores(), max(1, angles.size // worth))
+    cores = min(usable_cores(), max(1, angles.size // _WORTH))
     parts = np.array_split(angles[order], cores)
     whole = Traced([], [], 0, 0.0)
     for part in traces(loaded, parts, (low, high), rtol, tell):
@@ -110,6 +109,7 @@ def atlas(
 
     Raises:
         InputError: an invalid name, span or number. Unresolved places raise nothing; they are in `unsettled`.
+        ComputationError: no kernel of the scene can be compiled.
 
     Example:
         >>> from wetdoublet.solvers import atlas

@@ -3,27 +3,25 @@
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from itertools import chain
+from functools import partial
 from typing import Any
 
 import numpy as np
 
-from ...generated.automaton import BOUNCE, CRITERIA, OUTCOMES, ROTATE, STICK
+from ...generated.automaton import CRITERIA, OUTCOMES, STICK
 from ..changes.brackets import Brackets, enclose
-from ..changes.roots import Function, evaluate, root
+from ..engines.settings import KERNEL_STEPS
 from ..errors import ComputationError
+from ..model.dimensionless import nondimensionalise
 from ..scene.contact import GAPS
-from .line import Line
 from .samples import known
-from .scene_sampler import SceneSampler
+from .scene_sampler import SAMPLE_BUDGET, SceneSampler
 
 # Kinds of change: a criterion is just met; a doublet begins to escape without or with a rebound; other.
 GRAZE, FREE, REVERSED, PLAIN = "graze", "escape", "escape reversed", "plain"
 DECLARED = "event"  # and its word: an event that a user's model declares begins to happen
 MERGED = 1e-8  # relative distance below which changes are merged
-_BESIDE = 1e-9  # relative distance at which both sides of a graze are computed
 _ACCEPTED = 1e-6  # relative distance at which collisions must confirm a change
-_LOCATED = 1e-8  # the same for one located by a smooth function; otherwise it is bracketed again by outcomes
 _NARROW = 2e-9  # width in ln St to which outcomes bracket a change
 _TOGETHER = 0.1  # part of a phase within which contact and a turning point just above it happen
 _AT_ONCE = 16  # collisions of a round that are worth waiting for together: two for each lane of the kernel
@@ -53,28 +51,26 @@ class Change:
 
 
 def changes_along(
-    lines: Sequence[Line], sampler: SceneSampler, samples: Sequence[np.ndarray]
+    angles: Sequence[float], sampler: SceneSampler, samples: Sequence[np.ndarray]
 ) -> list[list[Change] | ComputationError]:
     """All changes between neighbouring samples of each line, each confirmed by collisions on both sides.
 
-    The kernel brackets those of all lines together by outcomes. Where it does not complete collisions, or without a
-    kernel, they are located by functions that are smooth through a change, or bracketed by Rosenbrock's outcomes.
+    Those of all lines are bracketed together by outcomes.
+
+    Arguments:
+        angles: of the lines, rad.
 
     Returns:
         The changes of each line; or why one could not be located, or that collisions beside one contradict it.
     """
-    if not lines:
+    if not angles:
         return []
     samples = [known(each) for each in samples]
-    joined, line = np.concatenate(samples), np.repeat(np.arange(len(lines)), [each.size for each in samples])
-    brackets = Brackets.between(line, joined["stokes"], joined["outcome"])
-    enclosed = _enclosed(lines, sampler, brackets, True) if sampler.kernel else [[] for _ in range(brackets.size)]
-    results = []
-    for k in range(len(lines)):
-        which = np.flatnonzero(brackets.line == k)
-        results.append(_attempt(_completed, lines, sampler, brackets.part(which), [enclosed[j] for j in which]))
+    joined, line = np.concatenate(samples), np.repeat(np.arange(len(angles)), [each.size for each in samples])
+    brackets = _enclosed(angles, sampler, Brackets.between(line, joined["stokes"], joined["outcome"]))
+    results = [_attempt(_located, sampler, angle, brackets.part(brackets.line == k)) for k, angle in enumerate(angles)]
     done = [k for k, each in enumerate(results) if not isinstance(each, ComputationError)]
-    agree = _confirmed(sampler, [(lines[k], results[k]) for k in done], _ACCEPTED)
+    agree = _confirmed(sampler, [(angles[k], results[k]) for k in done])
     for k, each in zip(done, agree, strict=True):
         results[k] = _attempt(_accepted, results[k], each, samples[k])
     return results
@@ -88,25 +84,28 @@ def _attempt(step: Callable[..., Any], *arguments: Any) -> Any:
         return error
 
 
-def _completed(
-    lines: Sequence[Line], sampler: SceneSampler, brackets: Brackets, enclosed: list[list[Change]]
-) -> list[Change]:
-    """The changes in the brackets of a line; those that are missing are located by other means."""
-    missing = [k for k, each in enumerate(enclosed) if not each]
-    for k in missing:
-        line, low, high, before, after = (each[k].item() for each in vars(brackets).values())
-        try:
-            enclosed[k] = _smooth(lines[line], low, high, OUTCOMES[before], OUTCOMES[after])
-        except ComputationError:
-            continue
-    if missing:
-        located = [(k, one) for k in missing for one in enclosed[k]]
-        [agree] = _confirmed(sampler, [(lines[brackets.line[0]], [one for _, one in located])], _LOCATED)
-        wrong = {k for (k, _), agrees in zip(located, agree, strict=True) if not agrees}
-        for k in missing:
-            if k in wrong or not enclosed[k]:
-                [enclosed[k]] = _enclosed(lines, sampler, brackets.part(np.array([k])), False)
-    return list(chain.from_iterable(enclosed))
+def _enclosed(angles: Sequence[float], sampler: SceneSampler, brackets: Brackets) -> Brackets:
+    """The brackets divided by outcomes to _NARROW in ln St, first with the steps of a sample, then with all."""
+
+    def outcomes(budget: int, line: np.ndarray, stokes: np.ndarray) -> np.ndarray:
+        return sampler.outcomes(np.array(angles)[line], stokes, budget)
+
+    for budget in (SAMPLE_BUDGET, KERNEL_STEPS):
+        brackets = enclose(partial(outcomes, budget), brackets, _NARROW, at_once=_AT_ONCE, unknown=-1, logarithmic=True)
+    return brackets
+
+
+def _located(sampler: SceneSampler, angle: float, brackets: Brackets) -> list[Change]:
+    """The changes in the narrow brackets of a line; ComputationError where collisions in one are not decided."""
+    changes = []
+    for _, low, high, first, last in zip(*(each.tolist() for each in vars(brackets).values()), strict=True):
+        if math.log(high / low) >= MERGED:
+            reason = sampler.reason(angle, low, high)
+            raise ComputationError(f"a change of outcome between St {low:.10g} and {high:.10g}: {reason}")
+        scene, stokes, before, after = sampler.scene, math.sqrt(low * high), OUTCOMES[first], OUTCOMES[last]
+        centrifugal = nondimensionalise(scene, scene.speed_of(stokes), angle).centrifugal
+        changes.append(Change(stokes, centrifugal, before, after, _kind(sampler, angle, low, high, before, after)))
+    return changes
 
 
 def _accepted(changes: list[Change], agree: np.ndarray, samples: np.ndarray) -> list[Change]:
@@ -137,128 +136,38 @@ def _accepted(changes: list[Change], agree: np.ndarray, samples: np.ndarray) -> 
     return merged
 
 
-def _smooth(line: Line, low: float, high: float, before: str, after: str) -> list[Change]:
-    """Changes within a bracket, located by smooth functions; empty if these show none."""
-    if line.model.own_events:
-        return []  # a declared event may come first, at which none of these functions is smooth
+def _confirmed(sampler: SceneSampler, lines: Sequence[tuple[float, list[Change]]]) -> list[np.ndarray]:
+    """For each change of each line (its angle and changes), whether the collisions beside it have its outcomes.
 
-    def escape(low: float, high: float, before: str, after: str, rebound: bool) -> list[Change]:
-        stokes = _signed_root(lambda at: line.escape(at, rebound), low, high, after != STICK)
-        return [] if stokes is None else [_change(line, stokes, before, after, REVERSED if rebound else FREE)]
-
-    if BOUNCE not in (before, after) and (changes := escape(low, high, before, after, False)):
-        return changes
-    met_below, met_above = line.criterion(low) >= 0, line.criterion(high) >= 0
-    if met_below == met_above:
-        return escape(low, high, before, after, True) if met_below and ROTATE not in (before, after) else []
-
-    def criterion(stokes: float) -> tuple[bool, float | None]:
-        value = line.criterion(stokes)
-        return value >= 0, value
-
-    def outcome(stokes: float, met: bool) -> str:
-        return (BOUNCE if met else ROTATE) if line.escape(stokes, met)[0] else STICK
-
-    graze = _signed_root(criterion, low, high, met_above)
-    if graze is None:
-        return []
-    below, above = graze * (1 - _BESIDE), graze * (1 + _BESIDE)
-    now, then = outcome(below, met_below), outcome(above, met_above)
-    changes = []
-    for first, last, one, other, met in ((low, below, before, now, met_below), (above, high, then, after, met_above)):
-        if first == above and now != then:
-            changes.append(_change(line, graze, now, then, GRAZE))
-        if one != other:
-            escapes = {one, other} == {STICK, BOUNCE if met else ROTATE} and last > first
-            located = escape(first, last, one, other, met) if escapes else []
-            if not located:
-                return []
-            changes += located
-    return changes
-
-
-def _signed_root(function: Function, low: float, high: float, rises: bool) -> float | None:
-    """The root of a function with a change of sign in either direction; None without one."""
-
-    def upwards(stokes: float) -> tuple[bool, float | None]:
-        positive, value = function(stokes)
-        return positive == rises, value if rises or value is None else -value
-
-    at_low, at_high = evaluate(upwards, low), evaluate(upwards, high)
-    if at_low.positive or not at_high.positive:
-        return None
-    return root(upwards, at_low, at_high)
-
-
-def _confirmed(sampler: SceneSampler, lines: Sequence[tuple[Line, list[Change]]], distance: float) -> list[np.ndarray]:
-    """For each change of each line, whether the collisions beside it have its outcomes.
-
-    Arguments:
-        distance: relative distance of these collisions, below and above; a third of the gap where changes are close,
-            and none where no collision fits between two that are merged.
+    These are at a relative distance of _ACCEPTED below and above; a third of the gap where changes are close, and none
+    where no collision fits between two that are merged.
     """
     angle, places, fits = [], [], []
-    for line, changes in lines:
+    for at, changes in lines:
         stokes = np.array([one.stokes for one in changes])
         gaps = np.diff(stokes, prepend=0.0, append=math.inf) / 3
-        below, above = (np.minimum(distance * stokes, each) for each in (gaps[:-1], gaps[1:]))
+        below, above = (np.minimum(_ACCEPTED * stokes, each) for each in (gaps[:-1], gaps[1:]))
         places += [stokes - below, stokes + above]
         narrow = 3 * gaps < MERGED * np.append(stokes, math.inf)
         narrow[[0, -1]] = False
         fits += [narrow[:-1], narrow[1:]]
-        angle += [line.angle] * 2 * stokes.size
+        angle += [at] * 2 * stokes.size
     fit = np.concatenate([*fits, np.zeros(0, bool)])
     if angle:
         words = [word for _, changes in lines for side in ("before", "after") for word in
                  (getattr(one, side) for one in changes)]  # fmt: skip
-        fit |= sampler.outcomes(np.array(angle), np.concatenate(places))["outcome"] == [
-            OUTCOMES.index(w) for w in words
-        ]
+        fit |= sampler.outcomes(np.array(angle), np.concatenate(places)) == [OUTCOMES.index(word) for word in words]
     sides = np.split(fit, np.cumsum([each.size for each in places])[:-1])
     return [below & above for below, above in zip(sides[::2], sides[1::2])]
 
 
-def _enclosed(
-    lines: Sequence[Line], sampler: SceneSampler, brackets: Brackets, kernel_only: bool
-) -> list[list[Change]]:
-    """The changes within each bracket of any lines, all enclosed together by outcomes to _NARROW in ln St.
-
-    Arguments:
-        kernel_only: no changes of a bracket within which the kernel does not decide a collision.
-
-    Raises:
-        ComputationError: no collision within a bracket could be decided.
-    """
-    angle = np.array([line.angle for line in lines])[brackets.line]
-
-    def labels(which: np.ndarray, stokes: np.ndarray) -> np.ndarray:
-        return np.asarray(sampler.outcomes(angle[which], stokes, kernel_only)["outcome"])
-
-    wide = replace(brackets, line=np.arange(brackets.size))
-    narrow = enclose(labels, wide, _NARROW, at_once=_AT_ONCE, unknown=-1, logarithmic=True)
-    changes: list[list[Change]] = [[] for _ in range(brackets.size)]
-    undecided = set()
-    for k, low, high, before, after in zip(*(each.tolist() for each in vars(narrow).values()), strict=True):
-        line = lines[brackets.line[k]]
-        if math.log(high / low) < MERGED:
-            kind = _kind(line, low, high, OUTCOMES[before], OUTCOMES[after])
-            changes[k].append(_change(line, math.sqrt(low * high), OUTCOMES[before], OUTCOMES[after], kind))
-        elif kernel_only:  # a narrower band may be the error of collisions
-            undecided.add(k)
-        else:
-            reason = sampler.reason(line.angle, low, high)
-            raise ComputationError(f"a change of outcome between St {low:.10g} and {high:.10g}: {reason}")
-    return [[] if k in undecided else each for k, each in enumerate(changes)]
-
-
-def _kind(line: Line, low: float, high: float, before: str, after: str) -> str:
+def _kind(sampler: SceneSampler, angle: float, low: float, high: float, before: str, after: str) -> str:
     """Kind of a change from its narrow bracket: by what happens first on one of its sides only."""
-    declared = [each.word for each in line.model.own_events]
+    declared = () if sampler.scene.package is None else sampler.scene.package.words
     if STICK not in (before, after) and not declared:
         return GRAZE
-    try:
-        sides = line.events(low, high)
-    except ComputationError:
+    sides = sampler.events(angle, low, high)
+    if sides is None:
         return PLAIN
     below, above = ([word for word, _ in side] for side in sides)
     for word in below + above:
@@ -273,7 +182,3 @@ def _kind(line: Line, low: float, high: float, before: str, after: str) -> str:
     if any(word in CRITERIA and not (word in GAPS and apart > _TOGETHER * time) for word, time in parting):
         return GRAZE
     return REVERSED if any(word in CRITERIA for word in below[:k]) else FREE
-
-
-def _change(line: Line, stokes: float, before: str, after: str, kind: str) -> Change:
-    return Change(stokes, line.numbers(stokes).centrifugal, before, after, kind)

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..engines.choice import collision_engine
 from ..errors import ComputationError, InputError, ModelWarning
 from ..many.plot_map import Curve, panels
 from ..many.regime_map import impact_axis, scene_of
@@ -26,9 +25,8 @@ _LINES = 5  # seed lines of constant angle; the lattice of the atlas finds the c
 def map_curves(data: xarray.Dataset, package: Package | None = None) -> dict[int, list[Curve]]:
     """The boundaries of each panel of a map: angles (rad) of every curve, and Stokes numbers or speeds (m/s).
 
-    Nothing for a panel of one angle or one Stokes number, of a scene that the kernel does not support (one by one the
-    thousands of collisions would take minutes), whose model declares events (there is no atlas of it), or that
-    cannot be.
+    Nothing for a panel of one angle or one Stokes number, of a scene whose model declares events (there is no atlas of
+    it), or that cannot be.
 
     Arguments:
         package: the scene's own model; a map only describes it, so that without its files there are no boundaries.
@@ -62,8 +60,6 @@ def map_curves(data: xarray.Dataset, package: Package | None = None) -> dict[int
 
 
 def _curves(scene: Scene, angles: np.ndarray, values: np.ndarray, impact: str, rtol: float) -> list[Curve]:
-    if collision_engine(scene) != "taylor":
-        return []
     unit = np.array(1.0 if impact == "stokes" else scene.stokes_per_speed)
 
     def normal(angle: np.ndarray) -> np.ndarray:

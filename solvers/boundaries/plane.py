@@ -7,14 +7,11 @@ from typing import Any
 import numpy as np
 
 from ...generated.automaton import LAST_ANSWER, Purpose
-from ..engines.choice import collision_engine
-from ..engines.settings import KERNEL_STEPS
 from ..engines.taylor.call import run_kernel
 from ..engines.taylor.record import run_recorded
 from ..errors import ComputationError, InputError
 from ..host.cores import usable_cores
 from ..many.batch import Batch, ascending, checked_numbers, checked_vary
-from ..many.by_casadi import run
 from ..many.by_kernel import impacts_of
 from ..scene.scene import Scene
 from .window import STOKES, stokes_range
@@ -23,8 +20,6 @@ ANGLE = "impact.angle"
 # rad; lower limit for a plane that starts head-on, so that collisions stay oblique; St* depends on the square of the
 # angle. Without attraction, the time to separation grows as the obliquity decreases.
 LEAST_ANGLE, LEAST_UNBOUND = 1e-5, 1e-3
-_RESOLVED = 2  # most collisions of a batch for Rosenbrock where the kernel does not complete them
-_RUN = 15  # neighbours that make a long run
 _THREADED = 20_000  # fewest collisions for which several cores pay
 
 
@@ -42,7 +37,6 @@ class Plane:
         collisions: number of computed collisions.
         undecided: number of these that the kernel did not decide.
         patience: most undecided collisions, each of which takes as long as thousands of others.
-        kernel: True if the Taylor kernel supports the scene.
     """
 
     scene: Scene
@@ -54,11 +48,9 @@ class Plane:
     collisions: int = field(default=0, init=False)
     undecided: int = field(default=0, init=False)
     patience: float = field(default=math.inf, init=False)
-    kernel: bool = field(default=True, init=False)
 
     def __post_init__(self) -> None:
-        """Determine once whether the kernel supports the scene; start where collisions are oblique."""
-        self.kernel = collision_engine(self.scene) == "taylor"
+        """Start where collisions are oblique."""
         self.edge = self.span[0]
         if self.over == ANGLE:
             scene = self.scene
@@ -101,32 +93,18 @@ class Plane:
         """Outcomes by index in OUTCOMES; -1 where unknown."""
         return self.seen(points)[0]
 
-    def seen(self, points: np.ndarray, most: int = _RESOLVED) -> tuple[np.ndarray, np.ndarray]:
-        """Outcomes, and the first rebound criterion met (-1 for none; -2: not known), at points.
-
-        Arguments:
-            most: most collisions for Rosenbrock, which may take seconds each: one in the middle of each long run of
-                neighbours that the kernel does not complete, as these could not be narrowed down otherwise.
-        """
-        request = self._request(points)
-        self.collisions += request.size
-        outcome = np.full(request.size, -1)
-        reversal = np.full(request.size, -2)
-        if self.kernel:
-            impacts, sound = impacts_of(request)
-            threads = usable_cores() if request.size > _THREADED else 1
-            answers = run_kernel(impacts, self.rtol, threads=threads)
-            if answers is not None:
-                where = np.flatnonzero(sound)
-                outcome[where] = np.where(answers["status"] <= LAST_ANSWER, answers["outcome"], -1)
-                reversal[where] = answers["reversal"]
-            self.undecided += int((outcome < 0).sum())
-            if self.undecided > self.patience:
-                message = f"the kernel does not decide {self.undecided} collisions beside them"
-                raise ComputationError(message, advice="`boundary` traces them one by one, which may take minutes")
-        left = np.flatnonzero(outcome < 0) if not self.kernel else _middles_of_long_runs(outcome < 0)[:most]
-        if left.size:
-            outcome[left] = run(request.part(left), True)["outcome"]
+    def seen(self, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Outcomes (-1 where unknown), and the first rebound criterion met (-1 for none), at points."""
+        impacts, sound = impacts_of(self._request(points))
+        self.collisions += sound.size
+        answers = run_kernel(impacts, self.rtol, threads=usable_cores() if sound.size > _THREADED else 1)
+        outcome, reversal = np.full(sound.size, -1), np.full(sound.size, -1)
+        outcome[sound] = np.where(answers["status"] <= LAST_ANSWER, answers["outcome"], -1)
+        reversal[sound] = answers["reversal"]
+        self.undecided += int((outcome < 0).sum())
+        if self.undecided > self.patience:
+            message = f"the kernel does not decide {self.undecided} collisions beside them"
+            raise ComputationError(message, advice="`boundary` traces them one by one, which may take minutes")
         return outcome, reversal
 
     def first_criterion(self, points: np.ndarray) -> np.ndarray:
@@ -135,14 +113,11 @@ class Plane:
         The whole collision does not show it, because a stick may meet a criterion later.
         """
         criteria = np.full(points.shape[0], -2)
-        if self.kernel:
-            impacts, sound = impacts_of(self._request(points))
-            oblique = bool(impacts.angle[0] > 0)
-            recorded = run_recorded(impacts, oblique, self.rtol, trajectory=True, budget=KERNEL_STEPS,
-                            purpose=Purpose.ESCAPE, keep=False, fold=False)  # fmt: skip
-            if recorded is not None:
-                known = recorded.answers["status"] <= LAST_ANSWER
-                criteria[np.flatnonzero(sound)] = np.where(known, recorded.answers["reversal"], -2)
+        impacts, sound = impacts_of(self._request(points))
+        oblique = bool(impacts.angle[0] > 0)
+        answers = run_recorded(impacts, oblique, self.rtol, trajectory=True, purpose=Purpose.ESCAPE, keep=False,
+                               fold=False, events=False).answers  # fmt: skip
+        criteria[sound] = np.where(answers["status"] <= LAST_ANSWER, answers["reversal"], -2)
         return criteria
 
     def _request(self, points: np.ndarray) -> Batch:
@@ -155,17 +130,9 @@ class Plane:
             angle=angle,
             vary={} if self.over == ANGLE else {self.over: x},
             rtol=self.rtol,
-            engine="taylor" if self.kernel else "rosenbrock",
+            engine="taylor",
             of=(),
         )
-
-
-def _middles_of_long_runs(unknown: np.ndarray) -> np.ndarray:
-    """The middle of each long run of unknown points; of fewer points than a long run has, a run of all counts."""
-    edges = np.flatnonzero(np.diff(np.concatenate([[False], unknown, [False]]).astype(int)))
-    runs = edges.reshape(-1, 2)
-    long = runs[runs[:, 1] - runs[:, 0] >= min(_RUN, unknown.size)]
-    return np.asarray(long.sum(axis=1) // 2)
 
 
 def check_plane(scene: Scene, over: str, span: Any, stokes: Any, rtol: float, label: str = "over") -> Plane:

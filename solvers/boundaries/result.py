@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 NONE = -1  # outcome code of padding, where there is no change
 LINES = 33  # default number of seed lines of an atlas
 _EDGE = 1e-6  # height in the window up to which a curve ends on its lower edge
-LATTICE = (65, 193)  # columns and rows of the search lattice, with a kernel
+LATTICE = (65, 193)  # columns and rows of the search lattice
 
 
 @dataclass(frozen=True)

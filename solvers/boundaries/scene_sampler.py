@@ -1,187 +1,202 @@
-"""Samples for boundaries: outcomes and margins of collisions, by the kernel or one by one by Rosenbrock."""
+"""Samples for boundaries: outcomes, margins and events of collisions by the kernel, many in one call."""
 
-from collections import Counter
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
 
-from ...generated.automaton import BOUNCE, KINDS, OUTCOMES, ROTATE, STICK, Purpose
-from ..engines.casadi.locate import CHATTERS, EventLocator
-from ..engines.choice import collision_engine
+from ...generated.automaton import BOUNCE, LAST_ANSWER, OUTCOMES, ROTATE, STICK, Purpose, Status
+from ..collision.by_kernel import recorded, words_of
 from ..engines.settings import KERNEL_STEPS
+from ..engines.taylor.call import Impacts
+from ..engines.taylor.record import run_recorded
 from ..errors import ComputationError, InputError
 from ..model.dimensionless import nondimensionalise
 from ..model.model import load, select_model
 from ..scene.contact import GAPS, NEVER_MET
-from ..scene.groups import formulas, si_values
+from ..scene.groups import formulas, si_values, sideways
 from ..scene.scene import Scene
-from .by_kernel import SAMPLE_BUDGET, sample_by_kernel
+from .barrier import Potential
 from .samples import SAMPLE
 
-BY_KERNEL, BY_ROSENBROCK = 100, 10  # initial samples of a line per decade of the Stokes number
+PER_DECADE = 100  # initial samples of a line per decade of the Stokes number
+SAMPLE_BUDGET = 20_000  # steps of a sampled collision; limits how close to a separatrix collisions are sampled
 _SHARE, _EVERY = 32, 16  # parts (1/n) of the steps for all first samples, and of their chatter that gets all steps
 _ROW = 33  # as many in a row fail a line, whatever collisions with a larger budget decide among them
+_EARLIER = 5  # the last state of chatter is compared with the state after this fraction (1/n) of its steps
 _MARGIN = 500  # most steps of a trajectory for a margin; one that creeps longer has none
-DEEP = 1e-3  # relative to the contact gap; an approach to this depth has reached solid contact
+_DEEP = 1e-3  # relative to the contact gap; an approach to this depth has reached solid contact
 _STICK, _ROTATE, _BOUNCE = map(OUTCOMES.index, (STICK, ROTATE, BOUNCE))
+
+Events = list[tuple[str, float]]
+"""Events of a collision, their words and times (x0/v0)."""
 
 
 @dataclass
 class SceneSampler:
-    """Sampler of a scene's collisions. Counts the integrated ones, and stores the reasons of failures.
+    """Sampler of a scene's collisions.
 
     Arguments:
         rtol: relative tolerance of the integrations.
-        kernel: use the Taylor kernel; None: if it supports the scene.
-        creeping: number of creeping collisions that the kernel left unfinished, by angle.
-        untried: angles and Stokes numbers of chatter that is left undecided after a part of the steps.
+
+    Attributes:
+        collisions: number of integrated collisions.
+        undecided: angles and Stokes numbers of collisions that all steps left undecided.
+        untried: the same of chatter that was left undecided after a part of the steps.
     """
 
     scene: Scene
     rtol: float
-    kernel: bool | None = None
     collisions: int = field(default=0, init=False)
-    reasons: dict[tuple[float, float], str] = field(default_factory=dict, init=False)
-    creeping: Counter[float] = field(default_factory=Counter, init=False)
+    undecided: set[tuple[float, float]] = field(default_factory=set, init=False)
     untried: set[tuple[float, float]] = field(default_factory=set, init=False)
 
-    def __post_init__(self) -> None:
-        """Determine once whether the kernel supports the scene."""
-        self.kernel = collision_engine(self.scene) == "taylor" if self.kernel is None else self.kernel
-
-    @property
-    def per_decade(self) -> int:
-        """Initial samples of a line per decade of the Stokes number."""
-        return BY_KERNEL if self.kernel else BY_ROSENBROCK
-
     def __call__(self, angle: np.ndarray, stokes: np.ndarray, first: bool = False) -> np.ndarray:
-        """An array of SAMPLE at angles (rad) and Stokes numbers; outcome -1 where a collision fails.
+        """An array of SAMPLE at angles (rad) and Stokes numbers; outcome -1 where a collision is not decided.
+
+        Sticks are continued until they fall back, and the approaches of bounces below solid contact, for their margins.
 
         Arguments:
             first: these are the initial samples of lines, each ascending; spare steps where they show that it fails.
         """
-        samples = self._by_kernel(angle, stokes, first) if self.kernel else None
-        if samples is None:
-            self.kernel = False
-            samples = self.by_rosenbrock(angle, stokes)
+        answers, peaks = self._collided(angle, stokes, budget=SAMPLE_BUDGET // _SHARE if first else SAMPLE_BUDGET)
+        if first:
+            self._finish(answers, peaks, angle, stokes)
+        self.collisions += int(np.count_nonzero(answers["time"] != 0))
+        samples, outcome = blank(stokes), answers["outcome"]
+        for name in ("outcome", "reversal", "events", "time"):
+            samples[name] = answers[name]
+        samples["restitution"] = answers["shown"][:, 0]
+        if self.scene.package is not None and self.scene.package.events:
+            return samples  # no margin is smooth where a declared event may come first
+        contact = contact_gap_at(self.scene, stokes / self.scene.stokes_per_speed)
+        samples["criterion"] = np.where(outcome == _ROTATE, _margin(answers, peaks, contact), np.nan)
+        samples["time"][outcome == _STICK] = np.nan
+        which = np.flatnonzero((outcome == _STICK) & (answers["time"] != 0))
+        if which.size:
+            ends, _ = self._collided(angle[which], stokes[which], Purpose.ESCAPE, _MARGIN)
+            samples["reach"][which] = np.where(ends["outcome"] == _STICK, ends["final_gap"], np.nan)
+        which = np.flatnonzero(outcome == _BOUNCE)
+        if which.size:  # repeated with solids that are met far below the contact gap
+            solids = {name: np.full(which.size, value) for name, value in NEVER_MET.items()}
+            solids["roughness"] = _DEEP * contact[which] * self.scene.liquid.film_thickness
+            bare = self._collided(angle[which], stokes[which], Purpose.APPROACH, _MARGIN, solids)
+            samples["criterion"][which] = _margin(*bare, contact[which])
         return samples
 
-    def by_rosenbrock(self, angle: np.ndarray, stokes: np.ndarray) -> np.ndarray:
-        """Samples as by `__call__`, by Rosenbrock one by one (slow); the reasons of failures are added to `reasons`."""
-        samples = blank(stokes)
-        for k, at in enumerate(zip(angle.tolist(), stokes.tolist(), strict=True)):
-            try:
-                n = nondimensionalise(self.scene, self.scene.speed_of(at[1]), at[0])
-                model = load(select_model(self.scene, n.oblique))
-                path = EventLocator(model, n.groups, self.rtol, machine_code=True).run()
-            except (ComputationError, InputError) as error:
-                self.reasons[at] = str(n.in_si(error) if isinstance(error, ComputationError) else error)
-                continue
-            self.collisions += path.time > 0
-            reversal = -1 if path.reversal is None else KINDS.index(path.reversal)
-            for name, value in (("outcome", OUTCOMES.index(path.outcome)), ("reversal", reversal),
-                                ("events", len(path.kinds))):  # fmt: skip
-                samples[name][k] = value
-            if path.separated:
-                samples["restitution"][k] = path.model.values("outputs", path.y, path.p)["restitution"]
-                samples["time"][k] = path.time
-        return samples
+    def outcomes(self, angle: np.ndarray, stokes: np.ndarray, budget: int = KERNEL_STEPS) -> np.ndarray:
+        """Outcomes (indices in OUTCOMES) of collisions, -1 where the steps of the budget do not decide one."""
+        answers, _ = self._collided(angle, stokes, budget=budget)
+        self.collisions += int(np.count_nonzero(answers["time"] != 0))
+        if budget == KERNEL_STEPS:
+            left = answers["outcome"] < 0
+            self.undecided.update(zip(angle[left].tolist(), stokes[left].tolist(), strict=True))
+        return np.asarray(answers["outcome"])
 
-    def outcomes(self, angle: np.ndarray, stokes: np.ndarray, kernel_only: bool = False) -> np.ndarray:
-        """Outcomes (`outcome`, -1 where none is computed) and first rebound criteria met (`reversal`) only.
-
-        A collision may take all steps of the budget. Chatter that exhausts the kernel's steps is not continued; other
-        collisions that the kernel does not complete go to Rosenbrock.
-
-        Arguments:
-            kernel_only: leave collisions undecided that the kernel does not complete with the steps of a sample.
-        """
-        budget = SAMPLE_BUDGET if kernel_only else KERNEL_STEPS
-        records = self._records(angle, stokes, budget) if self.kernel else None
-        if records is None:
-            return self.by_rosenbrock(angle, stokes)
-        for k in [] if kernel_only else np.flatnonzero(records["outcome"] < 0).tolist():
-            if records["chatters"][k]:
-                n = nondimensionalise(self.scene, self.scene.speed_of(float(stokes[k])), float(angle[k]))
-                self.reasons[float(angle[k]), float(stokes[k])] = (
-                    f"{CHATTERS}: {KERNEL_STEPS} steps do not decide the outcome, {records['events'][k]} events by "
-                    f"t = {records['time'][k] * n.time:.6g} s, now at a gap of "
-                    f"{records['final_gap'][k] * n.length:.6g} m; try another --rtol, or a collision further off"
-                )
-            else:
-                sample = self.by_rosenbrock(angle[k : k + 1], stokes[k : k + 1])[0]
-                records["outcome"][k], records["reversal"][k] = sample["outcome"], sample["reversal"]
-        return records
+    def events(self, angle: float, *stokes: float) -> list[Events] | None:
+        """The events of collisions at an angle (rad); None if one is not decided with the steps of a sample."""
+        self.collisions += len(stokes)
+        speed = np.array([self.scene.speed_of(each) for each in stokes])
+        impacts = Impacts(self.scene, speed, np.full(speed.size, angle), {})
+        ran = run_recorded(impacts, self.scene.turns(angle), self.rtol, trajectory=True, budget=SAMPLE_BUDGET,
+                           keep=False, fold=False)  # fmt: skip
+        if (ran.answers["status"] > LAST_ANSWER).any():
+            return None
+        words = words_of(self.scene)
+        rows = [log[:count] for log, count in zip(ran.events, ran.answers["events"], strict=True)]
+        return [[(words[int(row["kind"])], float(row["time"])) for row in of_collision] for of_collision in rows]
 
     def reason(self, angle: float, low: float, high: float) -> str:
-        """The reason why a collision at an angle and between two Stokes numbers failed."""
-        reasons = (text for (at, stokes), text in self.reasons.items() if at == angle and low <= stokes <= high)
-        return next(reasons, "no collision could be computed")
+        """The reason why a collision at an angle and between two Stokes numbers is not decided."""
+        for stokes in (stokes for at, stokes in self.undecided if at == angle and low <= stokes <= high):
+            try:
+                recorded(self.scene, nondimensionalise(self.scene, self.scene.speed_of(stokes), angle), self.rtol)
+            except (ComputationError, InputError) as error:
+                return str(error)
+        return "no collision could be computed"
 
-    def _records(self, angle: np.ndarray, stokes: np.ndarray, budget: int, first: bool = False) -> np.ndarray | None:
-        steps, speed = budget // _SHARE if first else budget, stokes / self.scene.stokes_per_speed
-        records = sample_by_kernel(self.scene, speed, angle, self.rtol, budget=steps)
-        if records is not None:
-            if first:
-                self._finish(records, angle, stokes, budget)
-            self.collisions += int(np.count_nonzero(~records["at_touch"]))
-            self.creeping.update(angle[records["creeps"]].tolist())
-        return records
+    def _collided(
+        self,
+        angle: np.ndarray,
+        stokes: np.ndarray,
+        purpose: Purpose = Purpose.WHOLE,
+        budget: int = SAMPLE_BUDGET,
+        solids: Mapping[str, np.ndarray] | None = None,
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """The kernel's answers, with outcome -1 where one is not decided, and largest margins of the glass criterion.
 
-    def _finish(self, records: np.ndarray, angle: np.ndarray, stokes: np.ndarray, budget: int) -> None:
-        """Run collisions of lines again that a part of the steps left undecided, with all steps.
+        Arguments:
+            solids: SI quantities of the rebound criteria that replace the scene's.
+        """
+        speed, parts = stokes / self.scene.stokes_per_speed, []
+        oblique_ones = sideways(self.scene, angle, {})
+        for oblique in (True, False):
+            which = np.flatnonzero(oblique_ones == oblique)
+            if not which.size:
+                continue
+            others = {name: values[which] for name, values in (solids or {}).items()}
+            impacts = Impacts(self.scene, speed[which], angle[which], others)
+            ran = run_recorded(
+                impacts, oblique, self.rtol, trajectory=True, budget=budget, purpose=purpose, keep=False, fold=False,
+                peaks=True, events=False,
+            )  # fmt: skip
+            assert ran.peaks is not None
+            ran.answers["outcome"][ran.answers["status"] > LAST_ANSWER] = -1
+            if purpose == Purpose.WHOLE and budget >= SAMPLE_BUDGET:  # earlier they are far from a limit
+                self._take_limits(ran.answers, impacts, oblique, budget)
+            parts.append((which, ran.answers, ran.peaks))
+        order = np.argsort(np.concatenate([which for which, *_ in parts]))
+        answers, peaks = (np.concatenate(each)[order] for each in list(zip(*parts, strict=True))[1:])
+        return answers, peaks
+
+    def _take_limits(self, answers: np.ndarray, impacts: Impacts, oblique: bool, budget: int) -> None:
+        """Fill in the limit outcomes of equal spheres that circle until the budget of steps is exhausted."""
+        scene, endless = self.scene, np.flatnonzero(answers["status"] == Status.CHATTER)
+        key = select_model(scene, oblique, fold=False)
+        model = load(key)
+        # strings may transfer energy to the slip, and forces of one's own may do anything
+        if not (endless.size and oblique and model.works and model.edged and key.package is None) or model.strings:
+            return
+        if scene.pair or scene.wall:
+            return
+        stopped = impacts.part(endless)
+        before = run_recorded(stopped, oblique, self.rtol, trajectory=True, budget=budget // _EARLIER, keep=False,
+                              fold=False, events=False).answers  # fmt: skip
+        for k, early, speed, angle in zip(endless, before, stopped.speed, stopped.angle, strict=True):
+            if early["status"] not in (Status.NO_BUDGET, Status.CHATTER):
+                continue
+            p = model.group_values(nondimensionalise(scene, float(speed), float(angle)).groups)
+            states = [
+                np.array([one["final_gap"], *one["shown"][: len(model.state) - 1]]) for one in (early, answers[k])
+            ]
+            stays = Potential(model, p, self.rtol).limit_of_circling(*states)
+            if stays is not None:
+                reached = _BOUNCE if answers["reversal"][k] >= 0 else _ROTATE
+                answers["outcome"][k] = _STICK if stays else reached
+                answers["shown"][k, 0] = answers["time"][k] = np.nan
+
+    def _finish(self, answers: np.ndarray, peaks: np.ndarray, angle: np.ndarray, stokes: np.ndarray) -> None:
+        """Run collisions of lines again that a part of the steps left undecided, with the steps of a sample.
 
         Of each run of them along a line these are both ends and one in _EVERY. Between the first and the last that
         still chatter only _ROW in the middle are added, unless one there does not.
         """
-        left = records["creeps"] | records["chatters"]
+        left = np.isin(answers["status"], (Status.NO_BUDGET, Status.CHATTER))
         which, wanted = np.flatnonzero(left), np.zeros(left.size, dtype=bool)
         parts = np.split(which, 1 + np.flatnonzero((np.diff(which) > 1) | (np.diff(stokes[which]) < 0)))
         for part in parts:
             wanted[part[::_EVERY]] = wanted[part[-1:]] = True
         while wanted.any():
-            speed = stokes[wanted] / self.scene.stokes_per_speed
-            again = sample_by_kernel(self.scene, speed, angle[wanted], self.rtol, budget=budget)
-            assert again is not None  # the kernel is available
-            records[wanted] = again
+            answers[wanted], peaks[wanted] = self._collided(angle[wanted], stokes[wanted])
             left &= ~wanted
-            wanted, chatters = left.copy(), ~left & records["chatters"] & (records["outcome"] < 0)
+            chatters = ~left & (answers["status"] == Status.CHATTER) & (answers["outcome"] < 0)
+            wanted = left.copy()
             for part in parts:
                 still = part[chatters[part]]
                 if still.size and (left | chatters)[still[0] : still[-1]].all():
                     inside = part[(still[0] < part) & (part < still[-1])]
                     wanted[inside[abs(inside - (still[0] + still[-1]) // 2) > _ROW // 2]] = False
-        records["creeps"] &= ~left
         self.untried.update(zip(angle[left].tolist(), stokes[left].tolist(), strict=True))
-
-    def _by_kernel(self, angle: np.ndarray, stokes: np.ndarray, first: bool) -> np.ndarray | None:
-        """Samples by the kernel; sticks are continued until they fall back, None if the kernel does not run."""
-        records = self._records(angle, stokes, SAMPLE_BUDGET, first)
-        if records is None:
-            return None
-        samples, speed, outcome = blank(stokes), stokes / self.scene.stokes_per_speed, records["outcome"]
-        for name in ("outcome", "reversal", "events", "restitution", "time"):
-            samples[name] = records[name]
-        if self.scene.package is not None and self.scene.package.events:
-            return samples  # no margin is smooth where a declared event may come first
-        contact = contact_gap_at(self.scene, speed)
-        samples["criterion"] = np.where(outcome == _ROTATE, _margin(records, contact), np.nan)
-        samples["time"][outcome == _STICK] = np.nan
-        sticks = np.flatnonzero((outcome == _STICK) & ~records["at_touch"])
-        if sticks.size:
-            ends = sample_by_kernel(self.scene, speed[sticks], angle[sticks], self.rtol, Purpose.ESCAPE, budget=_MARGIN)
-            if ends is not None:
-                samples["reach"][sticks] = np.where(ends["outcome"] == _STICK, ends["final_gap"], np.nan)
-        which = np.flatnonzero(outcome == _BOUNCE)
-        if which.size:  # repeated with solids that are met far below the contact gap
-            bare_quantities = {name: np.full(which.size, value) for name, value in NEVER_MET.items()}
-            bare_quantities["roughness"] = DEEP * contact[which] * self.scene.liquid.film_thickness
-            bare = sample_by_kernel(
-                self.scene, speed[which], angle[which], self.rtol, Purpose.APPROACH, bare_quantities, _MARGIN
-            )
-            if bare is not None:
-                samples["criterion"][which] = np.where(bare["outcome"] >= 0, _margin(bare, contact[which]), np.nan)
-        return samples
 
 
 def blank(stokes: np.ndarray) -> np.ndarray:
@@ -205,10 +220,10 @@ def contact_gap_at(scene: Scene, speed: np.ndarray) -> np.ndarray:
     return gap
 
 
-def _margin(records: np.ndarray, contact: np.ndarray) -> np.ndarray:
+def _margin(answers: np.ndarray, peaks: np.ndarray, contact: np.ndarray) -> np.ndarray:
     """Logarithm by which the approach passes the nearest rebound criterion, positive if met; NaN if there is none."""
-    approached = (records["outcome"] >= 0) & ~records["at_touch"]
+    approached = (answers["outcome"] >= 0) & (answers["time"] != 0)
     log_contact = np.full(contact.size, -np.inf)
     has_contact = approached & (contact > 0)
-    log_contact[has_contact] = np.log(contact[has_contact] / records["smallest_gap"][has_contact])
-    return np.where(approached, np.maximum(records["glass"], log_contact), np.nan)
+    log_contact[has_contact] = np.log(contact[has_contact] / answers["smallest_gap"][has_contact])
+    return np.where(approached, np.maximum(peaks, log_contact), np.nan)

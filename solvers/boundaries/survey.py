@@ -204,7 +204,7 @@ def lattice(plane: Plane, columns: int, rows: int) -> tuple[np.ndarray, np.ndarr
     """Points of an even lattice (columns x rows x 2), and their labels."""
     across, up = np.linspace(0, 1, columns), np.linspace(0, 1, rows)
     at = np.stack(np.meshgrid(across, up, indexing="ij"), axis=-1)
-    return at, plane.seen(at.reshape(-1, 2), most=0)[0].reshape(columns, rows)
+    return at, plane.labels(at.reshape(-1, 2)).reshape(columns, rows)
 
 
 def surveyed(

@@ -1,7 +1,7 @@
 """Tracing of boundaries: every Stokes number at which the outcome changes, angle by angle.
 
-Each line is sampled by collisions until its margins are resolved (`samples`). Changes are located by outcomes or by
-functions that are smooth through them (`boundaries.line`), and accepted if collisions on both sides agree (`changes`).
+Each line is sampled by collisions until its margins are resolved (`samples`). Changes are bracketed by outcomes, and
+accepted if collisions on both sides agree (`changes`).
 """
 
 from __future__ import annotations
@@ -16,16 +16,14 @@ from ..errors import ComputationError
 from ..host.workers import lasting_workers
 from ..scene.scene import Scene
 from .changes import Change, changes_along
-from .line import Line
 from .samples import first_grid, known, merged, sampled
-from .scene_sampler import SceneSampler, blank
+from .scene_sampler import PER_DECADE, SceneSampler, blank
 
 SHARPEST = 1e-13
 _TOGETHER = 32  # lines traced together
 _FINER, _SHARPER = 2, 1e-2  # for a line that failed once: factors of more samples and of a smaller tolerance
 _HOLE = 4.5  # most initial spacings without a completed collision
 _ROUNDED = 1.01  # factor on a spacing, for rounding
-_CREEPING = 0.1  # largest part of creeping collisions of a line; beyond it Rosenbrock samples the line
 _SLOW = 8  # most missing collisions computed again
 
 
@@ -66,22 +64,18 @@ def trace(
     span: tuple[float, float],
     rtol: float,
     tell: Callable[[int], None] = lambda _done: None,
-    kernel: bool | None = None,
 ) -> Traced:
     """Changes at angles (rad), one line each: sampled, located and confirmed together.
 
     A line that fails is sampled again, more finely and with a tolerance a hundred times smaller; if it fails again, its
     reason is recorded.
-
-    Arguments:
-        kernel: use the Taylor kernel; default: if it supports the scene. Without it a line has fewer samples.
     """
     traced = Traced([], [], 0, 0.0)
     for first in range(0, angles.size, _TOGETHER):
         block = angles[first : first + _TOGETHER]
-        changes, failures = _block(scene, block, span, rtol, 1, traced, kernel)
+        changes, failures = _block(scene, block, span, rtol, 1, traced)
         for k in [k for k, reason in enumerate(failures) if reason]:
-            again = _block(scene, block[k : k + 1], span, max(rtol * _SHARPER, SHARPEST), _FINER, traced, kernel)
+            again = _block(scene, block[k : k + 1], span, max(rtol * _SHARPER, SHARPEST), _FINER, traced)
             changes[k], failures[k] = again[0][0], again[1][0]
         traced.changes += changes
         traced.failures += failures
@@ -90,38 +84,25 @@ def trace(
 
 
 def _block(
-    scene: Scene,
-    angles: np.ndarray,
-    span: tuple[float, float],
-    rtol: float,
-    finer: int,
-    traced: Traced,
-    kernel: bool | None,
+    scene: Scene, angles: np.ndarray, span: tuple[float, float], rtol: float, finer: int, traced: Traced
 ) -> tuple[list[tuple[Change, ...]], list[str]]:
-    sampler = SceneSampler(scene, rtol, kernel)
-    grid = first_grid(span, finer * sampler.per_decade)
+    sampler = SceneSampler(scene, rtol)
+    grid = first_grid(span, finer * PER_DECADE)
     changes: list[tuple[Change, ...]] = [()] * angles.size
     failures = [""] * angles.size
-    lines, complete, places, widths = [], [], [], []
+    complete, places, widths = [], [], []
     first = sampler(np.repeat(angles, grid.size), np.tile(grid, angles.size), first=True)
     for k, samples in enumerate(sampled(angles, first.reshape(angles.size, grid.size), sampler)):
-        angle = float(angles[k])
-        if kernel is None and sampler.creeping[angle] > _CREEPING * grid.size:
-            [changes[k]], [failures[k]] = _block(scene, angles[k : k + 1], span, rtol, finer, traced, False)
-            continue
         try:
-            samples, widest = _completed(samples, grid, sampler, angle)
+            samples, widest = _completed(samples, grid, sampler, float(angles[k]))
         except ComputationError as error:
             failures[k] = str(error)
             continue
-        lines.append(Line(scene, angle, rtol, kernel))
         complete.append(samples)
         places.append(k)
         widths.append(widest)
-    for k, line, width, outcome_changes in zip(
-        places, lines, widths, changes_along(lines, sampler, complete), strict=True
-    ):
-        traced.collisions += line.collisions
+    traced_changes = changes_along(angles[places].tolist(), sampler, complete)
+    for k, width, outcome_changes in zip(places, widths, traced_changes, strict=True):
         if isinstance(outcome_changes, ComputationError):
             failures[k] = str(outcome_changes)
         else:
@@ -145,7 +126,7 @@ def _completed(samples: np.ndarray, grid: np.ndarray, sampler: SceneSampler, ang
     if missing.size:
         some = missing[np.unique(np.linspace(0, missing.size - 1, _SLOW).astype(int))]
         recomputed = blank(some)
-        recomputed["outcome"] = sampler.outcomes(np.full(some.size, angle), some)["outcome"]
+        recomputed["outcome"] = sampler.outcomes(np.full(some.size, angle), some)
         sampler.untried.difference_update((angle, each) for each in some.tolist())
         samples = merged(samples, recomputed)
         at = _spaced(samples, grid)

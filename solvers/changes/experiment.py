@@ -13,19 +13,16 @@ from typing import Any
 import numpy as np
 from casadi import SX, Function, densify, jacobian, vertcat
 
-from ...generated.automaton import LAST_ANSWER, Status
+from ...generated.automaton import LAST_ANSWER
 from ..engines.choice import differentiates
 from ..engines.settings import KERNEL_STEPS
 from ..engines.taylor.call import Impacts, run_kernel
 from ..engines.taylor.tangent import COLUMNS, run_tangent
 from ..errors import ComputationError
-from ..many.batch import Batch
 from ..many.by_kernel import admissible
-from ..many.compute import complete
-from ..many.results import Block, empty
 from ..scene.quantities import quantities
 from ..scene.scene import Scene
-from ..scene.schema import MEETING, SPINS
+from ..scene.schema import MEETING
 
 UNDECIDED = -1
 STEEPEST = np.arccos(4e-5)
@@ -34,7 +31,6 @@ STEEPEST = np.arccos(4e-5)
 LENGTHS = ("solids", "touch", "apart")
 """Distances of the centres (m) of touching solids and at both ends of contact, of rows that need them."""
 
-_ENDLESS = (Status.NO_BUDGET, Status.CHATTER)  # the other engines' budget of steps is the same
 _HEAD_ON = 1e-12  # angle (rad) below which an impact is head-on: rounding on a line along the speeds
 _PLACES: dict[str, tuple[int, int | str]] = {  # column of the derivative, field of the value
     "restitution": (0, 0),
@@ -176,45 +172,13 @@ class Experiment:
     def answers(
         self, row: np.ndarray, speed: np.ndarray, angle: np.ndarray, rotation: bool = False, **options: int
     ) -> np.ndarray:
-        """What `run_kernel` answers, with its options; ComputationError if this machine has no kernel of the scene."""
-        answers = run_kernel(self.impacts(row, speed, angle), self.rtol, rotation, **options)
-        if answers is None:
-            raise ComputationError(
-                "impacts on many scenes at once need the compiled kernel, which this scene or machine has not",
-                advice="install a C compiler, or see `wetdoublet compile`",
-            )
-        return answers
+        """What `run_kernel` answers, with its options."""
+        return run_kernel(self.impacts(row, speed, angle), self.rtol, rotation, **options)
 
-    def outcomes(self, row: np.ndarray, speed: np.ndarray, angle: np.ndarray, kernel_only: bool = False) -> np.ndarray:
-        """Outcomes of impacts.
-
-        What the kernel follows until its budget of steps ends, and whatever no engine follows to the end, is UNDECIDED.
-
-        Arguments:
-            kernel_only: so is whatever the kernel does not complete.
-        """
+    def outcomes(self, row: np.ndarray, speed: np.ndarray, angle: np.ndarray) -> np.ndarray:
+        """Outcomes of impacts, UNDECIDED where the kernel does not decide one."""
         answers = self.answers(row, speed, angle, jumps=2)
-        outcome: np.ndarray = np.where(answers["status"] > LAST_ANSWER, UNDECIDED, answers["outcome"]).astype(np.int8)
-        late = np.flatnonzero(outcome == UNDECIDED)
-        late = late[~np.isin(answers["status"][late], _ENDLESS)] if late.size else late
-        if late.size and not kernel_only:
-            outcome[late] = self.completed(row[late], speed[late], angle[late])["outcome"]
-        return outcome
-
-    def completed(self, row: np.ndarray, speed: np.ndarray, angle: np.ndarray, names: tuple[str, ...] = ()) -> Block:
-        """Columns of `collide_many` for impacts that the kernel hands over, by an engine that completes them."""
-        impacts, rows = self.impacts(row, speed, angle), self.rows
-        share = self._share(row)
-        vary = dict(zip(rows.names, rows.by_row(self.values)[:, share], strict=True))
-        vary |= {name: column[row] for name, column in rows.columns.items()}
-        for name in SPINS:
-            spin = impacts.others.get(name.replace("impact.", "impact_"))
-            if name in vary or (spin is not None and name in self.scene.entries):
-                vary[name] = np.asarray(spin)
-        request = Batch(self.scene, None, impacts.speed, impacts.angle, vary, self.rtol, "rosenbrock", names)
-        block = empty(request.size, names)
-        complete(request, block)
-        return block
+        return np.where(answers["status"] > LAST_ANSWER, UNDECIDED, answers["outcome"]).astype(np.int8)
 
     def plain(self, names: tuple[str, ...], row: np.ndarray, speed: np.ndarray, angle: np.ndarray) -> np.ndarray:
         """The results alone, (results, impacts): of long trajectories in a fraction of the time."""

@@ -35,9 +35,9 @@ ExperimentLabels = Callable[[Experiment, np.ndarray, np.ndarray, np.ndarray], np
 """Experiment, rows, normal speeds and angles -> labels of what happens."""
 
 
-def outcomes_along(experiment: Experiment, lines: Lines, kernel_only: bool = False) -> Labels:
-    """The outcomes at places on lines; other arguments as `Experiment.outcomes`."""
-    return lambda line, y: experiment.outcomes(lines.row[line], *lines.at(line, y), kernel_only)
+def outcomes_along(experiment: Experiment, lines: Lines) -> Labels:
+    """The outcomes at places on lines."""
+    return lambda line, y: experiment.outcomes(lines.row[line], *lines.at(line, y))
 
 
 @dataclass(frozen=True)
@@ -166,7 +166,7 @@ def slopes_by_differences(
     possible = [k for k, both in ends.items() if None not in both]
     moved = [each for k in possible for each in ends[k] if each is not None]
     if moved:
-        places = _again(moved, lines, changes, step, labels or _outcomes).reshape(-1, 2, changes.size)
+        places = _again(moved, lines, changes, step, labels or Experiment.outcomes).reshape(-1, 2, changes.size)
         of_changes = steps[possible] if steps.ndim == 1 else steps[possible][:, lines.row[changes.line]].T
         by_free[:, possible] = (places[:, 0] - places[:, 1]).T / (2 * of_changes)
     return by_free
@@ -196,7 +196,3 @@ def _again(
             places[which] = (ends[0] + ends[1]) / 2
         left = left[~there]
     return places
-
-
-def _outcomes(experiment: Experiment, row: np.ndarray, speed: np.ndarray, angle: np.ndarray) -> np.ndarray:
-    return experiment.outcomes(row, speed, angle, kernel_only=True)

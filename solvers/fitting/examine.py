@@ -166,7 +166,7 @@ def _predicted(
     """At the rows' own normal speeds and angles, or at others."""
     row, speed = np.arange(data.size), data.normal_speed if speed is None else speed
     angle = data.angle if angle is None else angle
-    outcome = experiment.outcomes(row, speed, angle, kernel_only=True)
+    outcome = experiment.outcomes(row, speed, angle)
     return _Predicted(data, outcome, experiment.plain(("restitution",), row, speed, angle)[0])
 
 
@@ -310,7 +310,7 @@ def _telling(scene: Scene, data: Measurements, seen: _Predicted) -> dict[str, in
         for moved in (value - _PART, value + _PART) if bounded else (value / _FACTOR, value * _FACTOR):
             experiment = rows.at(np.array([moved])) if scene.fields[name].range.holds(moved) else None
             if experiment is not None:
-                outcome = experiment.outcomes(*impacts, kernel_only=True)
+                outcome = experiment.outcomes(*impacts)
                 differs |= (outcome != seen.outcome) & (outcome >= 0)
                 for after, of_seen, sd in zip(experiment.plain(measured, *impacts) if measured else (), before, noise):
                     differs |= np.abs(np.nan_to_num(after - of_seen)) > sd

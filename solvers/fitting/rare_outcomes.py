@@ -66,7 +66,7 @@ def _from_nearest_change(
     of_part = columns["row"]
     lines = replace(fan[0], **columns | {"row": rows[of_part]})
     places = np.clip(np.concatenate([-_PLACES[::-1], _PLACES]), lines.low[:, None], lines.high[:, None])
-    changes = locate(outcomes_along(experiment, lines, kernel_only=True), places, resolution.within)
+    changes = locate(outcomes_along(experiment, lines), places, resolution.within)
     least = np.where(np.arange(of_part.size) < rows.size, -ndtri(RARE), REACH)  # no likelier than by the integral
     which = _nearest(changes, least, of_part, part.allowed)
     line, y, at = changes.line[which], changes.place[which], of_part[changes.line[which]]

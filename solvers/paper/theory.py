@@ -9,8 +9,10 @@ from scipy.optimize import bisect, root_scalar
 from ...generated.automaton import STICK
 from ..boundaries.boundary import boundary
 from ..boundaries.changes import Change
-from ..boundaries.line import ready
 from ..collision.collide import collide
+from ..engines.settings import RTOL
+from ..engines.taylor.build import compile_all
+from ..engines.taylor.record import variant_to_record
 from ..errors import ComputationError
 from ..formatting.document import Table
 from ..scene.scene import Scene
@@ -111,6 +113,6 @@ def under_variants(
         return value if isinstance(value, str) else number(value)
 
     scenes = {name: Scene.load(preset).with_entries(entries) for name, entries in variants.items()}
-    ready(scenes.values())
+    compile_all({variant_to_record(scene, True, RTOL, False, trajectory=True, fold=False) for scene in scenes.values()})
     rows = [[name, *(cell(read, scene) for read in readings.values())] for name, scene in scenes.items()]
     return Table(caption, ["variant", *readings], [*rows, ["paper", *printed]])

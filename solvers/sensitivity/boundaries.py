@@ -13,7 +13,6 @@ import numpy as np
 from ...generated.automaton import OUTCOMES
 from ..boundaries.boundary import boundary
 from ..boundaries.changes import Change, changes_along
-from ..boundaries.line import Line
 from ..boundaries.result import Boundaries
 from ..boundaries.scene_sampler import SceneSampler
 from ..changes.brackets import Brackets, enclose
@@ -362,8 +361,8 @@ def _moved(scene: Scene, angle: float, change: Change, moves: dict[str, float], 
     """
     aside, angle = _beside(scene, angle, moves)
     stokes = change.stokes * np.exp(expected + _REACH * np.linspace(-1, 1, 6))
-    sampler, line = SceneSampler(aside, rtol), Line(aside, angle, rtol)
-    [changes] = changes_along([line], sampler, [sampler(np.full(stokes.size, angle), stokes)])
+    sampler = SceneSampler(aside, rtol)
+    [changes] = changes_along([angle], sampler, [sampler(np.full(stokes.size, angle), stokes)])
     if isinstance(changes, ComputationError):
         raise changes
     same = [math.log(one.stokes / change.stokes) for one in changes

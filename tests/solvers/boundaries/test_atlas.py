@@ -8,12 +8,9 @@ from typing import Any
 
 import numpy as np
 import pytest
-from wetdoublet.solvers import Atlas, InputError, Scene, atlas, boundary, collide_many
-from wetdoublet.solvers.boundaries.line import approach
+from wetdoublet.solvers import Atlas, InputError, Scene, atlas, boundary, collide, collide_many
 from wetdoublet.solvers.boundaries.plot import draw
 from wetdoublet.solvers.formatting.style import LETTERS
-from wetdoublet.solvers.model.dimensionless import nondimensionalise
-from wetdoublet.solvers.model.model import load, select_model
 
 from ...helpers.command import run
 
@@ -94,24 +91,49 @@ def test_a_region_goes_on_beyond_the_last_curve() -> None:
 def test_a_plane_of_another_entry() -> None:
     """Roughness across: where the graze passes from the glass criterion to roughness, the approach just meets both.
 
-    The approach without solids is Rosenbrock's; the triple point is where the strip of SRS ends, by outcomes.
+    It meets neither where both are moved by 1e-6, and either where it alone is moved. The triple point is where the
+    strip of SRS ends, by outcomes.
     """
     scene = Scene.load("granulation")
     found = atlas(scene, over="particles.roughness", span=("3 um", "5.5 um"), stokes=(0.02, 0.2), lines=2)
     assert not found.unsettled
     assert [one.kind for one in found.points] == ["criterion change", "triple point"]
     criterion, triple = found.points
-    both = scene.with_entries({"particles.roughness": criterion.x})
-    n = nondimensionalise(both, both.speed_of(criterion.stokes), scene.angle or 0.0)
-    pressure, gap = approach(load(select_model(both, oblique=True)), n.groups, 1e-10)
-    assert pressure == pytest.approx(n.groups["glass_number"], rel=1e-6)
-    assert gap == pytest.approx(n.groups["rough_gap"], rel=1e-6)
+    glass = float(scene.entries["liquid.glass_transition_pressure"])
+    for harder, rougher, reversal in ((1e-6, -1e-6, None), (-1e-6, -1e-6, "glass"), (1e-6, 1e-6, "rough")):
+        moved = {
+            "liquid.glass_transition_pressure": glass * (1 + harder),
+            "particles.roughness": criterion.x * (1 + rougher),
+        }
+        seen = collide(scene.with_entries(moved), stokes=criterion.stokes, ledger=False)
+        assert seen.reversal == reversal
     near = triple.stokes * np.exp(np.linspace(-4e-5, 4e-5, 801))
     for side, there in ((1e-5, False), (-1e-5, True)):
         roughness = np.full(near.size, triple.x * (1 + side))
         vary = {"particles.roughness": roughness}
         seen = collide_many(scene, stokes=near, angle=scene.angle, vary=vary, of=("outcome",)).outcome.values
         assert bool((seen == 1).any()) is there
+
+
+def test_where_the_saddle_meets_the_rim() -> None:
+    """There the bridge's pull at rupture is the centrifugal force of rigid rotation with the angular momentum of touch.
+
+    Mikami's law and the moment of inertia as printed; the point is located to 1e-9 of the window, the curve on which it
+    lies to 2e-5 of it.
+    """
+    scene = Scene.load("pellet-coating")
+    found = atlas(scene, span=("20 deg", "45 deg"), stokes=(0.5, 10.0), lines=2)
+    (point,) = (one for one in found.points if one.kind == "saddle meets rim")
+    assert scene.bridge is not None
+    a, m, x0 = scene.reduced_radius, scene.reduced_mass, scene.liquid.film_thickness
+    volume, phi, rupture = scene.bridge.volume, scene.bridge.contact_angle, scene.rupture_gap
+    steep = -1.1 * volume**-0.53
+    offset = (-0.34 * math.log(volume) - 0.96) * phi**2 - 0.019 * math.log(volume) + 0.48
+    pull = math.exp(steep * rupture / (2 * a) + offset) + 0.0042 * math.log(volume) + 0.078
+    pull *= math.pi * 2 * a * scene.bridge.surface_tension
+    rate = scene.speed_of(point.stokes) * math.tan(point.x) / (4 * a)
+    rate *= (4 * a + x0) ** 2 / ((4 * a + rupture) ** 2 + 6.4 * a**2)
+    assert m * (4 * a + rupture) * rate**2 == pytest.approx(pull, rel=1e-4)
 
 
 # ---- the interface

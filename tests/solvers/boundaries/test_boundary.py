@@ -7,7 +7,6 @@ from typing import Any
 import numpy as np
 import pytest
 from wetdoublet.solvers import Boundaries, InputError, Scene, boundary, collide
-from wetdoublet.solvers.boundaries.trace import trace
 
 from ...helpers.command import run
 from ...helpers.own_arm import surface
@@ -25,7 +24,7 @@ def pairs(found: Boundaries, line: int = 0) -> list[tuple[str, str]]:
 
 
 def holds_on_both_sides(scene: Scene, found: Boundaries, distance: float = 1e-6) -> None:
-    """Single collisions just below and above every change have its outcomes (the other engine, the other code path)."""
+    """Single collisions just below and above every change have its outcomes (another kernel, the other code path)."""
     for angle, line in zip(found.angles, found.changes, strict=True):
         for one in line:
             for sign, outcome in ((-1, one.before), (1, one.after)):
@@ -192,7 +191,7 @@ def test_no_change_is_said_with_its_range() -> None:
     assert f"no change for St 1 to 2 (normal speed {speed:.4g} to {2 * speed:.4g} m/s)" in done.stdout
 
 
-def test_creeping_pairs_are_looked_at_by_rosenbrock() -> None:
+def test_creeping_pairs_are_traced() -> None:
     """Nearly head-on, unequal spheres creep out of an infinite film: their line is traced all the same."""
     tables = Scene.load("granulation-dry-bridge").to_dict()
     tables["partner"] = {"radius": 3e-4, "density": 2500.0}
@@ -200,15 +199,3 @@ def test_creeping_pairs_are_looked_at_by_rosenbrock() -> None:
     found = boundary(Scene.from_dict(tables), angle=0.02, stokes=(0.02, 2.0))
     assert not found.failed
     holds_on_both_sides(Scene.from_dict(tables), found)
-
-
-def test_rosenbrock_traces_the_same_boundaries() -> None:
-    """Without a kernel the same logic runs on fewer samples: the changes agree, and the resolution says so."""
-    scene, angle = Scene.load("granulation"), np.array([math.radians(55.0)])
-    kernel = trace(scene, angle, (0.01, 1.0), 1e-9)
-    other = trace(scene, angle, (0.01, 1.0), 1e-9, kernel=False)
-    assert not any(other.failures)
-    for one, its in zip(kernel.changes[0], other.changes[0], strict=True):
-        assert (one.before, one.after) == (its.before, its.after)
-        assert one.stokes == pytest.approx(its.stokes, rel=1e-8)
-    assert other.resolution > 5 * kernel.resolution

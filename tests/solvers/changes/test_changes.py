@@ -1,4 +1,4 @@
-"""Brackets, roots, experiments and slopes of changes, beside known places and beside collisions of single scenes."""
+"""Brackets, experiments and slopes of changes, beside known places and beside collisions of single scenes."""
 
 import math
 
@@ -8,7 +8,6 @@ from wetdoublet.solvers import ComputationError, Scene, boundary, boundary_sensi
 from wetdoublet.solvers.changes.brackets import Brackets, bisect, enclose, locate
 from wetdoublet.solvers.changes.experiment import Experiment, Rows
 from wetdoublet.solvers.changes.lines import Lines
-from wetdoublet.solvers.changes.roots import evaluate, root
 from wetdoublet.solvers.changes.slopes import outcomes_along, slopes, slopes_by_differences
 
 ENTRIES = ("liquid.viscosity", "liquid.film_thickness")
@@ -90,17 +89,6 @@ def test_a_property_that_ends_is_bisected() -> None:
     edges = np.array([0.1, 0.7])
     low, high = bisect(lambda place: place < edges, np.zeros(2), np.ones(2), 1e-8)
     assert ((low <= edges) & (edges <= high) & (high - low <= 1e-8)).all()
-
-
-@pytest.mark.parametrize("known", [0.0, 0.05, math.inf])
-def test_roots_need_no_values(known: float) -> None:
-    """A root is located where values are known everywhere, away from it only, or nowhere."""
-
-    def function(stokes: float) -> tuple[bool, float | None]:
-        value = math.log(stokes / 0.3) + 0.4 * math.log(stokes / 0.3) ** 2
-        return value >= 0, value if abs(value) >= known else None
-
-    assert root(function, evaluate(function, 0.1), evaluate(function, 1.0)) == pytest.approx(0.3, rel=2e-9)
 
 
 def rows(scene: Scene, viscosities: list[float], values: list[float]) -> Experiment:
