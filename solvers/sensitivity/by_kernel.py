@@ -7,12 +7,11 @@ from functools import lru_cache, partial
 import numpy as np
 
 from ...generated.automaton import LAST_ANSWER, OUTCOMES
-from ..engines.casadi.locate import EventSequence
 from ..engines.choice import differentiates
 from ..engines.settings import KERNEL_STEPS
 from ..engines.taylor.call import Impacts
 from ..engines.taylor.orders import order_for
-from ..engines.taylor.tangent import CHATTERS, COLUMNS, Carried, run_tangent
+from ..engines.taylor.tangent import COLUMNS, Carried, run_tangent
 from ..model.dimensionless import nondimensionalise
 from ..scene.groups import rate_scales, si_values
 from ..scene.scene import Scene
@@ -147,17 +146,18 @@ def _at_reference(scene: Scene, kind: Kind, wrt: tuple[str, ...], angle: float) 
     return _Reference(moved, scales, np.asarray(units.full()).ravel())
 
 
-def one(problem: Problem, path: EventSequence, of: tuple[str, ...], rtol: float, near: Near | None) -> Slopes | None:
-    """Derivatives of a located collision; None if the kernel has none or finds another trajectory."""
+def slopes(problem: Problem, of: tuple[str, ...], rtol: float, near: Near | None) -> Slopes | None:
+    """Derivatives of one collision; None if the kernel has none, or at its tolerance another outcome."""
+    path = problem.path
     if not path.separated or not offers(problem.scene, of, (problem.n.oblique,)):
         return None
     impact = Impacts(problem.scene, np.array([problem.n.speed]), np.array([problem.n.angle]), {})
-    along = gradients_by_kernel(impact, problem.kind, problem.wrt, of, sharpened(rtol, near, path), order_for(rtol))
+    sharp = sharpened(rtol, near, path.parting)
+    along = gradients_by_kernel(impact, problem.kind, problem.wrt, of, sharp, order_for(rtol))
     if along is None:
         return None
     answer = along.run.answers[0]
-    outcome = OUTCOMES[answer["outcome"]]
-    if answer["status"] > LAST_ANSWER or outcome != path.outcome or along.run.near[0, 1] == CHATTERS:
+    if answer["status"] > LAST_ANSWER or OUTCOMES[answer["outcome"]] != path.outcome:
         return None
     return Slopes(along.value[:, 0], along.first[:, 0])
 

@@ -6,14 +6,14 @@ from pathlib import Path as FilePath
 
 import numpy as np
 
-from ..engines.casadi.locate import EventSequence
 from ..engines.choice import casadi_gradient_engine, gradient_engine
 from ..engines.settings import check_engine, check_rtol
 from ..errors import ComputationError, InputError
 from ..host.arguments import check_name
 from ..scene.held import held_quantity
 from ..scene.scene import Scene
-from . import by_kernel as kernel
+from . import by_casadi, by_kernel
+from .boundary_distance import checked, explained
 from .parameters import SIDEWAYS, check_wrt
 from .problem import Problem, Slopes
 from .result import Near, Sensitivities
@@ -78,18 +78,23 @@ def sensitivities(
     names = check_wrt(loaded, wrt)
     v0, angle_ = loaded.need_impact()
     problem = Problem.of(loaded, v0, angle_, names, held)
-    path, near = problem.located(rtol)
-    todo = tuple(name for name in computed(of) if problem.defined(name, path))
+    n = problem.n
+    try:
+        separated = problem.path.separated
+    except ComputationError as error:
+        raise explained(loaded, n, error, rtol) from None
+    near = checked(loaded, n, separated, rtol, "rotation" in of)
+    todo = tuple(name for name in computed(of) if problem.defined(name))
     odd = np.array([DIFFERENTIATED[name].odd for name in todo], dtype=bool)
     sideways = np.isin(names, SIDEWAYS)
-    tilts = bool(todo and sideways.any() and odd.any()) and not problem.n.oblique
-    plugin, free = casadi_gradient_engine(requested), requested is None and method == "forward"
-    if free:
-        plugin = gradient_engine(loaded, of, kernel.KNOWN, {problem.n.oblique, problem.n.oblique or tilts})
-    run = _Run(todo, method, rtol, near, free)
-    slopes, plugin = run.slopes(problem, path, plugin) if todo else (None, plugin)
+    tilts = bool(todo and sideways.any() and odd.any()) and not n.oblique
+    plugin = casadi_gradient_engine(requested)
+    if requested is None and method == "forward":
+        plugin = gradient_engine(loaded, of, by_kernel.KNOWN, {n.oblique, n.oblique or tilts})
+    run = _Run(todo, method, rtol, near)
+    slopes, plugin = run.slopes(problem, plugin) if todo else (None, plugin)
     if tilts and slopes is not None:
-        tilted, plugin = run.slopes(*problem.tilted(), plugin)
+        tilted, plugin = run.slopes(problem.tilted(), plugin)
         slopes = Slopes(slopes.value, np.where(odd[:, None] & sideways, tilted.first, slopes.first))
     rows = {name: _combined(name, todo, slopes, len(names)) for name in of}
     values = {name: row[0] for name, row in rows.items()}
@@ -99,7 +104,7 @@ def sensitivities(
         gradient={name: _row(names, row[1]) for name, row in rows.items()},
         elasticity={name: _elasticities(name, reference, *row) for name, row in rows.items()},
         reference=reference,
-        outcome=path.outcome,
+        outcome=problem.path.outcome,
         method=method,
         engine=plugin,
         hold=held,
@@ -111,29 +116,20 @@ def sensitivities(
 
 @dataclass(frozen=True)
 class _Run:
-    """The request for one trajectory; `free` if the kernel may replace CasADi where that fails."""
+    """What is asked of a collision's trajectory, and the nearest boundary."""
 
     of: tuple[str, ...]
     method: str
     rtol: float
     near: Near | None
-    free: bool
 
-    def slopes(self, problem: Problem, path: EventSequence, plugin: str) -> tuple[Slopes, str]:
-        """Derivatives by the parameters, SI, and the engine that computed them."""
-        refused = plugin == "taylor"
-        slopes = kernel.one(problem, path, self.of, self.rtol, self.near) if refused else None
+    def slopes(self, problem: Problem, engine: str) -> tuple[Slopes, str]:
+        """Derivatives by the parameters, SI, and the engine that computed them: Rosenbrock where the kernel cannot."""
+        slopes = by_kernel.slopes(problem, self.of, self.rtol, self.near) if engine == "taylor" else None
         if slopes is None:
-            plugin = casadi_gradient_engine() if refused else plugin
-            try:
-                slopes = problem.slopes(path, self.of, self.method, plugin, self.rtol, self.near)
-            except ComputationError:  # CasADi's trajectory misses a located event; the kernel's may not
-                if refused or not self.free:
-                    raise
-                slopes, plugin = kernel.one(problem, path, self.of, self.rtol, self.near), "taylor"
-                if slopes is None:
-                    raise
-        return Slopes(slopes.value, slopes.first / problem.units()), plugin
+            engine = casadi_gradient_engine() if engine == "taylor" else engine
+            slopes = by_casadi.slopes(problem, self.of, self.method, engine, self.rtol, self.near)
+        return Slopes(slopes.value, slopes.first / problem.units()), engine
 
 
 def _combined(

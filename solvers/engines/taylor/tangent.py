@@ -19,10 +19,10 @@ from .orders import order_backward, order_for
 from .source import Variant
 
 COLUMNS = {"time": 5, "smallest_gap": 6, "turned": 7}  # after the outputs
-CHATTERS = 5  # boundary of a trajectory with resting contact
+CHATTERS, TOUCH = 5, 7  # boundaries: of a trajectory with resting contact; of one with glass at initial contact
 DISTANCES = {  # boundaries whose measure is a distance reported by `sensitivities`
     6: (TIE, list(ENTRIES.values())[-1]),
-    7: ("glass criterion met at initial contact", "liquid.glass_transition_pressure"),
+    TOUCH: ("glass criterion met at initial contact", "liquid.glass_transition_pressure"),
     8: ("half turn at separation", "rotation"),
     10: ("switch between sliding and sticking contact", "particles.friction"),
 }
