@@ -1,8 +1,8 @@
 """Distance of a collision from the nearest boundary, where derivatives jump or diverge, by the kernel.
 
 Collisions at other speeds, on a geometric ladder of relative distances to both sides, show where the outcome, the
-sequence of rebounds or that of declared events changes; the nearest change is enclosed. Boundaries that are not crossed
-along the speed are measured on the trajectory itself (`engines/taylor/runtime/nearness.h`).
+sequence of rebounds or that of declared events changes; the nearest change is enclosed. The switch of a rebound between
+sliding and sticking is no such change: it is measured by the engine that differentiates.
 """
 
 from __future__ import annotations
@@ -17,9 +17,8 @@ from ...generated.automaton import CRITERIA, KINDS, LAST_ANSWER, EventKind
 from ..changes.brackets import Brackets, enclose
 from ..collision.by_kernel import words_of
 from ..engines.taylor.call import Impacts
-from ..engines.taylor.orders import order_for
 from ..engines.taylor.record import run_recorded
-from ..engines.taylor.tangent import DISTANCES, TOUCH, run_tangent
+from ..engines.taylor.tangent import DISTANCES, GRIPS
 from ..errors import ComputationError
 from ..model.dimensionless import DimensionlessGroups
 from ..scene.contact import TIE
@@ -29,13 +28,14 @@ from .result import Near
 LIMIT, PER_RTOL, WIDEST = 1e-6, 1e4, 1e-3
 LADDER = tuple(np.geomspace(1e-9, 0.5, 30).tolist())
 """Relative distances at which neighbours of a collision are computed."""
-_FINE = 1e-11  # tolerance of these collisions
+FINE = 1e-11  # tolerance of these collisions
 _WIDTH, _NARROWEST = 1e-2, 1e-11  # of an enclosed change: relative to its distance, and at least
 _AT_ONCE = 32  # samples of a round of enclosing it
 _BEYOND = np.array([4.0, 8.0])  # widths past a separatrix at which the opening speed shows where it is lost
 _LOST = 1.5  # ratio of these speeds, squared, above which it vanishes at the separatrix
 
 GLASS = "graze of the glass criterion"
+TOUCH = "glass criterion met at initial contact"
 CONTACT = "graze of the contact gap"
 SADDLE = "separatrix (saddle of the effective potential)"
 RIM = "separatrix (rim: it just reaches the rupture gap)"
@@ -69,26 +69,26 @@ def refused(near: Near, least: float) -> ComputationError:
     )
 
 
-def checked(scene: Scene, n: DimensionlessGroups, separated: bool, rtol: float, rotation: bool) -> Near | None:
-    """The nearest boundary; ComputationError if it is too near for derivatives.
-
-    Arguments:
-        rotation: the angle turned is to be differentiated: selects the kernel that measures the trajectory.
-    """
+def checked(courses: Courses, separated: bool, rtol: float) -> Near | None:
+    """The nearest boundary of a collision; ComputationError if it is too near for derivatives."""
     least = limit(rtol)
-    nearby = [along_speed(lambda factors: _courses(scene, n, factors), LADDER if separated else (least,))]
-    if separated:
-        nearby.append(_measured(scene, n, rtol, rotation))
-    near = min((place for place in nearby if place is not None), key=lambda place: place.distance, default=None)
+    near = along_speed(courses, LADDER if separated else (least,))
     if near is not None and near.distance < least:
         raise refused(near, least)
     return near
 
 
-def explained(scene: Scene, n: DimensionlessGroups, error: ComputationError, rtol: float) -> ComputationError:
+def check_grip(distance: float, rtol: float) -> None:
+    """ComputationError if a rebound lies at the switch between sliding and sticking, by the logarithm of the ratio."""
+    name, of = DISTANCES[GRIPS]
+    if distance < limit(rtol):
+        raise refused(Near(name, distance, of), limit(rtol))
+
+
+def explained(courses: Courses, error: ComputationError, rtol: float) -> ComputationError:
     """The error for a trajectory that is not decided: names the boundary if it is close to one."""
     least = limit(rtol)
-    near = along_speed(lambda factors: _courses(scene, n, factors), [place for place in LADDER if place <= least])
+    near = along_speed(courses, [place for place in LADDER if place <= least])
     return error if near is None else refused(near, least)
 
 
@@ -120,8 +120,13 @@ Courses = Callable[[np.ndarray], list[Course]]
 """Speeds, as factors of that of the collision -> what happens at each."""
 
 
-def course(answer: np.void, log: np.ndarray, words: Sequence[str]) -> Course:
-    """The course of a recorded collision; `words`: of the events by the kernel's numbers."""
+def course(answer: np.void, log: np.ndarray, words: Sequence[str], speed: float) -> Course:
+    """The course of a recorded collision.
+
+    Arguments:
+        words: of the events by the kernel's numbers.
+        speed: opening speed, if it separates.
+    """
     rows, own = log[: answer["events"]], words[len(KINDS) :]
     shown = {*CRITERIA, *_TURNS, *_CUT_OFF, _RESTS, *own}
     happened = [words[kind] for kind in rows["kind"].tolist()]
@@ -129,15 +134,17 @@ def course(answer: np.void, log: np.ndarray, words: Sequence[str]) -> Course:
         bool(answer["outcome"] > 0) if answer["status"] <= LAST_ANSWER else None,
         tuple(word for word in happened if word in shown),
         bool(rows.size and rows["time"][0] == 0),
-        float(answer["shown"][0]),
+        speed,
         tuple(own),
     )
 
 
-def _courses(scene: Scene, n: DimensionlessGroups, factors: np.ndarray) -> list[Course]:
+def courses_of(scene: Scene, n: DimensionlessGroups, factors: np.ndarray) -> list[Course]:
+    """What happens in a scene's collision at other speeds."""
     impacts = Impacts(scene, n.speed * factors, np.full(factors.size, n.angle), {})
-    ran, words = run_recorded(impacts, n.oblique, _FINE, ledger=True), words_of(scene)
-    return [course(answer, log, words) for answer, log in zip(ran.answers, ran.events, strict=True)]
+    ran, words = run_recorded(impacts, n.oblique, FINE, ledger=True), words_of(scene)
+    speeds = ran.answers["shown"][:, 0].tolist()
+    return [course(*row, words, speed) for *row, speed in zip(ran.answers, ran.events, speeds, strict=True)]
 
 
 def along_speed(courses: Courses, ladder: Sequence[float]) -> Near | None:
@@ -181,8 +188,7 @@ def _name(courses: Courses, change: Brackets) -> str:
         return f"{DECLARED} {own}"
     if "glass" in differing and "" not in differing:
         at_once = low.at_once if first == "glass" else high.at_once
-        at_start = low.events[:1] != high.events[:1]
-        return DISTANCES[TOUCH][0] if at_once and at_start else GLASS
+        return TOUCH if at_once and low.events[:1] != high.events[:1] else GLASS
     if len(differing & CRITERIA.keys()) == 2:
         return TIE
     if differing & CRITERIA.keys() and "" not in differing:
@@ -197,13 +203,3 @@ def _name(courses: Courses, change: Brackets) -> str:
     past = beyond + np.sign(ends[1] - ends[0]) * (1 if high.separated else -1) * _BEYOND * (ends[1] - ends[0])
     slow, fast = (one.speed**2 for one in courses(1 + past))
     return RIM if fast > _LOST * slow else SADDLE
-
-
-def _measured(scene: Scene, n: DimensionlessGroups, rtol: float, rotation: bool) -> Near | None:
-    """The nearest boundary by the kernel's measures on the trajectory, of those that the speed may not cross."""
-    impact = Impacts(scene, np.array([n.speed]), np.array([n.angle]), {})
-    ran = run_tangent(impact, n.oblique, rtol, rotation, (), order_for(rtol))
-    if ran is None or int(ran.near[0, 1]) not in DISTANCES:
-        return None
-    name, of = DISTANCES[int(ran.near[0, 1])]
-    return Near(name, float(ran.near[0, 0]), of)

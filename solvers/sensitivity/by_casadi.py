@@ -29,13 +29,13 @@ from ..model.model import Model, load, select_model
 from ..model.phases import Flow, Phase, WatchedEvents, extra_units
 from ..model.rebound import jump, rubs
 from ..scene.contact import GAPS, contact_word
-from .boundary_distance import SADDLE
+from .boundary_distance import SADDLE, check_grip
 from .parameters import SCALES, parameter_map
-from .problem import NEAR, Problem, Slopes, amplifies, sharpened
-from .result import Near
+from .problem import NEAR, Problem, Query, Slopes
 from .results import DIFFERENTIATED
 
 _SHARPEST_CVODES = 3e-12  # smallest tolerance of CVODES with sensitivities; below it some integrations fail
+STATE = "state."  # begins the name of a component of the last state, among results
 # Largest landing relative to its phase, and that wanted of a trajectory that amplifies errors. The error of a
 # derivative is its square times the amplification, near a saddle one over the distance. Beyond `_LOST` no correction
 # of durations helps.
@@ -165,25 +165,26 @@ def follow(course: Course, p: MX, durations: MX, plugin: str, tolerance: Toleran
     return at
 
 
-Column = Callable[[Course, MX, End, Tolerance, tuple[str, ...]], MX]
-"""Course, groups, its end, tolerance and names -> the results of these names."""
-
-
 @own_cache(256)
-def trajectory(course: Course, of: tuple[str, ...], plugin: str, tolerance: Tolerance, column: Column) -> Function:
+def trajectory(course: Course, of: tuple[str, ...], plugin: str, tolerance: Tolerance) -> Function:
     """A course as a function: (groups, durations) -> results `of`, and shifts of the durations by the landings."""
     p, durations = MX.sym("groups", len(course.model.groups)), MX.sym("durations", len(course.flows))
     end = follow(course, p, durations, plugin, tolerance)
     shifts = vertcat(*end.shifts) if end.shifts else MX(0, 1)
-    return Function("trajectory", [p, durations], [column(course, p, end, tolerance, of), shifts])
+    named = results(course, p, end, tolerance)
+    column = vertcat(*(named.get(name, MX(0)) for name in of))
+    return Function("trajectory", [p, durations], [column, shifts])
 
 
-def results(course: Course, p: MX, end: End, tolerance: Tolerance, of: tuple[str, ...]) -> MX:
-    """Results of a collision by their names in `DIFFERENTIATED`, dimensionless."""
+def results(course: Course, p: MX, end: End, tolerance: Tolerance) -> dict[str, MX]:
+    """Results by their names in `DIFFERENTIATED`, and the last state by `STATE` and the names of its components."""
     model = course.model
     size = len(model.state)
     y = end.y[:size]
-    outputs, before, after = model.function("outputs")(y, p), *(model.function("energies")(s, p) for s in (end.start, y))
+    outputs, before, after = (
+        model.function("outputs")(y, p),
+        *(model.function("energies")(s, p) for s in (end.start, y)),
+    )
     named = dict(zip(model.names("outputs"), (outputs[k] for k in range(outputs.numel())), strict=True))
     energies = {name: (before[k], after[k]) for k, name in enumerate(model.names("energies"))}
     named |= {"contact_time": end.time, "smallest_gap": end.smallest_gap, "energy.dry_contact": end.dry}
@@ -198,14 +199,14 @@ def results(course: Course, p: MX, end: End, tolerance: Tolerance, of: tuple[str
     for k, (name, unit) in enumerate(zip(course.extras, extra_units(model, course.extras, p), strict=True)):
         named[name if name == "rotation" else f"energy.{name}"] = unit * (end.y[size + k] - tolerance.offset)
     named["energy.dry_friction"] = named.get("energy.dry_friction", MX(0)) + end.friction
-    return vertcat(*(named.get(name, MX(0)) for name in of))
+    return named | {STATE + name: y[k] for k, name in enumerate(model.state)}
 
 
 def quadratures(model: Model, of: Iterable[str]) -> tuple[str, ...]:
     """Names of the quadratures that results need: the rotation where it is no state, and terms of the ledger."""
     turns = model.has("turning_rate") and not model.strings
     has = {*model.names("energy_rates"), *(("rotation",) if turns else ())}
-    return tuple(extra for name in of if (extra := DIFFERENTIATED[name].extra) in has)
+    return tuple(extra for name in of if name in DIFFERENTIATED and (extra := DIFFERENTIATED[name].extra) in has)
 
 
 # ---- its derivatives
@@ -235,7 +236,7 @@ def evaluate(function: Function, *arguments: np.ndarray) -> list[np.ndarray]:
     return arrays
 
 
-def differentiated(
+def derivatives(
     function: Function, p: np.ndarray, durations: np.ndarray, dp: np.ndarray, method: str, amplified: bool
 ) -> tuple[np.ndarray, np.ndarray]:
     """The results of a trajectory and their derivatives in the groups, valid along `dp` (groups, n).
@@ -250,9 +251,9 @@ def differentiated(
     """
     adjoint = method == "adjoint"
     seeds = np.eye(function.size1_out(0)) if adjoint else spanning(p, dp)
-    derivatives = first_derivatives(function, seeds.shape[1], adjoint)
+    derivative = first_derivatives(function, seeds.shape[1], adjoint)
     for _ in range(_TRIES):
-        z, shifts, slopes = evaluate(derivatives, p, durations, seeds)
+        z, shifts, slopes = evaluate(derivative, p, durations, seeds)
         shifts = shifts.ravel()
         missed = np.max(np.abs(shifts), initial=0.0)
         limits = np.minimum(_AMPLIFIED if amplified else _LANDED, np.maximum(_LONG / durations, _ROUNDED))
@@ -292,66 +293,59 @@ def inverse(seeds: np.ndarray) -> np.ndarray:
 # ---- of a collision
 
 
-def slopes(problem: Problem, of: tuple[str, ...], method: str, plugin: str, rtol: float, near: Near | None) -> Slopes:
-    """Derivatives of the results of a separating collision in theta; ComputationError if the engine fails.
-
-    Arguments:
-        near: the nearest boundary.
-    """
-    if plugin == "cvodes" and near is not None and amplifies(near) and near.boundary == SADDLE:
-        message = "no derivative by cvodes: its steps do not follow those of a trajectory that lies at the"
-        raise ComputationError(f"{message} {near}, nearer than {NEAR:g}", advice="--engine rosenbrock")
-    scene, n = problem.scene, problem.n
+def slopes(problem: Problem, query: Query, plugin: str) -> Slopes:
+    """Derivatives of the results of a collision in theta; ComputationError if the engine fails."""
+    scene, n, of = problem.scene, problem.n, query.of
     choice = select_model(scene, n.oblique, full="energy.tangential_lubrication" in of)
     mapping = parameter_map(problem.kind, problem.wrt, tuple(load(choice).groups))
     p, scales = np.split(mapping.values(problem.reference).full().ravel(), [-len(SCALES)])
     by_theta = np.asarray(mapping.slopes(problem.reference)[0].full())
-    found = partial(sequence_of, scene, n)
-    sharp = sharpened(rtol, near, problem.path.parting)
-    sharp = max(sharp, _SHARPEST_CVODES) if plugin == "cvodes" else sharp
+    found, parting = partial(sequence_of, scene, n), problem.path.parting
     try:
-        z, dz, dp = along(found, choice, quadratures(load(choice), of), of, plugin, sharp, results, p,
-                          by_theta[: p.size], method, amplifies(near))  # fmt: skip
+        z, dz, dp = differentiated(found, choice, query, plugin, parting, p, by_theta[: p.size])
     except ComputationError as error:
         raise n.in_si(error) from None
     # in SI: a result is its dimensionless value times a scale
     scale, by_scale = np.ones(len(of)), np.zeros((len(of), by_theta.shape[1]))
     for k, name in enumerate(of):
-        if DIFFERENTIATED[name].scale is not None:
-            at = SCALES.index(DIFFERENTIATED[name].scale)
-            scale[k], by_scale[k] = scales[at], by_theta[p.size + at]
+        unit = DIFFERENTIATED[name].scale
+        if unit is not None:
+            scale[k], by_scale[k] = scales[SCALES.index(unit)], by_theta[p.size + SCALES.index(unit)]
     return Slopes(z * scale, dz @ dp * scale[:, None] + z[:, None] * by_scale)
 
 
-def along(
+def differentiated(
     found: Callable[[float], EventSequence],
     choice: ModelKey,
-    extras: tuple[str, ...],
-    of: tuple[str, ...],
+    query: Query,
     plugin: str,
-    rtol: float,
-    column: Column,
+    parting: float,
     p: np.ndarray,
     dp: np.ndarray,
-    method: str,
-    amplified: bool,
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """The results of a collision that is replayed, their derivatives in the groups, and the directions that matter.
 
     Arguments:
         found: as for `replayed`.
-        dp: directions (groups, n) along which derivatives are needed.
-        method, amplified: as for `differentiated`.
+        parting: opening speed at separation over v0.
+        p, dp: groups, and directions (groups, n) along which derivatives are needed.
 
     Raises:
         ComputationError: the replay does not agree with the record, or the trajectory cannot be differentiated.
     """
-    path, replay = replayed(found, choice, extras, plugin, rtol)
+    sharp, near = query.sharpened(parting), query.near
+    if plugin == "cvodes":
+        if query.amplified and near is not None and near.boundary == SADDLE:
+            message = "no derivative by cvodes: its steps do not follow those of a trajectory that lies at the"
+            raise ComputationError(f"{message} {near}, nearer than {NEAR:g}", advice="--engine rosenbrock")
+        sharp = max(sharp, _SHARPEST_CVODES)
+    path, replay = replayed(found, choice, quadratures(load(choice), query.of), plugin, sharp)
+    check_grip(replay.grip, query.rtol)
     course = course_of(path, replay, choice)
-    function = trajectory(course, of, plugin, replay.tolerance, column)
+    function = trajectory(course, query.of, plugin, replay.tolerance)
     durations, dp = np.array([piece.duration for piece in replay.pieces]), dp * course.influences(path.groups)[:, None]
     try:
-        z, dz = differentiated(function, p, durations, dp, method, amplified)
+        z, dz = derivatives(function, p, durations, dp, query.method, query.amplified)
     except IntegrationFailed as failure:
         raise ComputationError(
             f"{plugin} could not differentiate the trajectory ({failure})",

@@ -80,18 +80,28 @@ class Problem:
         return float(self.reference[self.kind.entries.index(name)])
 
 
-def sharpened(rtol: float, near: Near | None, parting: float) -> float:
-    """The tolerance reduced for a trajectory that amplifies errors.
+@dataclass(frozen=True)
+class Query:
+    """What is asked of a trajectory: results by name, the method and tolerance, and the nearest boundary."""
 
-    Near a boundary they grow by one over the distance, where it separates slowly by one over the remaining speed.
+    of: tuple[str, ...]
+    method: str
+    rtol: float
+    near: Near | None
 
-    Arguments:
-        parting: opening speed at separation over v0; 0 of a stick.
-    """
-    least = min([NEAR, *([near.distance] if near is not None else []), *([parting] if parting > 0 else [])])
-    return min(rtol, max(rtol * least / NEAR, SHARPEST))
+    @property
+    def amplified(self) -> bool:
+        """True if a boundary is so near that the trajectory amplifies errors."""
+        return self.near is not None and self.near.distance < NEAR
 
+    def sharpened(self, parting: float) -> float:
+        """The tolerance reduced for a trajectory that amplifies errors.
 
-def amplifies(near: Near | None) -> bool:
-    """True if a boundary is so near that the trajectory amplifies errors."""
-    return near is not None and near.distance < NEAR
+        Near a boundary they grow by one over the distance, where it separates slowly by one over the remaining speed.
+
+        Arguments:
+            parting: opening speed at separation over v0; 0 of a stick.
+        """
+        distance = self.near.distance if self.near is not None else NEAR
+        least = min(NEAR, distance, parting if parting > 0 else NEAR)
+        return min(self.rtol, max(self.rtol * least / NEAR, SHARPEST))

@@ -1,7 +1,7 @@
 """`sensitivities()`: derivatives of the results of a scene's collision."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from functools import partial
 from pathlib import Path as FilePath
 
 import numpy as np
@@ -13,10 +13,10 @@ from ..host.arguments import check_name
 from ..scene.held import held_quantity
 from ..scene.scene import Scene
 from . import by_casadi, by_kernel
-from .boundary_distance import checked, explained
+from .boundary_distance import checked, courses_of, explained
 from .parameters import SIDEWAYS, check_wrt
-from .problem import Problem, Slopes
-from .result import Near, Sensitivities
+from .problem import Problem, Query, Slopes
+from .result import Sensitivities
 from .results import DIFFERENTIATED, SPENT, check_quantities, computed
 
 METHODS = ("forward", "adjoint")
@@ -78,12 +78,12 @@ def sensitivities(
     names = check_wrt(loaded, wrt)
     v0, angle_ = loaded.need_impact()
     problem = Problem.of(loaded, v0, angle_, names, held)
-    n = problem.n
+    n, courses = problem.n, partial(courses_of, loaded, problem.n)
     try:
         separated = problem.path.separated
     except ComputationError as error:
-        raise explained(loaded, n, error, rtol) from None
-    near = checked(loaded, n, separated, rtol, "rotation" in of)
+        raise explained(courses, error, rtol) from None
+    near = checked(courses, separated, rtol)
     todo = tuple(name for name in computed(of) if problem.defined(name))
     odd = np.array([DIFFERENTIATED[name].odd for name in todo], dtype=bool)
     sideways = np.isin(names, SIDEWAYS)
@@ -91,10 +91,10 @@ def sensitivities(
     plugin = casadi_gradient_engine(requested)
     if requested is None and method == "forward":
         plugin = gradient_engine(loaded, of, by_kernel.KNOWN, {n.oblique, n.oblique or tilts})
-    run = _Run(todo, method, rtol, near)
-    slopes, plugin = run.slopes(problem, plugin) if todo else (None, plugin)
+    query = Query(todo, method, rtol, near)
+    slopes, plugin = _slopes(problem, query, plugin) if todo else (None, plugin)
     if tilts and slopes is not None:
-        tilted, plugin = run.slopes(problem.tilted(), plugin)
+        tilted, plugin = _slopes(problem.tilted(), query, plugin)
         slopes = Slopes(slopes.value, np.where(odd[:, None] & sideways, tilted.first, slopes.first))
     rows = {name: _combined(name, todo, slopes, len(names)) for name in of}
     values = {name: row[0] for name, row in rows.items()}
@@ -114,22 +114,13 @@ def sensitivities(
     )
 
 
-@dataclass(frozen=True)
-class _Run:
-    """What is asked of a collision's trajectory, and the nearest boundary."""
-
-    of: tuple[str, ...]
-    method: str
-    rtol: float
-    near: Near | None
-
-    def slopes(self, problem: Problem, engine: str) -> tuple[Slopes, str]:
-        """Derivatives by the parameters, SI, and the engine that computed them: Rosenbrock where the kernel cannot."""
-        slopes = by_kernel.slopes(problem, self.of, self.rtol, self.near) if engine == "taylor" else None
-        if slopes is None:
-            engine = casadi_gradient_engine() if engine == "taylor" else engine
-            slopes = by_casadi.slopes(problem, self.of, self.method, engine, self.rtol, self.near)
-        return Slopes(slopes.value, slopes.first / problem.units()), engine
+def _slopes(problem: Problem, query: Query, engine: str) -> tuple[Slopes, str]:
+    """Derivatives by the parameters, SI, and the engine that computed them: Rosenbrock where the kernel cannot."""
+    slopes = by_kernel.slopes(problem, query) if engine == "taylor" else None
+    if slopes is None:
+        engine = casadi_gradient_engine() if engine == "taylor" else engine
+        slopes = by_casadi.slopes(problem, query, engine)
+    return Slopes(slopes.value, slopes.first / problem.units()), engine
 
 
 def _combined(

@@ -73,6 +73,7 @@ class Replay:
     dry_loss: float = 0.0
     friction_loss: float = 0.0
     own_loss: float = 0.0
+    grip: float = np.inf  # least distance of a rebound from the switch between sliding and sticking (`Rebound`)
     events: list[tuple[str, float]] = field(default_factory=list)
     pieces: list[Piece] = field(default_factory=list)
 
@@ -212,6 +213,7 @@ class _Run:
             jump = rebounded(model, step.kinds[0], at.y, self.p, step.holds)
             at.dry_loss += jump.dry
             at.friction_loss += jump.friction
+            at.grip = min(at.grip, abs(jump.grip))
             self._check_rest(step, jump.after)
             at.y = np.concatenate([jump.after, at.y[size:]])
         if step.holds:  # chatter dissipates what remains of the rebound's energy

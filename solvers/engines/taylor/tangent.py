@@ -19,12 +19,12 @@ from .orders import order_backward, order_for
 from .source import Variant
 
 COLUMNS = {"time": 5, "smallest_gap": 6, "turned": 7}  # after the outputs
-CHATTERS, TOUCH = 5, 7  # boundaries: of a trajectory with resting contact; of one with glass at initial contact
+CHATTERS, GRIPS = 5, 10  # boundaries: of a trajectory with resting contact; of a rebound with friction
 DISTANCES = {  # boundaries whose measure is a distance reported by `sensitivities`
     6: (TIE, list(ENTRIES.values())[-1]),
-    TOUCH: ("glass criterion met at initial contact", "liquid.glass_transition_pressure"),
+    7: ("glass criterion met at initial contact", "liquid.glass_transition_pressure"),
     8: ("half turn at separation", "rotation"),
-    10: ("switch between sliding and sticking contact", "particles.friction"),
+    GRIPS: ("switch between sliding and sticking contact", "particles.friction"),
 }
 STRICTER = 4.0  # stricter tolerance, by this factor, of steps that are not limited by directions
 _SPINS = {"impact_spin": "initial_spin", "impact_partner_spin": "initial_partner_spin"}
