@@ -11,7 +11,7 @@ from ...generated.automaton import CLOSING, KINDS, LAST_ANSWER, OPENING, OUTCOME
 from ..engines.casadi.sequence import EventSequence, sequence
 from ..engines.taylor.call import Impacts
 from ..engines.taylor.record import Recorded, Steps, run_recorded
-from ..engines.taylor.undecided import undecided
+from ..engines.taylor.undecided import SEPARATES, undecided
 from ..errors import ComputationError
 from ..model.dimensionless import DimensionlessGroups
 from ..model.model import load, select_model
@@ -56,8 +56,7 @@ def recorded(
         states = load(select_model(scene, n.oblique, full=ledger, fold=True)).state
         raise n.in_si(undecided(answer, tuple(states), declared))
     if until is not None and answer["outcome"] > 0:
-        message = "a stick that is decided, not proved, separates when it is followed on"
-        raise ComputationError(message, advice="leave out --until")
+        raise ComputationError(f"a stick that is decided, not proved, {SEPARATES}", advice="leave out --until")
     return ran
 
 

@@ -8,15 +8,16 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..engines.casadi.confirm import confirm
 from ..engines.casadi.integrators import tolerance_for
-from ..engines.casadi.replay import Replay, replayed
+from ..engines.casadi.replay import Replay, Stopped, replayed
 from ..engines.casadi.sequence import EventSequence
 from ..errors import ComputationError
 from ..model.dimensionless import DimensionlessGroups
 from ..model.model import Model, load, select_model, slip_restitution
 from ..scene.scene import Scene
 from .assemble import assembled
-from .by_kernel import collision, sequence_of
+from .by_kernel import collision, followed, sequence_of
 from .outcome import Energy
 from .result import Collision
 
@@ -35,7 +36,9 @@ def by_replay(
     trajectory: bool,
     until: float | None = None,
 ) -> Collision:
-    """One collision by CVODES or Rosenbrock, which integrate the phases that the kernel has found, and watch its events.
+    """One collision by CVODES or Rosenbrock: they integrate the phases that the kernel has found, and watch its events.
+
+    So near to a separatrix that they cannot repeat it, the kernel's trajectory is the result, confirmed step by step.
 
     Arguments:
         until: time (s) to which a stick is followed on.
@@ -50,7 +53,9 @@ def by_replay(
     try:
         path, replay = replayed(found, choice, quadratures(model, ledger), plugin, rtol)
     except ComputationError as error:
-        raise n.in_si(error) from None
+        if not _confirmed(scene, n, rtol, plugin, until):
+            raise n.in_si(error) from None
+        return collision(scene, n, rtol, ledger, trajectory, until)
     energy = _energy(model, replay, p, n) if ledger else None
     if energy is not None and path.separated:
         energy.check(rtol)
@@ -74,6 +79,18 @@ def by_replay(
         drift=_drift(model, replay, p) if ledger else None,
         trajectory=_trajectory(scene, path, replay, model, n, plugin, rtol) if trajectory else None,
     )
+
+
+def _confirmed(scene: Scene, n: DimensionlessGroups, rtol: float, plugin: str, until: float | None) -> bool:
+    """True if the kernel's trajectory agrees with the equations step by step."""
+    choice = select_model(scene, n.oblique, full=True, fold=True)
+    try:
+        record, _ = followed(scene, n, rtol, until, ledger=True, trajectory=True)
+        assert record.steps is not None  # requested
+        confirm(sequence_of(scene, n, rtol, until), record.steps, choice, plugin, rtol)
+    except (ComputationError, Stopped):
+        return False
+    return True
 
 
 def quadratures(model: Model, ledger: bool) -> tuple[str, ...]:

@@ -11,7 +11,6 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from ..engines.choice import collision_engine
 from ..engines.settings import check_engine, check_rtol
 from ..errors import InputError
 from ..host.arguments import check_mapping, check_names
@@ -37,8 +36,6 @@ class Batch:
         of: names of the results to keep.
         texts: columns of entries that are choices; the batch is split by them before it is computed (`by_text`).
         engines: the engine for each combination of these choices.
-        partial: the kernel may have computed other parts of the same request.
-        spent: steps that the kernel has spent on each collision; None: none.
     """
 
     scene: Scene
@@ -51,8 +48,6 @@ class Batch:
     of: tuple[str, ...]
     texts: dict[str, np.ndarray] = field(default_factory=dict)
     engines: Mapping[tuple[str, ...], str] = field(default_factory=dict)
-    partial: bool = False
-    spent: np.ndarray | None = None
 
     @property
     def size(self) -> int:
@@ -81,7 +76,6 @@ class Batch:
             angle=self.angle[which],
             vary={name: values[which] for name, values in self.vary.items()},
             texts={name: values[which] for name, values in self.texts.items()},
-            spent=None if self.spent is None else self.spent[which],
         )
 
     def by_text(self) -> Iterator[tuple[np.ndarray, Batch | InputError]]:
@@ -118,7 +112,7 @@ def validated_batch(
     """
     kept = check_outputs(of)
     loaded, columns, _ = checked_columns(scene, impact, vary)
-    chosen = collision_engine(loaded, check_engine(engine))
+    chosen = check_engine(engine) or "taylor"
     request = batch(loaded, of_one_length(columns), check_rtol(rtol), chosen, kept)
     check_any_possible(request)
     return request

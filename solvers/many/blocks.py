@@ -18,7 +18,6 @@ import signal
 import warnings
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager, suppress
-from dataclasses import replace
 from functools import partial
 from importlib import import_module
 from pathlib import Path
@@ -90,7 +89,7 @@ def blocks(shape: tuple[int, ...], engine: str) -> list[Place]:
 
 def _computed(part: Scan, cores: int) -> Block:
     """Results of a block, computed here or by a worker."""
-    request = replace(part.batch(), partial=True)
+    request = part.batch()
     results = empty(request.size, request.of)
     complete(request, results, cores=cores)
     return results

@@ -13,7 +13,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...generated import scaling
-from ..engines.choice import collision_engine
 from ..errors import InputError
 from ..formatting.labelled import Column, labelled
 from ..host.pictures import register
@@ -99,7 +98,7 @@ class Scan:
         """
         if not set(self.columns) - {*MEETING}:  # one scene
             warn(self.scene)
-            self.engines[()] = collision_engine(self.scene, self.engine)
+            self.engines[()] = self.engine or "taylor"
             return
         varied = {dim for name, (column_dims, _) in self.columns.items() if name not in MEETING for dim in column_dims}
         lengths = zip(self.dims, self.shape, strict=True)
@@ -111,7 +110,7 @@ class Scan:
                     raise part
                 check_any_possible(part)
                 choices = tuple(str(values[where[0]]) for values in scenes.texts.values())
-                self.engines[choices] = collision_engine(part.scene, self.engine)
+                self.engines[choices] = self.engine or "taylor"
                 warn(part.scene)
             except InputError as error:
                 errors.append(error)

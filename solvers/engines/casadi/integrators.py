@@ -20,7 +20,7 @@ from ...host.captured_stderr import captured_stderr
 from ...host.interrupts import check
 from ...host.thread_caches import own_cache
 from ...model.phases import Flow, WatchedEvents, event_table, expressions
-from ..settings import STEPS, casadi_steps
+from ..settings import KERNEL_STEPS, casadi_steps
 
 _EXPECTED = "Event support is experimental"
 _LOOSER = 1e3  # factor from a tolerance that an integrator cannot meet to the next one
@@ -82,7 +82,7 @@ class Tolerance:
 
     relative: float
     absolute: float
-    steps: int = STEPS
+    steps: int = KERNEL_STEPS
 
     def loosened(self, rtol: float) -> Tolerance | None:
         """A looser tolerance after one tightened for a grazing start fails; None if this is `rtol` already.
@@ -122,7 +122,9 @@ def tolerance_for(rtol: float, plugin: str, groups: Mapping[str, float]) -> Tole
     strings, the doublet is opened by a force of tan^2(theta0) x0/a in v0^2/x0, which must exceed the absolute
     tolerance. Tolerances are rounded to whole decades, so that integrators can be shared.
     """
-    steps = STEPS if plugin == "cvodes" else casadi_steps(rtol)  # by the requested tolerance, not by a tightened one
+    steps = (
+        KERNEL_STEPS if plugin == "cvodes" else casadi_steps(rtol)
+    )  # by the requested tolerance, not by a tightened one
     centrifugal = groups["obliquity"] ** 2 * groups["aspect"] / 16
     absolute = 1e-3
     if "capillary" not in groups and "weight" not in groups and 0 < centrifugal < 1e-6:

@@ -6,8 +6,8 @@ and their derivatives are those of the engine. All events that could end a phase
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
 
 import numpy as np
 from casadi import SX, Function, jtimes, vertcat
@@ -27,6 +27,7 @@ _LANDED = 1e-4  # largest Taylor step, relative to the phase, for landing withou
 _MISSES = 1e-13  # largest value of an event's function after the step, relative to its scale
 _RISES = 1e-9  # in its scale per duration: slope above which the function rises at the landing
 _TRIES = 8
+_MOVED, _MOVED_LEAST = 1e-4, 1e-9  # of a phase, and in x0/v0: how far an event may lie from where the record has it
 _ROUNDING = 1e-15  # noise of a gap or velocity of order 1, for times and event functions
 _ON_KINK = 1e-11  # of a guard: below it the side is that towards which it changes
 _REST = 10.0  # factor in the height of a rebound within which two engines may differ on whether it comes to rest
@@ -85,11 +86,7 @@ class Replay:
 
 
 def replayed(
-    found: Callable[[float], EventSequence],
-    choice: ModelKey,
-    extras: tuple[str, ...],
-    plugin: str,
-    rtol: float,
+    found: Callable[[float], EventSequence], choice: ModelKey, extras: tuple[str, ...], plugin: str, rtol: float
 ) -> tuple[EventSequence, Replay]:
     """A sequence of events and its replay by a plugin.
 
@@ -116,12 +113,13 @@ def replayed(
                 used = max(used * 1e-2, TIGHTEST)
                 path = found(used)
                 continue
+            other = "--engine rosenbrock" if plugin == "cvodes" else "the default engine, or another impact"
             raise ComputationError(
                 f"{plugin} {stopped.why}",
                 phase=str(stopped.phase),
                 time=stopped.time,
                 state=dict(zip(load(choice).state, map(float, stopped.y), strict=False)),
-                advice=f"try {'--engine rosenbrock' if plugin == 'cvodes' else 'the default engine, or another impact'}",
+                advice=f"try {other}",
             ) from None
 
 
@@ -161,9 +159,7 @@ class _Run:
             phase = self._sided(phase)
             flow = Flow(self.choice, phase.region, self.extras)
             solution = _Solution(self, flow, phase)
-            duration, y, states = (
-                (left, *solution.end(left)) if step.event is None else solution.onto(step.event, left)
-            )
+            duration, y, states = (left, *solution.end(left)) if step.event is None else solution.onto(step.event, left)
             crossing = solution.crossing(duration, states, step.event)
             if crossing is not None and crossing.event in self.model.kinks:
                 duration, y, _ = solution.onto(crossing.event, crossing.part * duration)
@@ -173,8 +169,8 @@ class _Run:
             if crossing is not None:
                 time = self.at.time + crossing.part * duration
                 raise Stopped(
-                    f"passes the event {crossing.event} inside a phase, by {-crossing.value:.1e} of its size, where the "
-                    "record has none",
+                    f"passes the event {crossing.event} inside a phase, by {-crossing.value:.1e} of its size, where "
+                    "the record has none",
                     phase, time, y, missed=True,
                 )  # fmt: skip
             self._record(phase, step.event, flow, duration, y)
@@ -233,7 +229,11 @@ class _Run:
         rtol = min(self.rtol, LOOSEST)
         is_weak = [is_too_weak(inward, velocity, rtol * share, gap) for share in (1 / _REST, _REST)]
         if not is_parted(gap, rupture) and step.holds not in is_weak:
-            what = "opens the gap, and the record has a rest" if step.holds else "does not open the gap, and the record has no rest"
+            what = (
+                "opens the gap, and the record has a rest"
+                if step.holds
+                else "does not open the gap, and the record has no rest"
+            )
             raise Stopped(f"has a rebound that {what}", step.phase, self.at.time, after, missed=True)
 
 
@@ -263,7 +263,7 @@ class _Solution:
             at.steps += engine.steps
         return np.column_stack([at.y, states]) if parts[0] == 0 else states
 
-    def crossing(self, duration: float, states: np.ndarray, landed: str | None):  # noqa: ANN201
+    def crossing(self, duration: float, states: np.ndarray, landed: str | None):
         """The first event inside the phase, if there is one."""
         watched = self.run.path.watch
         parameters = np.append(self.run.p, float(self.phase.motion))
@@ -288,13 +288,15 @@ class _Solution:
             if landed_close and abs(float(miss[0])) <= max(_MISSES * scale, _ROUNDING):
                 if float(_slope(self.flow, run.path.watch, event)(landed, parameters)) > _RISES * scale / duration:
                     break  # the event was found in the backward direction: the engine's own event is earlier
+                if abs(duration + shift - expected) > max(_MOVED * expected, _MOVED_LEAST):
+                    break
                 return duration + shift, landed, states
             if abs(shift) > nearer / 2:
                 break  # beside a saddle every step is amplified, and the iteration oscillates
             nearer = abs(shift)
             duration += shift
             y, states = self.end(duration)
-        missed = f"does not meet the event {event}: the collision lies within its error of a boundary"
+        missed = f"does not meet the event {event} where the record has it: it may lie within its error of a boundary"
         raise Stopped(missed, self.phase, run.at.time + duration, y, missed=True)
 
     def _scale(self, event: str) -> float:

@@ -137,7 +137,7 @@ def _simultaneous(log: np.ndarray, words: Sequence[str]) -> Iterator[list[np.voi
     rows: list[np.void] = []
     for row in log:
         word, before = words[int(row["kind"])], words[int(rows[-1]["kind"])] if rows else ""
-        follows = word in (_RUPTURE, _RESTS) and before in CRITERIA or word == _ROLLS and before == _RESTS
+        follows = (word in (_RUPTURE, _RESTS) and before in CRITERIA) or (word == _ROLLS and before == _RESTS)
         if rows and not (follows and row["time"] == rows[-1]["time"]):
             yield rows
             rows = []

@@ -25,7 +25,7 @@ Solution = Callable[[np.ndarray], np.ndarray]
 
 @dataclass(frozen=True)
 class Crossing:
-    """An event whose guard is negative inside a phase: its name, the part of the duration, and the guard over its size."""
+    """An event whose guard is negative inside a phase: name, part of the duration, and the guard over its size."""
 
     event: str
     part: float

@@ -15,7 +15,6 @@ from .call import CHUNK, Impacts, in_chunks, task, variant
 from .headers import has_events
 from .layout import ANSWER, HAPPENING, LEDGER, OWN_LEDGER, number, step_row
 from .source import Variant
-from .undecided import no_kernel
 
 _ROOM = 64, 256  # events and steps of a collision
 
@@ -91,7 +90,7 @@ def run_recorded(
     room: tuple[int, int] = _ROOM,
     until: float | None = None,
 ) -> Recorded:
-    """Trajectories of impacts, all oblique or all head-on, with the angle turned; ComputationError without a kernel.
+    """Trajectories of impacts, all oblique or all head-on, with the angle turned.
 
     Arguments:
         ledger: also the energy ledger; the spin is then a state of its own.
@@ -108,8 +107,6 @@ def run_recorded(
     wanted = variant_to_record(impacts.scene, oblique, rtol, ledger, trajectory, fold)
     wanted = wanted if until is None else replace(wanted, limit=True, lanes=1)
     library = kernel(wanted)
-    if library is None:
-        raise no_kernel()
     size, keep = impacts.angle.size, keep and trajectory
     margins = np.full(size, -np.inf) if peaks else None
     log_room, step_room = room[0] * events, room[1] * size
@@ -138,18 +135,17 @@ def run_recorded(
 
 def run_with_books(
     impacts: Impacts, rtol: float, threads: int, budget: int = KERNEL_STEPS
-) -> tuple[np.ndarray | None, np.ndarray | None]:
-    """Answers and ledgers of impacts, oblique or head-on; None for both if there is no kernel here."""
+) -> tuple[np.ndarray, np.ndarray]:
+    """Answers and ledgers of impacts, oblique or head-on."""
     answers, books = np.zeros(impacts.angle.size, ANSWER), np.zeros(impacts.angle.size, LEDGER)
-    turns, fold, done = impacts.oblique, not impacts.others, []
+    turns, fold = impacts.oblique, not impacts.others
     for oblique, which in ((True, np.flatnonzero(turns)), (False, np.flatnonzero(~turns))):
 
         def chunk(first: int, oblique: bool = oblique, which: np.ndarray = which) -> None:
             part = which[first : first + CHUNK]
             recorded = run_recorded(impacts.part(part), oblique, rtol, True, budget=budget, events=False, fold=fold)
-            done.append(recorded is not None)
-            if recorded is not None and recorded.ledger is not None:
-                answers[part], books[part] = recorded.answers, recorded.ledger
+            assert recorded.ledger is not None  # as requested
+            answers[part], books[part] = recorded.answers, recorded.ledger
 
         in_chunks(which.size, chunk, threads)
-    return (answers, books) if all(done) else (None, None)
+    return answers, books

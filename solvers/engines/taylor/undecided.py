@@ -11,13 +11,13 @@ from ...model.phases import Phase
 CREEPS, RESTS = "the gap changes too slowly", "the resting doublet turns for too long"
 CHATTERS, REVERSED = "the gap opens and closes again and again", "the rotation reverses the approach"
 ROUNDED = "rounding of its angular momentum decides"
+SEPARATES = "separates when it is followed on"  # of a stick
 
 
-def no_kernel() -> ComputationError:
-    """The error of a collision whose kernel cannot be compiled here."""
+def no_kernel(why: str = "is not shipped, and no C compiler answers here") -> ComputationError:
+    """The error of a scene without a kernel."""
     return ComputationError(
-        "the kernel for this scene is not shipped and cannot be compiled here",
-        advice=f"a C compiler is needed: install gcc or clang, or {install_extra('compiler')}",
+        f"the kernel for this scene {why}", advice=f"install gcc or clang, or {install_extra('compiler')}"
     )
 
 
@@ -42,7 +42,7 @@ def undecided(answer: Mapping[str, Any], states: tuple[str, ...], declared: str 
             f"at this angle, with these spins, {REVERSED} within a rounding error of the film thickness",
             "try a smaller angle or slower spins",
         ),
-        Status.ESCAPED: ("a stick that is proved separates when it is followed on", "please report the scene"),
+        Status.ESCAPED: (f"a stick that is proved {SEPARATES}", "please report the scene"),
         Status.WITHIN_ROUNDING: (
             f"the doublet separates so slowly that {ROUNDED}",
             "try spins with another angular momentum",
