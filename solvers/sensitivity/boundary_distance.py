@@ -34,8 +34,9 @@ _AT_ONCE = 32  # samples of a round of enclosing it
 _BEYOND = np.array([4.0, 8.0])  # widths past a separatrix at which the opening speed shows where it is lost
 _LOST = 1.5  # ratio of these speeds, squared, above which it vanishes at the separatrix
 
+AT_ONCE = " at initial contact"
 GLASS = "graze of the glass criterion"
-TOUCH = "glass criterion met at initial contact"
+TOUCH = "glass criterion met" + AT_ONCE
 CONTACT = "graze of the contact gap"
 SADDLE = "separatrix (saddle of the effective potential)"
 RIM = "separatrix (rim: it just reaches the rupture gap)"
@@ -98,17 +99,13 @@ class Course:
 
     Arguments:
         separated: None if that is not decided.
-        events: words of its rebounds, turning points, declared events and end.
-        at_once: the first happens at initial contact.
+        events: words of its rebounds (with `AT_ONCE` at initial contact), turning points, declared events and end.
         speed: opening speed at separation.
-        own: words of declared events.
     """
 
     separated: bool | None
     events: tuple[str, ...]
-    at_once: bool
     speed: float
-    own: tuple[str, ...] = ()
 
     @property
     def label(self) -> tuple[str, ...]:
@@ -127,15 +124,16 @@ def course(answer: np.void, log: np.ndarray, words: Sequence[str], speed: float)
         words: of the events by the kernel's numbers.
         speed: opening speed, if it separates.
     """
-    rows, own = log[: answer["events"]], words[len(KINDS) :]
-    shown = {*CRITERIA, *_TURNS, *_CUT_OFF, _RESTS, *own}
-    happened = [words[kind] for kind in rows["kind"].tolist()]
+    rows, passed_over = log[: answer["events"]], {*KINDS} - {*CRITERIA, *_TURNS, *_CUT_OFF, _RESTS}
+    happened = [(words[kind], time) for kind, time in rows[["kind", "time"]].tolist()]
     return Course(
         bool(answer["outcome"] > 0) if answer["status"] <= LAST_ANSWER else None,
-        tuple(word for word in happened if word in shown),
-        bool(rows.size and rows["time"][0] == 0),
+        tuple(
+            word + AT_ONCE if word in CRITERIA and time == 0 else word
+            for word, time in happened
+            if word not in passed_over
+        ),
         speed,
-        tuple(own),
     )
 
 
@@ -179,25 +177,21 @@ def _name(courses: Courses, change: Brackets) -> str:
     """The name of an enclosed change, from what differs between the courses at its ends."""
     ends = np.append(change.low, change.high)
     low, high = courses(1 + ends)
-    first, other = next(
-        (pair for pair in zip_longest(low.events, high.events, fillvalue="") if pair[0] != pair[1]), ("", "")
-    )
-    differing, sticks = {first, other}, not (low.separated and high.separated)
-    own = next((word for word in low.own if word in differing), None)
-    if own is not None:
-        return f"{DECLARED} {own}"
-    if "glass" in differing and "" not in differing:
-        at_once = low.at_once if first == "glass" else high.at_once
-        return TOUCH if at_once and low.events[:1] != high.events[:1] else GLASS
-    if len(differing & CRITERIA.keys()) == 2:
-        return TIE
+    pairs = zip_longest(low.events, high.events, fillvalue="")
+    differing = next(({*pair} for pair in pairs if pair[0] != pair[1]), {""})
+    if "glass" + AT_ONCE in differing and "" not in differing:
+        return TOUCH
+    differing = {word.removesuffix(AT_ONCE) for word in differing}
+    for word in differing - {"", *KINDS}:
+        return f"{DECLARED} {word}"
     if differing & CRITERIA.keys() and "" not in differing:
-        return CONTACT
-    if _RESTS in differing and not sticks:
+        return (
+            GLASS if "glass" in differing else TIE if differing <= CRITERIA.keys() and len(differing) > 1 else CONTACT
+        )
+    if _RESTS in differing and low.separated and high.separated:
         return CHATTER
-    cut_off = next((word for word in differing if word in _CUT_OFF), None)
-    if cut_off is not None:
-        return _CUT_OFF[cut_off]
+    for word in differing & _CUT_OFF.keys():
+        return _CUT_OFF[word]
     # a separatrix: at the rim the opening speed vanishes, at a saddle it does not
     beyond = ends[1] if high.separated else ends[0]
     past = beyond + np.sign(ends[1] - ends[0]) * (1 if high.separated else -1) * _BEYOND * (ends[1] - ends[0])

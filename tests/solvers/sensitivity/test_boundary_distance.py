@@ -9,7 +9,16 @@ import numpy as np
 import pytest
 from wetdoublet import solvers
 from wetdoublet.solvers import ComputationError, Scene, boundary, collide
-from wetdoublet.solvers.sensitivity.boundary_distance import CONTACT, GLASS, LADDER, Course, along_speed, checked, limit
+from wetdoublet.solvers.sensitivity.boundary_distance import (
+    AT_ONCE,
+    CONTACT,
+    GLASS,
+    LADDER,
+    Course,
+    along_speed,
+    checked,
+    limit,
+)
 
 from ...helpers.reference import sensitivities
 
@@ -92,7 +101,7 @@ def test_chatter_is_refused() -> None:
 
     No scene is known to do this (what holds at rest goes on holding), so a course is told that it did.
     """
-    rests = Course(True, ("glass", "rests", "rupture"), at_once=False, speed=0.1)
+    rests = Course(True, ("glass", "rests", "rupture"), speed=0.1)
     with pytest.raises(ComputationError, match="chatter"):
         checked(lambda factors: [rests] * factors.size, True, 1e-9)
 
@@ -103,17 +112,18 @@ ROUGH, GLASSY = ("rough", "rupture"), ("glass", "rupture")
 @pytest.mark.parametrize(
     ("below", "above", "name"),
     [
-        (Course(False, ("rough",), False, 0.0), Course(True, ROUGH, False, 0.3), "saddle"),
-        (Course(False, ("rough", "fell back", "rough"), False, 0.0), Course(True, ROUGH, False, 0.3), "saddle"),
-        (Course(True, ("turned", "rupture"), False, 0.3), Course(True, ROUGH, False, 0.3), CONTACT),
-        (Course(False, ("turned",), False, 0.0), Course(True, GLASSY, False, 0.3), GLASS),
-        (Course(True, ROUGH, False, 0.3), Course(True, GLASSY, False, 0.3), GLASS),
-        (Course(True, ROUGH, False, 0.3), Course(True, GLASSY, True, 0.3), "initial contact"),
-        (Course(True, ("elastic", "rupture"), False, 0.3), Course(True, ROUGH, False, 0.3), "tie"),
-        (Course(True, ROUGH, False, 0.3), Course(False, ("rough", "half turn"), False, 0.0), "half turn"),
-        (Course(True, ROUGH, False, 0.3), Course(True, ("rough", "pop", "rupture"), False, 0.3, ("pop",)), "event pop"),
-        (Course(None, (), False, 0.0), Course(None, (), False, 0.0), None),
-        (Course(True, ("rupture",), False, 0.3), Course(True, ("fell back", "turned", "rupture"), False, 0.3), None),
+        (Course(False, ("rough",), 0.0), Course(True, ROUGH, 0.3), "saddle"),
+        (Course(False, ("rough", "fell back", "rough"), 0.0), Course(True, ROUGH, 0.3), "saddle"),
+        (Course(True, ("turned", "rupture"), 0.3), Course(True, ROUGH, 0.3), CONTACT),
+        (Course(False, ("turned",), 0.0), Course(True, GLASSY, 0.3), GLASS),
+        (Course(True, ROUGH, 0.3), Course(True, GLASSY, 0.3), GLASS),
+        (Course(True, ROUGH, 0.3), Course(True, ("glass" + AT_ONCE, "rupture"), 0.3), "initial contact"),
+        (Course(True, GLASSY, 0.3), Course(True, ("glass" + AT_ONCE, "rupture"), 0.3), "initial contact"),
+        (Course(True, ("elastic", "rupture"), 0.3), Course(True, ROUGH, 0.3), "tie"),
+        (Course(True, ROUGH, 0.3), Course(False, ("rough", "half turn"), 0.0), "half turn"),
+        (Course(True, ROUGH, 0.3), Course(True, ("rough", "pop", "rupture"), 0.3), "event pop"),
+        (Course(None, (), 0.0), Course(None, (), 0.0), None),
+        (Course(True, ("rupture",), 0.3), Course(True, ("fell back", "turned", "rupture"), 0.3), None),
     ],
 )  # fmt: skip
 @pytest.mark.parametrize("place", [-2e-3, 3e-8, 0.2])
@@ -133,7 +143,7 @@ def test_at_the_rim_the_opening_speed_vanishes() -> None:
 
     def courses(factors: np.ndarray) -> list[Course]:
         past = factors - 1.01
-        return [Course(d > 0, ROUGH if d > 0 else ("rough",), False, math.sqrt(max(d, 0.0))) for d in past.tolist()]
+        return [Course(d > 0, ROUGH if d > 0 else ("rough",), math.sqrt(max(d, 0.0))) for d in past.tolist()]
 
     near = along_speed(courses, LADDER)
     assert near is not None
