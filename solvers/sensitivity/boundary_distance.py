@@ -30,9 +30,12 @@ LADDER = tuple(np.geomspace(1e-9, 0.5, 30).tolist())
 """Relative distances at which neighbours of a collision are computed."""
 FINE = 1e-11  # tolerance of these collisions
 _WIDTH, _NARROWEST = 1e-2, 1e-11  # of an enclosed change: relative to its distance, and at least
-_AT_ONCE = 32  # samples of a round of enclosing it
-_BEYOND = np.array([4.0, 8.0])  # widths past a separatrix at which the opening speed shows where it is lost
-_LOST = 1.5  # ratio of these speeds, squared, above which it vanishes at the separatrix
+_SAMPLES = 32  # of a round of enclosing it
+# Widths past a change at which the opening speed tells a graze from a separatrix, and a rim from a saddle: its square
+# varies with the root of the distance past a graze, linearly past a rim, where it vanishes, and about so past a saddle.
+_BEYOND = np.array([4.0, 8.0, 16.0])
+_BENT, _LOST = 0.6, 1.5  # ratios between those of these laws: of successive changes, 0.7 and 0.5; of values, 2 and 1
+_NOISE = 1e-9
 
 AT_ONCE = " at initial contact"
 GLASS = "graze of the glass criterion"
@@ -48,9 +51,8 @@ _CUT_OFF = {
     KINDS[EventKind.HALF_TURN]: "half turn at separation",
     KINDS[EventKind.ROTATION_REVERSES]: "reversal of the rotation",
 }
-_TURNS = tuple(
-    KINDS[kind] for kind in (EventKind.TURNED, EventKind.FELL_BACK, EventKind.RUPTURE)
-)  # these alone are no change, but tell what one is
+# these alone are no change, but tell what one is
+_TURNS = tuple(KINDS[kind] for kind in (EventKind.TURNED, EventKind.FELL_BACK, EventKind.RUPTURE))
 
 
 def limit(rtol: float) -> float:
@@ -163,7 +165,7 @@ def along_speed(courses: Courses, ladder: Sequence[float]) -> Near | None:
     if not changes.size:
         return None
     closest = np.argsort(np.maximum(np.abs(changes.low), np.abs(changes.high)))[:2]  # one to either side
-    closed = enclose(labels, changes.part(closest), _width, at_once=_AT_ONCE, unknown=-1)
+    closed = enclose(labels, changes.part(closest), _width, at_once=_SAMPLES, unknown=-1)
     nearest = closed.part(np.argmin(np.abs(closed.place), keepdims=True))
     distance = max(abs(nearest.place[0]), nearest.error[0])  # beside a course that is not decided it is the error
     return Near(_name(courses, nearest), float(distance), "impact.stokes")
@@ -184,16 +186,18 @@ def _name(courses: Courses, change: Brackets) -> str:
     differing = {word.removesuffix(AT_ONCE) for word in differing}
     for word in differing - {"", *KINDS}:
         return f"{DECLARED} {word}"
-    if differing & CRITERIA.keys() and "" not in differing:
-        return (
-            GLASS if "glass" in differing else TIE if differing <= CRITERIA.keys() and len(differing) > 1 else CONTACT
-        )
+    criteria = differing & CRITERIA.keys()
+    graze = GLASS if "glass" in criteria else TIE if len(criteria) > 1 else CONTACT
+    if criteria and "" not in differing:
+        return graze
     if _RESTS in differing and low.separated and high.separated:
         return CHATTER
     for word in differing & _CUT_OFF.keys():
         return _CUT_OFF[word]
-    # a separatrix: at the rim the opening speed vanishes, at a saddle it does not
-    beyond = ends[1] if high.separated else ends[0]
-    past = beyond + np.sign(ends[1] - ends[0]) * (1 if high.separated else -1) * _BEYOND * (ends[1] - ends[0])
-    slow, fast = (one.speed**2 for one in courses(1 + past))
-    return RIM if fast > _LOST * slow else SADDLE
+    width = np.ptp(ends) if high.separated else -np.ptp(ends)
+    beyond = (ends[1] if high.separated else ends[0]) + _BEYOND * width
+    slow, middle, fast = (one.speed**2 for one in courses(1 + beyond))
+    rise = abs(middle - slow)
+    if criteria and rise > max(_BENT * abs(fast - middle), _NOISE * middle):  # a stick that is proved before it turns
+        return graze
+    return RIM if middle > _LOST * slow else SADDLE

@@ -2,6 +2,7 @@
 
 import math
 import re
+from collections.abc import Callable
 from functools import cache
 from itertools import pairwise
 
@@ -138,16 +139,26 @@ def test_a_boundary_is_named_by_what_differs(below: Course, above: Course, name:
         assert near.distance == pytest.approx(abs(place), rel=0.01)
 
 
-def test_at_the_rim_the_opening_speed_vanishes() -> None:
-    """As the root of the distance past the change: then it is the rim, and not the saddle."""
+@pytest.mark.parametrize(
+    ("speed", "name"),
+    [
+        (lambda past: math.sqrt(past), "rim"),
+        (lambda past: math.sqrt(0.2 + past), "saddle"),
+        (lambda past: 0.4 - 0.1 * math.sqrt(past), GLASS),
+    ],
+)
+def test_the_opening_speed_tells_what_is_lost(speed: Callable[[float], float], name: str) -> None:
+    """A stick that is proved at once, beside a glassy rebound: at the rim the opening speed vanishes, beside a graze it
+    varies with the root of the distance.
+    """
 
     def courses(factors: np.ndarray) -> list[Course]:
-        past = factors - 1.01
-        return [Course(d > 0, ROUGH if d > 0 else ("rough",), math.sqrt(max(d, 0.0))) for d in past.tolist()]
+        past = (factors - 1.01).tolist()
+        return [Course(True, GLASSY, speed(d)) if d > 0 else Course(False, (), 0.0) for d in past]
 
     near = along_speed(courses, LADDER)
     assert near is not None
-    assert "rim" in near.boundary
+    assert name in near.boundary
 
 
 @pytest.mark.parametrize(
