@@ -287,7 +287,7 @@ class _Solution:
             at.steps += engine.steps
         return np.column_stack([at.y, states]) if parts[0] == 0 else states
 
-    def crossing(self, duration: float, states: np.ndarray, landed: str | None):
+    def crossing(self, duration: float, states: np.ndarray, landed: str | None) -> Crossing | None:
         """The first event inside the phase, if there is one."""
         watched = self.run.path.watch
         parameters = np.append(self.run.p, float(self.phase.motion))
