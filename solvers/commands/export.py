@@ -20,7 +20,7 @@ def command(
     """Write the law of SCENE, or its model, into DIR.
 
     c: a folder with the whole collision law as NAME.c and NAME.h, C99 that needs no other library: material and impact
-    in, what happens out. With a check, examples in C, Python and Fortran, and a Makefile. latex: NAME.tex and NAME.md,
+    in, what happens out. With a check, examples in C and Python, and a Makefile. latex: NAME.tex and NAME.md,
     Table 1 of this model. casadi: NAME.c and NAME.h, the model's functions without an integrator, for CasADi's calling
     convention.
 
