@@ -49,7 +49,7 @@ def command(
         --predict FILE.png: Draw the probability of sticking around the impacts, with the uncertainty of the estimates;
             of several scenes FILE-1.png, FILE-2.png, ...
         --write FILE.toml: Write the fitted scene, intervals as comments; of several FILE-1.toml, FILE-2.toml, ...
-        --report DIR: Write report.md, report.html and their picture.
+        --report DIR: Write report.md and its picture.
     """  # noqa: D301 -- click reads the \b, which keeps the lines of the example
     from ..fitting.fit import fit
     from ..host.pictures import plot

@@ -13,7 +13,6 @@ import numpy as np
 from ...generated.automaton import OUTCOMES
 from ..errors import InputError
 from ..formatting.markdown import aligned
-from ..formatting.notebook import view
 from ..host import files
 from ..host.arguments import check_whole
 from ..host.outputs import check_file, check_folder
@@ -217,9 +216,7 @@ class Fit:
                 lines += ["", *sentences]
         return "\n".join(lines)
 
-    def _repr_html_(self) -> str:
-        head, rows = self.table()
-        return view(f"fit of {self.points} impacts", rows, head, [CONTRADICTED] if self.rows.contradicted else [])
+    __repr__ = __str__  # what a notebook shows
 
     def plot(self, path: str | Path | None = None, progress: Progress | None = None) -> Any:
         """Draw data over the regime map, e_n with its band, profiles and residuals; returns the matplotlib Figure.
@@ -309,12 +306,12 @@ class Fit:
         return part.scene.with_entries(changes)
 
     def report(self, folder: str | Path, progress: Progress | None = None) -> list[Path]:
-        """Write report.md, report.html and fit.png into a folder, which is created if need be; returns their paths.
+        """Write report.md and fit.png into a folder, which is created if need be; returns their paths.
 
         Arguments:
             progress: called with (evaluations done, evaluations in all), as by `fit`.
         """
-        from ..formatting.document import Picture, Table, report
+        from ..formatting.document import Picture, Table, markdown
 
         into = check_folder(folder, "report")
         into.mkdir(parents=True, exist_ok=True)
@@ -324,7 +321,7 @@ class Fit:
         names, change = list(self.estimates), f"with twice as fine integrals it changes by {self.quadrature:.2g}"
         blocks: list[Block] = [[CONTRADICTED]] if self.rows.contradicted else []
         shown = "Data over the regime map, results with their band, profiles of the likelihood, and residuals."
-        blocks += [Picture("fit.png", shown, 24.0), "## Estimates", Table("", *self.table())]
+        blocks += [Picture("fit.png", shown), "## Estimates", Table("", *self.table())]
         blocks.append([*self.combinations, f"Log-likelihood {self.log_likelihood:.4f}; {change}."])
         if len(names) > 1:
             rows = [[name, *(f"{value:.2f}" for value in row)] for name, row in zip(names, self.correlation.tolist())]
@@ -332,7 +329,7 @@ class Fit:
         blocks += ["## Remarks", self.remarks] if self.remarks else []
         blocks += ["## Impacts that pull most", Table("", *self._most_pulling())]
         blocks.append("Pull: how far the estimates would move without the impact, in standard errors, to first order.")
-        return [*files.write_all_in(into, report(title, blocks)), into / "fit.png"]
+        return [*files.write_all_in(into, {"report.md": markdown(title, blocks)}), into / "fit.png"]
 
     def _most_pulling(self) -> tuple[list[str], list[list[str]]]:
         """Head and rows of the table of the impacts that pull most."""

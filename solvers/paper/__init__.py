@@ -37,7 +37,7 @@ def reproduce(which: Sequence[str], folder: Path, *, progress: Progress | None =
     """
     from importlib.metadata import version
 
-    from ..formatting.document import report
+    from ..formatting.document import markdown
     from ..host.files import write_all_in
     from .report import TITLE, blocks
 
@@ -56,7 +56,7 @@ def reproduce(which: Sequence[str], folder: Path, *, progress: Progress | None =
         stopped = KeyboardInterrupt(f"interrupted: {len(parts)} of {len(which)} parts are in {file}; without {rest}")
     ours, date = f"wetdoublet {version('wetdoublet')}", time.strftime("%Y-%m-%d", time.gmtime())
     how = f"Computed by {ours} in one run on {date}; what is quoted names its source."
-    written = write_all_in(folder, report(TITLE, blocks(parts, how)))
+    written = write_all_in(folder, {"report.md": markdown(TITLE, blocks(parts, how))})
     if stopped is not None:
         raise stopped
     return [*(folder / picture.file for part in parts for picture in part.pictures), *written]

@@ -16,7 +16,7 @@ from ..formatting.style import INK, LETTERS, NOTE, halo
 from ..scene.scene import Scene
 from . import theory
 from .printed import CURVES, DOUBLED, PRINTED
-from .report import COLUMN, Comparison, Part, draw_map, sheet
+from .report import Comparison, Part, draw_map, sheet
 from .theory import degrees, number
 
 _REACH = 0.26  # St at the right edge
@@ -70,7 +70,7 @@ def fig4a(folder: Path) -> Part:
             Comparison("centrifugal", centrifugal, used, why_centrifugal),
             Comparison("dry", "θ₀ = 0 only" if only_head_on else "others, too", dry_used, why_dry, only_head_on),
         ],
-        pictures=[Picture("fig4a.png", caption, COLUMN)],
+        pictures=[Picture("fig4a.png", caption)],
         tables=[theory.under_variants(moved, theory.BRIDGED, theory.BRIDGE_VARIANTS, readings, printed)],
         scenes=[theory.BRIDGED, theory.DRY],
     )

@@ -17,7 +17,7 @@ from ..formatting.style import LETTERS, NOTE, halo
 from ..scene.scene import Scene
 from . import theory
 from .printed import PRINTED, SHOT_ANGLE, SHOTS
-from .report import COLUMN, Comparison, Part, draw_map, sheet
+from .report import Comparison, Part, draw_map, sheet
 from .theory import degrees, number
 
 _BEFORE, _AFTER = 1, 4  # frames of a shot before and after initial contact
@@ -51,7 +51,7 @@ def fig1(folder: Path) -> Part:
     return Part(
         "Fig. 1: three collisions",
         comparisons=comparisons,
-        pictures=[Picture("fig1.png", caption, COLUMN)],
+        pictures=[Picture("fig1.png", caption)],
         tables=[theory.under_variants(moved, theory.PENDULUM, theory.STRING_VARIANTS, readings, printed)],
         scenes=[theory.PENDULUM],
     )
@@ -129,7 +129,7 @@ def fig3(folder: Path) -> Part:
             Comparison("stokes_3", escapes, theory.described(scene), between),
             Comparison("angle_3", first, theory.described(scene), begins),
         ],
-        pictures=[Picture("fig3.png", caption, COLUMN)],
+        pictures=[Picture("fig3.png", caption)],
         tables=[theory.under_variants(head_on, theory.PENDULUM, theory.STRING_VARIANTS, readings, [printed.text, ""])],
         scenes=[theory.PENDULUM],
     )

@@ -16,7 +16,7 @@ from ..many.collide_many import collide_many
 from ..scene.scene import Scene
 from . import theory
 from .printed import CURVES, PRINTED
-from .report import COLUMN, STOKES, Comparison, Part, sheet
+from .report import STOKES, Comparison, Part, sheet
 from .theory import degrees, number
 
 _REACH = 0.25  # St at the right edge
@@ -77,7 +77,7 @@ def fig4b(folder: Path) -> Part:
         "doublet that has just passed its barrier takes up speed until rupture, and one that just meets a criterion is "
         "sent back with what speed it still had.",
         comparisons=comparisons,
-        pictures=[Picture("fig4b.png", caption, COLUMN)],
+        pictures=[Picture("fig4b.png", caption)],
         tables=[_jumps(lines, stokes, restitution)],
         scenes=[theory.BRIDGED],
     )

@@ -13,7 +13,6 @@ from ...generated.automaton import OUTCOMES
 from ..fitting.free_entries import COMBINED, IDENTIFIED, FreeEntries, combinations, in_unit, interval
 from ..fitting.measurements import Measurements
 from ..formatting.markdown import aligned, csv_text
-from ..formatting.notebook import view
 from ..host.pictures import Drawn
 from ..scene.held import NAMES
 from ..scene.origin import origin
@@ -241,8 +240,7 @@ class Design(Drawn):
             sentences.append(f"{least} as any other {self.size} of {self.candidates} candidates.")
         return "\n".join([title, "", *aligned(rows), "", *aligned(entries), "", *sentences])
 
-    def _repr_html_(self) -> str:
-        return view(f"design of {self.size} impacts", self._rows(), self._head())
+    __repr__ = __str__  # what a notebook shows
 
     @property
     def _speed(self) -> str:

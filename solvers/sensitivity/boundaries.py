@@ -23,7 +23,6 @@ from ..changes.slopes import normals, outcomes_along, slopes
 from ..engines.settings import RTOL, check_rtol
 from ..errors import ComputationError, InputError
 from ..formatting.markdown import numbers_aligned
-from ..formatting.notebook import view
 from ..host.arguments import check_function
 from ..host.pictures import Drawn
 from ..scene.scene import Scene
@@ -127,18 +126,14 @@ class BoundarySensitivities(Drawn):
         }  # fmt: skip
         return xr.Dataset(data, coordinates)
 
-    def _repr_html_(self) -> str:
-        head = ["parameter", *(f"{np.degrees(angle):.6g}°, {one.change.before} → {one.change.after}"
-                               for angle, one in self._pairs)]  # fmt: skip
-        rows = [[name, *(_elasticity(one, name) for _, one in self._pairs)] for name in self.parameters]
-        return view("boundaries: d ln Ce*/d ln p, of the normal speed where Ce* is zero or none", rows, head)
-
     @property
     def _pairs(self) -> list[tuple[float, Moving]]:
         return [(angle, one) for angle, line in zip(self.angles, self.changes, strict=True) for one in line]
 
     def __str__(self) -> str:
         return "\n\n".join([str(self.boundaries), *self._tables()])
+
+    __repr__ = __str__  # what a notebook shows
 
     def _tables(self) -> list[str]:
         tables = []

@@ -6,8 +6,6 @@ from dataclasses import asdict, dataclass
 from textwrap import wrap
 from typing import TYPE_CHECKING, Any
 
-from ..formatting.notebook import view
-
 if TYPE_CHECKING:
     import xarray
 
@@ -63,14 +61,6 @@ class Report:
 
     findings: tuple[Finding, ...]
 
-    def _repr_html_(self) -> str:
-        """The first line, the failures, and how each group fares."""
-        rows = [("FAIL", f"{one.group}: {one.name}", one.statement, one.figure, one.where) for one in self.failed]
-        for group, members in self._groups().items():
-            held = [one.ok for one in members if one.ok is not None]
-            rows.append((_MARKS[all(held)], group, f"{sum(map(bool, held))} of {len(held)} checks hold", "", ""))
-        return view(self.headline, rows)
-
     def to_dict(self) -> dict[str, Any]:
         """Whether all checks hold, and every finding by its attributes."""
         return {"ok": self.ok, "summary": self.headline, "findings": [asdict(one) for one in self.findings]}
@@ -98,6 +88,8 @@ class Report:
         for group, members in self._groups().items():
             lines += _section(group, members)
         return "\n".join([*lines, *wrap(self.summary, WIDTH)])
+
+    __repr__ = __str__  # what a notebook shows
 
     @property
     def headline(self) -> str:

@@ -68,7 +68,7 @@ def test_what_it_writes_and_draws(pendulum, tmp_path):
     assert Scene.load(tmp_path / "fitted.toml").entries[VISCOSITY] == pytest.approx(estimate.value, rel=1e-5)
     assert "# fitted: 95 %" in (tmp_path / "fitted.toml").read_text()
     files = found.report(tmp_path / "report")
-    assert [path.name for path in files] == ["report.md", "report.html", "fit.png"]
+    assert [path.name for path in files] == ["report.md", "fit.png"]
     assert all(name in files[0].read_text() for name in found.estimates)
     drawn = found.plot().axes
     (axes,) = [each for each in drawn if each.get_xlabel() == "viscosity (Pa s)"]
