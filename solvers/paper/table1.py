@@ -10,8 +10,7 @@ from typing import TYPE_CHECKING, Any
 from ..formatting.document import Picture
 from ..formatting.style import INK, NOTE
 from ..scene.scene import Scene
-from .report import Part, sheet
-from .theory import BRIDGED, PENDULUM, described
+from .report import BRIDGED, PENDULUM, Part, described, sheet
 
 if TYPE_CHECKING:
     from ...derive.emit.document.theory import Equation
