@@ -32,10 +32,9 @@ def reproduce(which: Sequence[str], folder: Path, *, progress: Progress | None =
     """
     from importlib.metadata import version
 
-    from ..formatting.document import markdown
     from ..host.files import write
     from . import granules, pendulum, table1
-    from .report import TITLE, blocks
+    from .report import markdown
 
     functions = vars(table1) | vars(pendulum) | vars(granules)
     folder.mkdir(parents=True, exist_ok=True)
@@ -53,7 +52,7 @@ def reproduce(which: Sequence[str], folder: Path, *, progress: Progress | None =
         stopped = KeyboardInterrupt(f"interrupted: {len(parts)} of {len(which)} parts are in {file}; without {rest}")
     ours, date = f"wetdoublet {version('wetdoublet')}", time.strftime("%Y-%m-%d", time.gmtime())
     how = f"Computed by {ours} in one run on {date}; what is quoted names its source."
-    write(file, markdown(TITLE, blocks(parts, how)))
+    write(file, markdown(parts, how))
     if stopped is not None:
         raise stopped
     return [*(folder / picture.file for part in parts for picture in part.pictures), file]

@@ -14,13 +14,12 @@ from ...generated.automaton import BOUNCE, OUTCOMES, ROTATE, STICK
 from ..boundaries.boundary import atlas
 from ..boundaries.changes import Change
 from ..boundaries.result import Atlas
-from ..formatting.document import Picture, Table
 from ..formatting.style import INK, LETTERS, NOTE, broken, halo
 from ..many.collide_many import collide_many
 from ..scene.scene import Scene
 from . import report
 from .printed import CURVES, DOUBLED, PRINTED
-from .report import Comparison, Part, degrees, draw_map, number, sheet
+from .report import Comparison, Part, Picture, Table, degrees, draw_map, number, sheet
 
 _REACH = 0.26  # St at the right edge
 _STEEPEST, _FIRST = math.radians(89.0), math.radians(0.5)  # the lowest oblique line without a bridge

@@ -10,12 +10,11 @@ from ..collision.collide import collide
 from ..collision.plot.frames import sampled
 from ..collision.plot.strip import draw_strip, strip_size
 from ..collision.result import Collision
-from ..formatting.document import Picture
 from ..formatting.style import LETTERS, NOTE, halo
 from ..scene.scene import Scene
 from . import report
 from .printed import PRINTED, SHOT_ANGLE, SHOTS
-from .report import Comparison, Part, degrees, draw_map, number, sheet
+from .report import Comparison, Part, Picture, degrees, draw_map, number, sheet
 
 _BEFORE, _AFTER = 1, 4  # frames of a shot before and after initial contact
 _REACH = 2.5  # St at the right edge of the map

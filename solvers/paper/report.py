@@ -1,9 +1,11 @@
 """The report: printed numbers beside ours, each part with figures, equations and variants; what all parts read."""
 
 import math
+import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
+from itertools import groupby
 from pathlib import Path
 from typing import Any
 
@@ -19,7 +21,6 @@ from ..boundaries.line import ready
 from ..boundaries.result import Atlas
 from ..collision.collide import collide
 from ..errors import ComputationError
-from ..formatting.document import Block, Formulas, Picture, Table
 from ..formatting.style import EDGES, FILLS, HATCHES, INK, styled
 from ..host.files import save
 from ..scene.scene import Scene
@@ -78,6 +79,34 @@ class Comparison:
 
 
 @dataclass(frozen=True)
+class Table:
+    """A table: a caption, a head, rows of text."""
+
+    caption: str
+    head: Sequence[str]
+    rows: Sequence[Sequence[str]]
+
+    def __str__(self) -> str:
+        """The caption and the table in Markdown; bars are escaped."""
+        lines = [self.head, ["---"] * len(self.head), *self.rows]
+        cells = [" | ".join(cell.replace("|", r"\|") for cell in line) for line in lines]
+        return "\n".join([f"**{self.caption}**", "", *(f"| {line} |" for line in cells)])
+
+
+@dataclass(frozen=True)
+class Picture:
+    """A picture: file name in the report's folder, and caption."""
+
+    file: str
+    caption: str
+
+    def __str__(self) -> str:
+        """In Markdown; the caption's first sentence is for readers who do not see the picture."""
+        alternative = re.sub(r"[\[\]*_]", "", self.caption.split(".", maxsplit=1)[0])
+        return f"![{alternative}]({self.file})\n\n*{self.caption}*"
+
+
+@dataclass(frozen=True)
 class Part:
     """A part of the report: a title, then text, pictures, formulas and tables, in this order."""
 
@@ -90,8 +119,12 @@ class Part:
     scenes: Sequence[str] = ()  # presets used
 
 
-def blocks(parts: Sequence[Part], how: str) -> Iterator[Block]:
-    """Content of the report in order; `how` describes the computation."""
+def markdown(parts: Sequence[Part], how: str) -> str:
+    """The report; `how` describes the computation."""
+    return "\n\n".join([f"# {TITLE}", *map(str, _blocks(parts, how))]) + "\n"
+
+
+def _blocks(parts: Sequence[Part], how: str) -> Iterator[str | Table | Picture]:
     comparisons = {each.key: each for part in parts for each in part.comparisons}
     compared = [(printed, comparisons[key]) for key, printed in PRINTED.items() if key in comparisons]
     if compared:
@@ -115,8 +148,9 @@ def blocks(parts: Sequence[Part], how: str) -> Iterator[Block]:
         if part.words:
             yield part.words
         yield from part.pictures
-        if part.formulas:
-            yield Formulas(part.formulas)
+        for heading, lines in groupby(part.formulas, key=lambda line: line[0]):
+            yield f"### {heading}"
+            yield from (text for _, latex, note in lines for text in (f"$$ {latex} $$", note) if text)
         yield from part.tables
     yield "## Inputs"
     yield _inputs([*dict.fromkeys(name for part in parts for name in part.scenes)])

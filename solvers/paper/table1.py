@@ -7,10 +7,9 @@ from itertools import groupby
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ..formatting.document import Picture
 from ..formatting.style import INK, NOTE
 from ..scene.scene import Scene
-from .report import BRIDGED, PENDULUM, Part, described, sheet
+from .report import BRIDGED, PENDULUM, Part, Picture, described, sheet
 
 if TYPE_CHECKING:
     from ...derive.emit.document.theory import Equation

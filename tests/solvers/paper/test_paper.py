@@ -11,7 +11,6 @@ from matplotlib.mathtext import MathTextParser
 from wetdoublet.solvers import collide_many
 from wetdoublet.solvers.commands.cli import cli
 from wetdoublet.solvers.errors import InputError
-from wetdoublet.solvers.formatting.document import markdown
 from wetdoublet.solvers.host.files import write_all_in
 from wetdoublet.solvers.paper import PARTS, granules, pendulum, report, table1
 from wetdoublet.solvers.paper.printed import DOUBLED, PRINTED, SHOTS
@@ -29,7 +28,7 @@ def made(tmp_path_factory):
     functions = table1.table1, pendulum.fig1, pendulum.fig3, granules.fig4a, granules.fig4b, granules.factors
     parts = {function.__name__: function(folder) for function in functions}
     assert tuple(parts) == PARTS
-    text = markdown(report.TITLE, report.blocks(list(parts.values()), "In a test."))
+    text = report.markdown(list(parts.values()), "In a test.")
     write_all_in(folder, {"report.md": text})
     return folder, parts
 
