@@ -36,7 +36,6 @@ def command(
     target: str | None,
     data: str | None,
     prior: options.Priors,
-    draws: int | None,
     speed_sd: str | None,
     angle_sd: Annotated[str | None, partial(texts.with_degrees, FIELDS["impact.angle"])],
     restitution_sd: str | None,
@@ -60,7 +59,6 @@ def command(
         -n N: Number of impacts [9].
         --for NAME (target): The entry that matters [all of --free alike].
         --data DATA.csv: Impacts measured before; they are fitted first.
-        --draws N: Best on average over N draws from priors and data [0: for one value].
         --speed-sd S: Scatter of the speed [2 %, or that of the data].
         --angle-sd S: Scatter of the angle, degrees [1, or that of the data].
         --restitution-sd S: Noise of a measured restitution [0.02]; none: outcomes only.
@@ -72,10 +70,9 @@ def command(
     if over is None:
         raise InputError("--over", None, "the impacts that can be made, as --over stokes=0.02:0.5,angle=0:80")
     chosen = passed(
-        n=n, target=target, data=data, prior=prior or None, draws=draws, speed_sd=speed_sd, angle_sd=angle_sd,
+        n=n, target=target, data=data, prior=prior or None, speed_sd=speed_sd, angle_sd=angle_sd,
         restitution_sd=restitution_sd, rtol=rtol,
     )  # fmt: skip
-    cheaper = "fewer draws take less" if draws else "a smaller window or fewer impacts take less"
-    with Bar("impacts", cheaper, factor=3.0) as progress:
+    with Bar("impacts", "a smaller window or fewer impacts take less", factor=3.0) as progress:
         plan = design(request.scene(), free, over, progress=progress, **chosen)
     output.show(plan)

@@ -13,15 +13,15 @@ from .signature import as_command
 KINDS = ("c", "casadi", "latex")
 
 
-@as_command("The collision law of the scene in C; its model as LaTeX and Markdown.")
+@as_command("The collision law of the scene in C; its model as LaTeX.")
 def command(
     to: Annotated[str | None, partial(texts.known, KINDS)], out: options.Folder, request: options.Request
 ) -> None:
     """Write the law of SCENE, or its model, into DIR.
 
     c: a folder with the whole collision law as NAME.c and NAME.h, C99 that needs no other library: material and impact
-    in, what happens out. With a check, examples in C, Python and Fortran, and a Makefile. latex: NAME.tex and NAME.md,
-    Table 1 of this model. casadi: NAME.c and NAME.h, the model's functions without an integrator, for CasADi's calling
+    in, what happens out. With a check, examples in C and Python, and a Makefile. latex: NAME.tex, Table 1
+    of this model. casadi: NAME.c and NAME.h, the model's functions without an integrator, for CasADi's calling
     convention.
 
     \b

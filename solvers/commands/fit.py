@@ -22,7 +22,6 @@ def command(
     prior: options.Priors,
     predict: options.Picture,
     write: Annotated[Path | None, partial(check_file, label="", suffixes=(".toml",))],
-    report: options.Folder,
     measured: options.MeasuredRequests,
     rtol: options.Rtol,
     output: options.Shown,
@@ -49,7 +48,6 @@ def command(
         --predict FILE.png: Draw the probability of sticking around the impacts, with the uncertainty of the estimates;
             of several scenes FILE-1.png, FILE-2.png, ...
         --write FILE.toml: Write the fitted scene, intervals as comments; of several FILE-1.toml, FILE-2.toml, ...
-        --report DIR: Write report.md, report.html and their picture.
     """  # noqa: D301 -- click reads the \b, which keeps the lines of the example
     from ..fitting.fit import fit
     from ..host.pictures import plot
@@ -75,9 +73,6 @@ def command(
             plot(fitted.predict(part=k), file)
     if write is not None:
         fitted.write(write)
-    if report is not None:
-        with Bar("evaluations", _PICTURE, factor=3.0) as progress:
-            fitted.report(report, progress=progress)
     if output.picture is not None:
         with Bar("evaluations", _PICTURE, factor=3.0) as progress:
             fitted.plot(output.picture, progress=progress)

@@ -13,7 +13,7 @@ from .signature import as_command
 def command(part: str | None, out: options.Folder) -> None:
     """Reproduce the figures, Table 1 and the critical numbers of Donahue et al. (2012), or one PART of them.
 
-    Writes pictures (PNG), report.md and report.html; all numbers are computed in the run.
+    Writes pictures (PNG) and report.md; all numbers are computed in the run.
 
     Options:
         [all|table1|fig1|fig3|fig4a|fig4b|factors] (part):

@@ -15,7 +15,7 @@ from . import options
 from .bar import Bar
 from .signature import as_command
 
-_SYMBOLIC, _NUMERIC = 156, 19  # usual numbers of findings; the latter of a scene, with or without rotation
+_SYMBOLIC, _NUMERIC = 156, 17  # usual numbers of findings; the latter of a scene, with or without rotation
 
 
 def _count(text: str) -> int:
@@ -46,7 +46,6 @@ class _Counted(click.Command):
 def command(
     request: options.OptionalRequest,
     output: Annotated[Path | None, partial(check_file, label="", suffixes=(".md", ".txt"))],
-    plot: options.Picture,
     stress: Annotated[int | None, _count],
     out: str | None,
     recompute: bool,
@@ -61,13 +60,12 @@ def command(
 
     Options:
         -o FILE (output): Write the report to FILE as well.
-        --plot FILE.png: Draw the region e_n > 1 and its energy budget: .png, .pdf or .svg.
         --stress N: Instead: compare all engines on N scenes, drawn and beside boundaries [500].
         --out DIR: Folder for record, tables and worst scenes of --stress [stress].
         --recompute: Make the symbolic verdicts again, though they are kept.
     """
     if stress is not None:
-        others: dict[str, Any] = {"SCENE": request.source, **request.options, "-o": output, "--plot": plot}
+        others: dict[str, Any] = {"SCENE": request.source, **request.options, "-o": output}
         for name, value in (others | {"--recompute": "given" * recompute}).items():
             if value:
                 problem = "is given together with --stress, which draws its own scenes"
@@ -76,10 +74,7 @@ def command(
         return
     if out is not None:
         raise InputError("--out", out, "--stress N with --out", "needs --stress")
-    options.check_apart(output, plot, "--plot")
     scene = request.optional_scene()
-    if scene is None and plot is not None:
-        raise InputError("--plot", str(plot), "a SCENE with --plot", "needs a SCENE")
 
     from ..verify import Finding, Report, verify
 
@@ -104,8 +99,6 @@ def command(
     click.echo(text)
     if output is not None:
         write(output, text + "\n")
-    if plot is not None and report.budget is not None:
-        report.plot(plot)
     if not report.ok:
         failed = report.failed
         more = f"; and {len(failed) - 1} more, see the report" if len(failed) > 1 else ""

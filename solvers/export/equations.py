@@ -1,4 +1,4 @@
-"""The equations of a scene's model as LaTeX and Markdown, from the derivation (imports sympy)."""
+"""The equations of a scene's model as LaTeX, from the derivation (imports sympy)."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 def texts(scene: Scene) -> dict[str, str]:
-    """Texts of NAME.tex and NAME.md of a scene's model."""
+    """Text of NAME.tex, of a scene's model."""
     from ...derive.emit.document.document import document
 
     laws = dict(select_model(scene, oblique=True, full=True).laws)
@@ -24,8 +24,7 @@ def texts(scene: Scene) -> dict[str, str]:
     lacking = [slot for slot, there in parts if there is None]
     title = f"Oblique collisions of wet particles: {name_of(scene)}"
     rendered = document(title, laws, user_model(scene.package), lacking, scene.particles.friction is not None)
-    name = file_name(scene)
-    return {f"{name}.tex": rendered.tex(), f"{name}.md": rendered.markdown()}
+    return {f"{file_name(scene)}.tex": rendered.tex()}
 
 
 def user_model(package: Package | None) -> UserModel | None:

@@ -10,16 +10,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ...generated.automaton import OUTCOMES
 from ..errors import InputError
 from ..formatting.markdown import aligned
-from ..formatting.notebook import view
 from ..host import files
 from ..host.arguments import check_whole
-from ..host.outputs import check_file, check_folder
+from ..host.outputs import check_file
 from ..host.pictures import plot
 from ..host.progress import Estimated, Progress
-from ..scene.held import NAMES
 from ..scene.origin import origin
 from ..scene.scene import Scene
 from .free_entries import IDENTIFIED, FreeEntries, interval, unit_shown
@@ -31,10 +28,7 @@ from .optimise import Objective
 if TYPE_CHECKING:
     import xarray
 
-    from ..formatting.document import Block
-
 _WIDE = 2.0  # ratio of the ends of an interval from which it is told as a factor
-_PULLING = 12  # rows of the data in the report
 _TRIED, _PROFILE, _PER_POINT = 33, 20, 4  # evaluations of a picture; points of a profile, and evaluations of one
 
 CONTRADICTED = (
@@ -217,9 +211,7 @@ class Fit:
                 lines += ["", *sentences]
         return "\n".join(lines)
 
-    def _repr_html_(self) -> str:
-        head, rows = self.table()
-        return view(f"fit of {self.points} impacts", rows, head, [CONTRADICTED] if self.rows.contradicted else [])
+    __repr__ = __str__  # what a notebook shows
 
     def plot(self, path: str | Path | None = None, progress: Progress | None = None) -> Any:
         """Draw data over the regime map, e_n with its band, profiles and residuals; returns the matplotlib Figure.
@@ -307,44 +299,3 @@ class Fit:
             value, (unit, size) = self.estimates[part.entries[name]].value, unit_shown(part.scene, name)
             changes[name] = f"{value / size:.{digits}g} {unit}" if unit else float(f"{value:.{digits}g}")
         return part.scene.with_entries(changes)
-
-    def report(self, folder: str | Path, progress: Progress | None = None) -> list[Path]:
-        """Write report.md, report.html and fit.png into a folder, which is created if need be; returns their paths.
-
-        Arguments:
-            progress: called with (evaluations done, evaluations in all), as by `fit`.
-        """
-        from ..formatting.document import Picture, Table, report
-
-        into = check_folder(folder, "report")
-        into.mkdir(parents=True, exist_ok=True)
-        self.plot(into / "fit.png", progress)
-        names_of = ", ".join(each.scene.name for each in self.parts if each.scene.name)
-        title = f"Fit of {self.points} impacts" + (f" to {names_of}" if names_of else "")
-        names, change = list(self.estimates), f"with twice as fine integrals it changes by {self.quadrature:.2g}"
-        blocks: list[Block] = [[CONTRADICTED]] if self.rows.contradicted else []
-        shown = "Data over the regime map, results with their band, profiles of the likelihood, and residuals."
-        blocks += [Picture("fit.png", shown, 24.0), "## Estimates", Table("", *self.table())]
-        blocks.append([*self.combinations, f"Log-likelihood {self.log_likelihood:.4f}; {change}."])
-        if len(names) > 1:
-            rows = [[name, *(f"{value:.2f}" for value in row)] for name, row in zip(names, self.correlation.tolist())]
-            blocks += ["## Correlation", Table("", ["", *names], rows)]
-        blocks += ["## Remarks", self.remarks] if self.remarks else []
-        blocks += ["## Impacts that pull most", Table("", *self._most_pulling())]
-        blocks.append("Pull: how far the estimates would move without the impact, in standard errors, to first order.")
-        return [*files.write_all_in(into, report(title, blocks)), into / "fit.png"]
-
-    def _most_pulling(self) -> tuple[list[str], list[list[str]]]:
-        """Head and rows of the table of the impacts that pull most."""
-        data, rows, names = self.data, self.rows, list(self.rows.expected)
-        head = ["impact", f"{NAMES[data.speed_name]} (m/s)", "angle (deg)", "outcome", "probability"]
-        cells = []
-        for k in np.argsort(-rows.pull)[:_PULLING].tolist():
-            outcome = OUTCOMES[data.outcome[k]] if data.outcome[k] >= 0 else "-"
-            cell = [data.label(k), f"{data.speed[k]:.4g}", f"{np.degrees(data.angle[k]):.4g}", outcome]
-            cell.append(f"{rows.probability[k]:.3g}")
-            for name in names:
-                measured = float(data.observed[name][0][k])
-                cell.append("-" if np.isnan(measured) else f"{measured:.4g} ({rows.expected[name][k]:.4g})")
-            cells.append([*cell, f"{rows.pull[k]:.2f}"])
-        return [*head, *(f"{name} (expected)" for name in names), "pull"], cells

@@ -19,12 +19,6 @@ def table(head: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
     return "\n".join([line(head), line(rule), *(line(row) for row in rows)])
 
 
-def unpadded(head: Sequence[str], rows: Sequence[Sequence[str]]) -> list[str]:
-    """Lines of a Markdown table of long texts, whose columns do not line up; bars are escaped."""
-    lines = [head, ["---"] * len(head), *rows]
-    return ["| " + " | ".join(cell.replace("|", r"\|") for cell in row) + " |" for row in lines]
-
-
 def aligned(rows: Sequence[Sequence[str]]) -> list[str]:
     """Lines of plain text in which the cells of each column begin at the same place."""
     widths = [max(map(len, cells)) for cells in zip(*rows, strict=True)]

@@ -20,7 +20,6 @@ if TYPE_CHECKING:
 
 _HOMES = {  # a variable that only one kind of result has -> what draws it
     "first_order": "sensitivity.plots.draw_band",
-    "rotation_released": "verify.plot.draw_budget",
     "engine": "sensitivity.plots.draw_gradients",
     "probability": "fitting.plot.draw_prediction",
     "outcome": "many.plot_map.draw",

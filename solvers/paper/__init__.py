@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import time
 from collections.abc import Sequence
-from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -13,12 +12,8 @@ from ..host.progress import Progress
 if TYPE_CHECKING:
     from .report import Part
 
-_HOMES = {
-    "table1": "table1", "fig1": "pendulum", "fig3": "pendulum", "fig4a": "granules", "fig4b": "restitution",
-    "factors": "granules",
-}  # fmt: skip
-PARTS = tuple(_HOMES)
-"""Each is a function of this name, in the module beside it here, from the output folder to a `Part`."""
+PARTS = ("table1", "fig1", "fig3", "fig4a", "fig4b", "factors")
+"""Each is a function of this name in a module beside this one, from the output folder to a `Part`."""
 
 
 def reproduce(which: Sequence[str], folder: Path, *, progress: Progress | None = None) -> list[Path]:
@@ -37,26 +32,27 @@ def reproduce(which: Sequence[str], folder: Path, *, progress: Progress | None =
     """
     from importlib.metadata import version
 
-    from ..formatting.document import report
-    from ..host.files import write_all_in
-    from .report import TITLE, blocks
+    from ..host.files import write
+    from . import granules, pendulum, table1
+    from .report import markdown
 
+    functions = vars(table1) | vars(pendulum) | vars(granules)
     folder.mkdir(parents=True, exist_ok=True)
+    file, stopped = folder / "report.md", None
     parts: list[Part] = []
-    stopped = None
     try:
         for name in which:
             if progress is not None:
                 progress(len(parts), len(which))
-            parts.append(getattr(import_module(f".{_HOMES[name]}", __name__), name)(folder))
+            parts.append(functions[name](folder))
     except KeyboardInterrupt:
         if not parts:
             raise
-        rest, file = ", ".join(which[len(parts) :]), folder / "report.md"
+        rest = ", ".join(which[len(parts) :])
         stopped = KeyboardInterrupt(f"interrupted: {len(parts)} of {len(which)} parts are in {file}; without {rest}")
     ours, date = f"wetdoublet {version('wetdoublet')}", time.strftime("%Y-%m-%d", time.gmtime())
     how = f"Computed by {ours} in one run on {date}; what is quoted names its source."
-    written = write_all_in(folder, report(TITLE, blocks(parts, how)))
+    write(file, markdown(parts, how))
     if stopped is not None:
         raise stopped
-    return [*(folder / picture.file for part in parts for picture in part.pictures), *written]
+    return [*(folder / picture.file for part in parts for picture in part.pictures), file]

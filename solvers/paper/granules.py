@@ -1,53 +1,62 @@
-"""The free granules: the regime map with lines of constant Ce and St (Fig. 4a), and the factors of Ce*."""
+"""The free granules: regime map (Fig. 4a), restitution (Fig. 4b), and the factors of Ce*."""
 
 import math
+from collections.abc import Sequence
 from functools import partial
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+import xarray as xr
 from matplotlib.axes import Axes
 
-from ...generated.automaton import STICK
+from ...generated.automaton import BOUNCE, OUTCOMES, ROTATE, STICK
 from ..boundaries.boundary import atlas
+from ..boundaries.changes import Change
 from ..boundaries.result import Atlas
-from ..formatting.document import Picture, Table
-from ..formatting.style import INK, LETTERS, NOTE, halo
+from ..formatting.style import INK, LETTERS, NOTE, broken, halo
+from ..many.collide_many import collide_many
 from ..scene.scene import Scene
-from . import theory
+from . import report
 from .printed import CURVES, DOUBLED, PRINTED
-from .report import COLUMN, Comparison, Part, draw_map, sheet
-from .theory import degrees, number
+from .report import Comparison, Part, Picture, Table, degrees, draw_map, number, sheet
 
 _REACH = 0.26  # St at the right edge
 _STEEPEST, _FIRST = math.radians(89.0), math.radians(0.5)  # the lowest oblique line without a bridge
 _OBLIQUE, _AT = CURVES[2:], math.radians(45)  # angles of the table of Ce*, and that at which ours is read
 _OUT_OF_REACH = 1e9  # factor on the glass-transition pressure
 _BLUE, _ORANGE = "#0072B2", "#D55E00"
+_SHOWN = 0.25  # St at the right edge
+_POINTS = 1500  # of a curve
+_BESIDE = 1e-6  # relative distance from a boundary at which a curve ends
+_MOST_CE = 20.0  # range of the inset
+_COLOURS = (INK, "#56B4E9", "#009E73", "#0072B2", "#D55E00", "#CC79A7")  # Okabe-Ito
+_LINES: Sequence[Any] = ("-", (0, (4, 1.2)), "-", "-", "-", "-")
+_ROTATES, _BOUNCES = OUTCOMES.index(ROTATE), OUTCOMES.index(BOUNCE)
 
 
 def fig4a(folder: Path) -> Part:
     """Both maps, and Ce* and St* for the variants."""
-    scene, dry = Scene.load(theory.BRIDGED), Scene.load(theory.DRY)
+    scene, dry = Scene.load(report.BRIDGED), Scene.load(report.DRY)
     whole, dry_oblique = (
         atlas(each, span=(first, _STEEPEST), stokes=(1e-3 * _REACH, _REACH))
         for each, first in ((scene, 0.0), (dry, _FIRST))
     )
-    stokes, centrifugal = theory.critical_stokes(scene), theory.critical_centrifugal(scene, _AT)
+    stokes, centrifugal = report.critical_stokes(scene), report.critical_centrifugal(scene, _AT)
     with sheet(folder / "fig4a.png", 7.6) as figure:
         axes = figure.add_subplot()
         draw_map(axes, whole)
-        _draw_critical(axes, centrifugal, theory.end_of_sticking(scene, _AT).stokes * math.tan(_AT), 1.15 * stokes)
-        _draw_dry(axes, dry_oblique, theory.critical_stokes(dry))
+        _draw_critical(axes, centrifugal, report.end_of_sticking(scene, _AT).stokes * math.tan(_AT), 1.15 * stokes)
+        _draw_dry(axes, dry_oblique, report.critical_stokes(dry))
     sides = {dry_oblique.background}.union(*((curve.before, curve.after) for curve in dry_oblique.curves))
-    only_head_on = STICK not in sides and STICK in theory.outcomes(theory.changes_at(dry, 0.0))
-    pressure = theory.pressure_for(scene, PRINTED["stokes_4"].value)
+    only_head_on = STICK not in sides and STICK in report.outcomes(report.changes_at(dry, 0.0))
+    pressure = report.pressure_for(scene, PRINTED["stokes_4"].value)
     why_stokes = (
         f"St* follows from p_gt alone: the printed number is reached with {pressure}. Head-on, the lever arm, the "
         "tangential cut-off and the bridge law have next to no part in it"
     )
-    used, dry_used = theory.described(scene), theory.described(dry)
-    over_angles = ", ".join(f"{number(theory.critical_centrifugal(scene, at))} at {degrees(at)}" for at in _OBLIQUE)
+    used, dry_used = report.described(scene), report.described(dry)
+    over_angles = ", ".join(f"{number(report.critical_centrifugal(scene, at))} at {degrees(at)}" for at in _OBLIQUE)
     why_centrifugal = (
         f"at {degrees(_AT)}; the paper has one number for all angles. Ours: {over_angles}. With the "
         "leading-order lever arm of the tangential force, which the paper may have used (a law of one's own, "
@@ -59,8 +68,8 @@ def fig4a(folder: Path) -> Part:
         f"the S/SRS boundary at {degrees(_AT)}; orange, dashed: the paper's Ce* = {PRINTED['centrifugal'].text} "
         f"and St* = {PRINTED['stokes_4'].text}. Inset: without capillary force, where only θ₀ = 0 sticks (arrow)."
     )
-    readings: dict[str, Any] = {"St* at 0°": theory.critical_stokes}
-    readings |= {f"Ce* at {degrees(at)}": partial(theory.critical_centrifugal, angle=at) for at in _OBLIQUE}
+    readings: dict[str, Any] = {"St* at 0°": report.critical_stokes}
+    readings |= {f"Ce* at {degrees(at)}": partial(report.critical_centrifugal, angle=at) for at in _OBLIQUE}
     printed = [PRINTED["stokes_4"].text, *[PRINTED["centrifugal"].text] * len(_OBLIQUE)]
     moved = "Granules: St* and Ce* under the variants"
     return Part(
@@ -70,9 +79,9 @@ def fig4a(folder: Path) -> Part:
             Comparison("centrifugal", centrifugal, used, why_centrifugal),
             Comparison("dry", "θ₀ = 0 only" if only_head_on else "others, too", dry_used, why_dry, only_head_on),
         ],
-        pictures=[Picture("fig4a.png", caption, COLUMN)],
-        tables=[theory.under_variants(moved, theory.BRIDGED, theory.BRIDGE_VARIANTS, readings, printed)],
-        scenes=[theory.BRIDGED, theory.DRY],
+        pictures=[Picture("fig4a.png", caption)],
+        tables=[report.under_variants(moved, report.BRIDGED, report.BRIDGE_VARIANTS, readings, printed)],
+        scenes=[report.BRIDGED, report.DRY],
     )
 
 
@@ -116,23 +125,124 @@ def _draw_dry(axes: Axes, whole: Atlas, stokes: float) -> None:
         spine.set_color(NOTE)
 
 
+def fig4b(folder: Path) -> Part:
+    """The curves between the boundaries, and their figure."""
+    scene = Scene.load(report.BRIDGED)
+    lines = [report.changes_at(scene, angle) for angle in CURVES]
+    edges = np.array([change.stokes for line in lines for change in line if change.stokes < _SHOWN])
+    even = np.linspace(0, _SHOWN, _POINTS + 1)[1:]
+    stokes = np.unique(np.concatenate([even, edges * (1 - _BESIDE), edges * (1 + _BESIDE)]))
+    found = collide_many(scene, stokes=xr.DataArray(stokes, dims="stokes"), angle=xr.DataArray([*CURVES], dims="angle"))
+    outcome, restitution = (found[name].transpose("angle", "stokes").values for name in ("outcome", "restitution"))
+    with sheet(folder / "fig4b.png", 8.2) as figure:
+        axes = figure.add_subplot()
+        _against_stokes(axes, stokes, outcome, restitution)
+        _against_centrifugal(axes, stokes, outcome, restitution, lines)
+
+    def highest(values: np.ndarray) -> tuple[float, float, float]:
+        """The largest value, its angle and Stokes number."""
+        angle, place = np.unravel_index(np.argmax(values), values.shape)
+        return float(values[angle, place]), CURVES[angle], float(stokes[place])
+
+    both_bounce = (outcome[:2] == _BOUNCES).all(axis=0)
+    apart = float(np.abs(np.diff(restitution[:2], axis=0)[0, both_bounce]).max())
+    largest, at, at_stokes = highest(restitution)
+    rotating, rotating_at, _ = highest(np.where(outcome == _ROTATES, restitution, 0.0))
+    used, at_15 = report.described(scene), report.outcomes(lines[1])
+    why_largest = f"in St up to {_SHOWN:g}; of those that rotate first {number(rotating)} at {degrees(rotating_at)}"
+    invisible = 0.05  # difference in a printed figure
+    comparisons = [
+        Comparison(
+            "two_at_15", ", ".join(at_15), used, f"one change, at St {number(lines[1][0].stokes)}",
+            at_15 == ("stick", "bounce"),
+        ),
+        Comparison(
+            "same_at_15", f"differs by {apart:.2g} at most", used, "in e_n, where both bounce", apart < invisible
+        ),
+        Comparison(
+            "above_one", f"{number(largest)} at {degrees(at)}, St {at_stokes:.3g}", used, why_largest, largest > 1
+        ),
+    ]  # fmt: skip
+    caption = (
+        f"Fig. 4b: normal restitution against St, {', '.join(map(degrees, CURVES))} (bottom to top). Dotted: jumps at "
+        "the traced boundaries. Inset: against Ce, where the spheres rotate before they separate (no rebound criterion "
+        "met)."
+    )
+    return Part(
+        "Fig. 4b: restitution",
+        "The paper speaks of a discontinuity of the slope at St*; here e_n itself jumps, at every boundary (table): a "
+        "doublet that has just passed its barrier takes up speed until rupture, and one that just meets a criterion is "
+        "sent back with what speed it still had.",
+        comparisons=comparisons,
+        pictures=[Picture("fig4b.png", caption)],
+        tables=[_jumps(lines, stokes, restitution)],
+        scenes=[report.BRIDGED],
+    )
+
+
+def _jumps(lines: Sequence[Sequence[Change]], stokes: np.ndarray, restitution: np.ndarray) -> Table:
+    """Table of e_n on both sides of each boundary."""
+    rows = []
+    for angle, line, values in zip(CURVES, lines, restitution):
+        for change in line:
+            above = int(np.searchsorted(stokes, change.stokes))
+            ends = [f"{value:.3f}" for value in values[above - 1 : above + 1]]
+            kind = f"{change.before} to {change.after}"
+            rows.append([degrees(angle), kind, number(change.stokes), number(change.centrifugal), *ends])
+    return Table("Granules: e_n on either side of the boundaries", ["θ₀", "change", "St", "Ce", "below", "above"], rows)
+
+
+def _against_stokes(axes: Axes, stokes: np.ndarray, outcome: np.ndarray, restitution: np.ndarray) -> None:
+    """Draw a curve for each angle; jumps are dotted."""
+    for k, angle in enumerate(CURVES):
+        axes.plot(stokes, restitution[k], color=_COLOURS[k], linestyle=":", linewidth=0.9, zorder=2)
+        look: dict[str, Any] = {"color": _COLOURS[k], "linestyle": _LINES[k], "zorder": 3 + k}
+        axes.plot(*broken(outcome[k], stokes, restitution[k]), **look, clip_on=False, label=degrees(angle))
+    handles, labels = axes.get_legend_handles_labels()
+    axes.legend(
+        handles[::-1], labels[::-1], title=r"$\theta_0$", loc="upper left", ncols=2, handlelength=1.8, columnspacing=1,
+        title_fontsize=8,
+    )  # fmt: skip
+    axes.set(xlim=(0, _SHOWN), ylim=(0, 1.12 * restitution.max()), xlabel=report.STOKES)
+    axes.set_ylabel("normal restitution $e_{w,n}$")
+    axes.axhline(1, color=INK, linewidth=0.5, linestyle=(0, (1, 2)), zorder=1)
+
+
+def _against_centrifugal(
+    axes: Axes, stokes: np.ndarray, outcome: np.ndarray, restitution: np.ndarray, lines: Sequence[Sequence[Change]]
+) -> None:
+    """Draw the inset; at an angle Ce is proportional to St^2."""
+    inset = axes.inset_axes((0.63, 0.13, 0.345, 0.27))
+    for k, rotates in enumerate(outcome == _ROTATES):
+        if rotates.any():
+            centrifugal = (lines[k][0].centrifugal or 0.0) * (stokes[rotates] / lines[k][0].stokes) ** 2
+            inset.plot(centrifugal, restitution[k, rotates], color=_COLOURS[k], linewidth=1)
+            start, height = centrifugal[0], restitution[k, rotates][0]
+            inset.plot([0, start, start], [0, 0, height], color=_COLOURS[k], linestyle=":", linewidth=0.9)
+    inset.set(xlim=(0, _MOST_CE), ylim=(0, None))
+    inset.tick_params(labelsize=6, pad=1.5)
+    inset.set_xlabel("$Ce$", fontsize=7, labelpad=0.5)
+    inset.set_ylabel("$e_{w,n}$", fontsize=7, labelpad=1)
+    inset.axvline(PRINTED["centrifugal"].value, color=INK, linewidth=0.6, linestyle=(0, (4, 2)))
+
+
 def factors(_folder: Path) -> Part:
     """Factors of Ce* when one quantity is doubled and all others are fixed, with the glass criterion disabled."""
-    preset = Scene.load(theory.BRIDGED)
-    base = preset.with_entries({theory.PRESSURE: _OUT_OF_REACH * float(preset.entries[theory.PRESSURE])})
+    preset = Scene.load(report.BRIDGED)
+    base = preset.with_entries({report.PRESSURE: _OUT_OF_REACH * float(preset.entries[report.PRESSURE])})
 
     def doubled(scene: Scene, entry: str) -> Scene:
         return scene.with_entries({entry: 2 * float(scene.entries[entry])})
 
     entries, printed = zip(*DOUBLED.values())
     scenes = [base, *(doubled(base, entry) for entry in entries)]
-    critical = np.array([[theory.critical_centrifugal(scene, angle) for angle in _OBLIQUE] for scene in scenes])
+    critical = np.array([[report.critical_centrifugal(scene, angle) for angle in _OBLIQUE] for scene in scenes])
     ratios, place = critical[1:] / critical[0], _OBLIQUE.index(_AT)  # by quantity and angle
     nearest = int(np.argmin(((ratios - np.array(printed, dtype=float)[:, None]) ** 2).sum(axis=0)))
-    in_reach = theory.outcomes(theory.changes_at(doubled(preset, "particles.reduced_radius"), _AT))
+    in_reach = report.outcomes(report.changes_at(doubled(preset, "particles.reduced_radius"), _AT))
     comparisons = [
         Comparison(
-            entry, float(row[place]), theory.described(base) + ", p_gt out of reach",
+            entry, float(row[place]), report.described(base) + ", p_gt out of reach",
             f"at {degrees(_AT)}. Over the angles below: {number(row.min())} to {number(row.max())}",
         )
         for entry, row in zip(entries, ratios)
@@ -148,5 +258,5 @@ def factors(_folder: Path) -> Part:
         f"to its six numbers is {degrees(_OBLIQUE[nearest])}.",
         comparisons=comparisons,
         tables=[Table("Factors of Ce*", ["", "paper", *(f"at {degrees(angle)}" for angle in _OBLIQUE)], rows)],
-        scenes=[theory.BRIDGED],
+        scenes=[report.BRIDGED],
     )

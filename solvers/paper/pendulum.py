@@ -2,9 +2,7 @@
 
 import math
 from dataclasses import replace
-from functools import partial
 from pathlib import Path
-from typing import Any
 
 from ...generated.automaton import ROTATE
 from ..boundaries.boundary import atlas
@@ -12,13 +10,11 @@ from ..collision.collide import collide
 from ..collision.plot.frames import sampled
 from ..collision.plot.strip import draw_strip, strip_size
 from ..collision.result import Collision
-from ..formatting.document import Picture
 from ..formatting.style import LETTERS, NOTE, halo
 from ..scene.scene import Scene
-from . import theory
+from . import report
 from .printed import PRINTED, SHOT_ANGLE, SHOTS
-from .report import COLUMN, Comparison, Part, draw_map, sheet
-from .theory import degrees, number
+from .report import Comparison, Part, Picture, degrees, draw_map, number, sheet
 
 _BEFORE, _AFTER = 1, 4  # frames of a shot before and after initial contact
 _REACH = 2.5  # St at the right edge of the map
@@ -28,11 +24,11 @@ _MS = 1e3
 
 def fig1(folder: Path) -> Part:
     """The three collisions and their figure."""
-    scene = Scene.load(theory.PENDULUM)
+    scene = Scene.load(report.PENDULUM)
     collisions = [collide(scene, stokes=each.stokes, angle=SHOT_ANGLE, ledger=False, trajectory=True) for each in SHOTS]
     _draw_shots(collisions, folder / "fig1.png")
     comparisons = [
-        Comparison(f"fig1{shot.panel}", seen.outcome, theory.described(scene), _end(seen), seen.outcome == shot.outcome)
+        Comparison(f"fig1{shot.panel}", seen.outcome, report.described(scene), _end(seen), seen.outcome == shot.outcome)
         for shot, seen in zip(SHOTS, collisions)
     ]
     why = "a of Fig. 3's caption is rounded to 0.63 cm; four times that is used"
@@ -43,27 +39,12 @@ def fig1(folder: Path) -> Part:
         "mass, to scale, at the paper's intervals. Before first touch and after rupture the spheres move on straight "
         "lines, strings left out. Lines: marks that met at touch."
     )
-
-    readings: dict[str, Any] = {name: partial(_letter, stokes=shot.stokes) for name, shot in zip(names, SHOTS)}
-    readings["boundaries in St"] = _boundaries
-    printed = [*(LETTERS[shot.outcome] for shot in SHOTS), "-"]
-    moved = f"Pendulum at {degrees(SHOT_ANGLE)}: outcomes of Fig. 1 under the variants"
     return Part(
         "Fig. 1: three collisions",
         comparisons=comparisons,
-        pictures=[Picture("fig1.png", caption, COLUMN)],
-        tables=[theory.under_variants(moved, theory.PENDULUM, theory.STRING_VARIANTS, readings, printed)],
-        scenes=[theory.PENDULUM],
+        pictures=[Picture("fig1.png", caption)],
+        scenes=[report.PENDULUM],
     )
-
-
-def _letter(scene: Scene, stokes: float) -> str:
-    return LETTERS[collide(scene, stokes=stokes, angle=SHOT_ANGLE, ledger=False).outcome]
-
-
-def _boundaries(scene: Scene) -> str:
-    changes = theory.changes_at(scene, SHOT_ANGLE)
-    return ", ".join(f"{LETTERS[each.before]}/{LETTERS[each.after]} {number(each.stokes)}" for each in changes)
 
 
 def _end(seen: Collision) -> str:
@@ -92,7 +73,7 @@ def _draw_shots(collisions: list[Collision], file: Path) -> None:
 
 def fig3(folder: Path) -> Part:
     """The map, and St* at theta0 = 0 for the variants."""
-    scene, printed = Scene.load(theory.PENDULUM), PRINTED["stokes_3"]
+    scene, printed = Scene.load(report.PENDULUM), PRINTED["stokes_3"]
     whole = atlas(scene, span=(0.0, _STEEPEST), stokes=(1e-3 * _REACH, _REACH))
     with sheet(folder / "fig3.png", 7.6) as figure:
         axes = figure.add_subplot()
@@ -103,11 +84,11 @@ def fig3(folder: Path) -> Part:
         for x, y, letters in ((0.45, 22, "S"), (1.02, 62, "SRS"), (2.0, 40, "B")):
             axes.text(x, y, letters, fontsize=13, ha="center", path_effects=[halo()])
         axes.set_yticks(range(0, 91, 15))
-    met, escapes = theory.criterion_met(scene), theory.critical_stokes(scene)
+    met, escapes = report.criterion_met(scene), report.critical_stokes(scene)
     first = math.degrees(min(min(curve.x) for curve in whole.curves if curve.after == ROTATE))
     leaves = math.degrees(max(max(curve.x) for curve in whole.curves if curve.before == ROTATE))
-    rotates = theory.changes_at(scene, math.radians(PRINTED["angle_3"].value))[0].stokes
-    pressure = theory.pressure_for(scene, printed.value)
+    rotates = report.changes_at(scene, math.radians(PRINTED["angle_3"].value))[0].stokes
+    pressure = report.pressure_for(scene, printed.value)
     between = (
         f"a criterion is met from {number(met)} on; up to {number(escapes)} the doublet is reversed and still sticks. "
         f"The printed number lies between; it is reached with {pressure}, which was fitted to a measured St*"
@@ -121,15 +102,15 @@ def fig3(folder: Path) -> Part:
         "angle up, as the text has it (“at higher θ₀ for a given St”); the measured points of the paper are in its "
         f"picture alone. SRS/B leaves the map to the right above {leaves:.3g}°."
     )
-    readings = {"St*: a criterion is met": theory.criterion_met, "St*: escapes": theory.critical_stokes}
+    readings = {"St*: a criterion is met": report.criterion_met, "St*: escapes": report.critical_stokes}
     head_on = "Pendulum at θ₀ = 0: St* under the variants (head-on, lever arm and tangential cut-off have no part)"
     return Part(
         "Fig. 3: regime map of the pendulum",
         comparisons=[
-            Comparison("stokes_3", escapes, theory.described(scene), between),
-            Comparison("angle_3", first, theory.described(scene), begins),
+            Comparison("stokes_3", escapes, report.described(scene), between),
+            Comparison("angle_3", first, report.described(scene), begins),
         ],
-        pictures=[Picture("fig3.png", caption, COLUMN)],
-        tables=[theory.under_variants(head_on, theory.PENDULUM, theory.STRING_VARIANTS, readings, [printed.text, ""])],
-        scenes=[theory.PENDULUM],
+        pictures=[Picture("fig3.png", caption)],
+        tables=[report.under_variants(head_on, report.PENDULUM, report.STRING_VARIANTS, readings, [printed.text, ""])],
+        scenes=[report.PENDULUM],
     )

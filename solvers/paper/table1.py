@@ -7,11 +7,9 @@ from itertools import groupby
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ..formatting.document import Picture
 from ..formatting.style import INK, NOTE
 from ..scene.scene import Scene
-from .report import Part, sheet
-from .theory import BRIDGED, PENDULUM, described
+from .report import BRIDGED, PENDULUM, Part, Picture, described, sheet
 
 if TYPE_CHECKING:
     from ...derive.emit.document.theory import Equation
@@ -37,9 +35,7 @@ def table1(folder: Path) -> Part:
         f"typed in. Laws: {described(bridged)}; {described(hung)}. The paper's own table is a "
         "picture that its text does not have: these are rebuilt from first principles and held against what it prints."
     )
-    picture = Picture(
-        "table1.png", "Table 1: theory. LaTeX below; `wetdoublet export SCENE --to latex` writes a document.", _WIDTH
-    )
+    picture = Picture("table1.png", "Table 1: theory; `wetdoublet export SCENE --to latex` writes a document.")
     formulas = tuple((line.group, line.latex, line.note) for line in equations)
     return Part("Table 1: theory", words, pictures=(picture,), formulas=formulas)
 

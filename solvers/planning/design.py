@@ -6,7 +6,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from scipy.stats import norm, qmc
 
 from ...generated.automaton import OUTCOMES, STICK
 from ..engines.settings import check_rtol
@@ -24,7 +23,7 @@ from .search import Criterion, search
 from .window import Scatter, Window, check_over
 
 _SPACING = 20  # candidates to begin with, to either side
-_MOST, _MOST_DRAWS = 1000, 256
+_MOST = 1000
 _AT_ONCE = 64  # impacts that are evaluated together
 _EXACT = 5  # assumed cost of an impact's exact information, relative to the usual one
 _MORE, _PER_IMPACT = 600, 200  # assumed cost of the refinement, and of each distinct impact; rather too large
@@ -41,12 +40,10 @@ def design(
     target: str | None = None,
     data: Any = None,
     prior: Mapping[str, str] | None = None,
-    draws: int = 0,
     speed_sd: float | str | None = None,
     angle_sd: float | str | None = None,
     restitution_sd: float | str | None = None,
     rtol: float = RTOL,
-    seed: int = 0,
     progress: Progress | None = None,
 ) -> Design:
     """Choose the impacts from whose outcomes and restitutions `fit` will learn most.
@@ -62,12 +59,9 @@ def design(
             alike (D-optimal).
         data: impacts measured before, as of `fit`; they are fitted first, and what they tell counts.
         prior: what is known of free entries, as of `fit`.
-        draws: number of quasi-random values of the free entries, from the priors and the data's estimates with their
-            errors, over which the impacts are the best on average; 0: for one value each.
         speed_sd: scatter of the speed, relative ("2 %"); angle_sd: of the angle. Default: the data's, or `fit`'s.
         restitution_sd: standard deviation of the measured restitution; "none" if only outcomes are recorded.
         rtol: relative tolerance of the collisions.
-        seed: of the quasi-random values.
         progress: called with (impacts evaluated, impacts in all), in units of one at the usual resolution; the second
             is an estimate, which may grow, and is reached at the end. A fit of `data` before is not counted.
 
@@ -88,7 +82,7 @@ def design(
     check_function(progress, "progress")
     loaded = Scene.load(scene)
     key, speed, angle = check_over(over)
-    size, draws = check_whole(n, "n", 1, _MOST), check_whole(draws, "draws", 0, _MOST_DRAWS)
+    size = check_whole(n, "n", 1, _MOST)
     table = None if data is None else read_data(data, loaded)
     default = Scatter() if table is None else Scatter.typical(table)
     scatter = Scatter.checked(speed_sd, angle_sd, restitution_sd, default)
@@ -98,31 +92,33 @@ def design(
     warn(scene_now)
     window = Window(scene_now, key, speed, angle, scatter)
     values = np.array([float(scene_now.entries[name]) for name in entries.names])
-    ensemble = _ensemble(entries, values, before, draws, seed)
+    rates = np.outer(entries.rates(values), entries.rates(values))
     most = np.zeros(entries.size)  # information of an impact on each entry
 
     first = window.candidates(_SPACING, rtol)
-    work = Estimated(progress, len(ensemble) * (len(first) + _MORE + _PER_IMPACT * min(size, entries.size + 2)))
+    work = Estimated(progress, len(first) + _MORE + _PER_IMPACT * min(size, entries.size + 2))
     work.start()
 
     def evaluate(points: np.ndarray, exact: bool) -> np.ndarray:
         """The information of impacts, in the variables of the search."""
-        compute, result = reliable_information if exact else information, []
-        parts = [window.plan(part) for part in np.array_split(points, -(-len(points) // _AT_ONCE))]
-        for each in ensemble:
-            rates, totals = np.outer(entries.rates(each), entries.rates(each)), []
-            for plan in parts:
-                totals.append(compute(scene_now, entries.names, each, plan, rtol).total * rates)
-                work.add(plan.size * (_EXACT if exact else 1))
-            result.append(np.concatenate(totals))
-        np.maximum(most, np.einsum("mcii->mci", result).max(axis=(0, 1)), out=most)
-        return np.stack(result)
+        compute, totals = reliable_information if exact else information, []
+        for part in np.array_split(points, -(-len(points) // _AT_ONCE)):
+            totals.append(compute(scene_now, entries.names, values, window.plan(part), rtol).total * rates)
+            work.add(len(part) * (_EXACT if exact else 1))
+        of_points = np.concatenate(totals)
+        np.maximum(most, np.einsum("cii->ci", of_points).max(axis=0), out=most)
+        return of_points
 
     # the range of the search keeps the matrices from being singular; nothing is known beyond it
-    known = np.broadcast_to(before + entries.vague, (len(ensemble), *before.shape))
     criterion = Criterion(None) if single is None else Criterion(entries.names.index(single), _OTHERS)
     choice = search(
-        partial(evaluate, exact=False), known, criterion, size, first, 1 / (_SPACING - 1), partial(evaluate, exact=True)
+        partial(evaluate, exact=False),
+        before + entries.vague,
+        criterion,
+        size,
+        first,
+        1 / (_SPACING - 1),
+        partial(evaluate, exact=True),
     )
     for name, information_of_one in zip(entries.names, most, strict=True):
         if single in (None, name) and information_of_one < _NOTHING:
@@ -130,7 +126,7 @@ def design(
             all_stick = set(window.outcomes(first, rtol).tolist()) == {OUTCOMES.index(STICK)}
             problem = "changes nothing that is observed in the window" + ", where all impacts stick" * all_stick
             raise InputError("free", name, accepted, problem)
-    planned = Design.of(window, entries, values, before, choice, single, size, rtol, len(ensemble), loaded)
+    planned = Design.of(window, entries, values, before, choice, single, size, rtol, loaded)
     work.finish()
     return planned
 
@@ -147,18 +143,3 @@ def _known(
     rates = entries.rates(entries.values(entries.start))
     slopes = np.array([0.0 if each.prior is None else each.prior.misfit(each.value)[1] for each in entries.entries])
     return entries, np.diag((slopes * rates) ** 2), scene
-
-
-def _ensemble(entries: FreeEntries, values: np.ndarray, before: np.ndarray, draws: int, seed: int) -> list[np.ndarray]:
-    """Values for which the impacts are planned: the scene's, or quasi-random ones where something is known of them."""
-    if not draws:
-        return [values]
-    informed = np.diag(before) > 0
-    if not informed.any():
-        raise InputError("draws", draws, "priors or data, from which values are drawn", "has nothing to draw from")
-    covariance = np.zeros_like(before)
-    covariance[np.ix_(informed, informed)] = np.linalg.pinv(before[np.ix_(informed, informed)])
-    variances, axes = np.linalg.eigh(covariance)
-    points = norm.ppf(qmc.Sobol(entries.size, seed=seed).random(draws) * (1 - 1e-9) + 5e-10)
-    inner = entries.inner(values) + points @ (axes * np.sqrt(np.maximum(variances, 0))).T
-    return [entries.values(each) for each in np.clip(inner, entries.low, entries.high)]

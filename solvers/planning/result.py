@@ -13,7 +13,6 @@ from ...generated.automaton import OUTCOMES
 from ..fitting.free_entries import COMBINED, IDENTIFIED, FreeEntries, combinations, in_unit, interval
 from ..fitting.measurements import Measurements
 from ..formatting.markdown import aligned, csv_text
-from ..formatting.notebook import view
 from ..host.pictures import Drawn
 from ..scene.held import NAMES
 from ..scene.origin import origin
@@ -28,7 +27,6 @@ if TYPE_CHECKING:
 _QUANTILE = 1.959963984540054  # of a normal distribution, 97.5 %
 _FROM_RANGE = 1.2  # growth of a standard deviation with the range of the search, from which it says nothing
 _ALONG, _ACROSS = 56, 40  # impacts of a map
-_NOTABLE = 0.5  # least bound on the efficiency that is worth a sentence
 
 
 @dataclass(frozen=True)
@@ -74,10 +72,7 @@ class Design(Drawn):
             over the window.
         grid: number of speeds and of angles of these, their square root each where both may be chosen.
         combinations: sentences on products of powers that the impacts tell better than their entries.
-        efficiency: least ratio of the criterion to that of any other choice among the candidates: of the volume's
-            root for all entries, of the interval for one (with the part of the others). None where it is not known.
         target: the entry that matters; None for all.
-        draws: values of the entries for which the impacts are the best on average.
         candidates: impacts among which they were chosen.
         given: the scene as it was given, whose units are shown.
         points: (distinct impacts, 2), in the window: logarithm of the speed, and angle, 0 to 1.
@@ -100,9 +95,7 @@ class Design(Drawn):
     against_grid: Mapping[str, float]
     grid: tuple[int, int]
     combinations: tuple[str, ...]
-    efficiency: float | None
     target: str | None
-    draws: int
     candidates: int
     points: np.ndarray
     rtol: float
@@ -111,7 +104,7 @@ class Design(Drawn):
     @classmethod
     def of(
         cls, window: Window, free: FreeEntries, values: np.ndarray, before: np.ndarray, choice: Choice,
-        target: str | None, size: int, rtol: float, draws: int, scene: Scene,
+        target: str | None, size: int, rtol: float, scene: Scene,
     ) -> Design:  # fmt: skip
         """The result for chosen impacts, by their information at these values."""
         order = np.lexsort((choice.points[:, 0], choice.points[:, 1]))
@@ -131,12 +124,10 @@ class Design(Drawn):
         expected = _expected(free, values, total)
         spread = _spread(total + free.vague) / _spread(before + free.vague + rates * by_grid * size / even.size)
         verdicts = [COMBINED if each.low is None and each.high is None else IDENTIFIED for each in expected.values()]
-        grows = free.size if target is None else 2
-        efficiency = None if choice.bound is None else math.exp((choice.value - choice.bound) / grows)
         return cls(
             window, free, values, impacts, expected, _expected(free, values, before),
             dict(zip(free.names, spread.tolist(), strict=True)), grid,
-            combinations(free, total, verdicts, "These impacts"), efficiency, target, draws, choice.candidates,
+            combinations(free, total, verdicts, "These impacts"), target, choice.candidates,
             points, rtol, scene,
         )  # fmt: skip
 
@@ -189,8 +180,7 @@ class Design(Drawn):
             "before": {name: asdict(each) for name, each in self.before.items()},
             "against_grid": dict(self.against_grid),
             "grid": list(self.grid),
-            "combinations": list(self.combinations), "efficiency": self.efficiency, "for": self.target,
-            "draws": self.draws, "candidates": self.candidates,
+            "combinations": list(self.combinations), "for": self.target, "candidates": self.candidates,
             "scatter": {self._speed: scatter.speed, "angle": scatter.angle, "restitution": scatter.restitution},
         } | origin(self.window.scene)  # fmt: skip
 
@@ -226,23 +216,17 @@ class Design(Drawn):
         noise = "outcomes only" if scatter.restitution is None else f"restitution to {scatter.restitution:.3g}"
         values = zip(self.free.names, self.values.tolist(), strict=True)
         now = ", ".join(f"{name} = {in_unit(scene, name, value)}" for name, value in values)
-        averaged = f", averaged over {self.draws} draws" if self.draws > 1 else ""
         share_of_speed = f"{100 * scatter.speed:.3g} % of the {NAMES[self._speed]}"
         scattered = f"scatter {share_of_speed}, {math.degrees(scatter.angle):.3g} deg; {noise}"
-        sentences = [f"Planned for {now}{averaged}; {scattered}."]
+        sentences = [f"Planned for {now}; {scattered}."]
         if self.combinations and any(each.low is each.high for each in self.expected.values()):
             sentences.append(
                 "Entries open at both ends are told in combination only; a prior on one may close the others."
             )
         sentences += self.combinations
-        if (self.efficiency or 0) > _NOTABLE and self.candidates > 1:
-            share = math.floor(100 * (self.efficiency or 0))
-            least = f"At least {share} % as good" if share < 100 else "As good"
-            sentences.append(f"{least} as any other {self.size} of {self.candidates} candidates.")
         return "\n".join([title, "", *aligned(rows), "", *aligned(entries), "", *sentences])
 
-    def _repr_html_(self) -> str:
-        return view(f"design of {self.size} impacts", self._rows(), self._head())
+    __repr__ = __str__  # what a notebook shows
 
     @property
     def _speed(self) -> str:

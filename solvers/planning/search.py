@@ -1,7 +1,6 @@
 """The most informative impacts: greedy choice and exchange among candidates, which are refined where they matter.
 
-Information adds up over impacts, so a design is as good as a function of the sum of its impacts' matrices. Both
-functions used here are concave in that sum, which bounds how much better any other choice among the candidates can be.
+Information adds up over impacts, so a design is as good as a function of the sum of its impacts' matrices.
 """
 
 from collections.abc import Callable
@@ -10,12 +9,11 @@ from dataclasses import dataclass
 import numpy as np
 
 Evaluate = Callable[[np.ndarray], np.ndarray]
-"""From points in the unit square (points, 2) to information (draws, points, entries, entries)."""
+"""From points in the unit square (points, 2) to information (points, entries, entries)."""
 
 _WIDE, _LEVELS = 3, 6  # levels of refinement about the most promising candidates, and in all
 _PROMISING = 24  # candidates around which finer ones are tried, beside those of the design
 _ROUNDS = 30
-_TOP = 16  # most promising candidates that are made exact at once
 _CORRECTIONS = 12  # rounds of exchange and exact information
 _GAIN = 1e-6  # least of the criterion that is worth an exchange
 _LOSS = 3e-3  # of the criterion, that neighbours may cost by becoming one
@@ -24,7 +22,7 @@ _AROUND = np.array([(i, j) for i in (-1, 0, 1) for j in (-1, 0, 1) if (i, j) != 
 
 @dataclass(frozen=True)
 class Criterion:
-    """What is maximised, as a mean over draws of the entries' values.
+    """What is maximised.
 
     The logarithm of the information matrix's determinant, or that of the precision of entry `target` plus a part of the
     former. Without that part a design may leave the other entries open, wherever the target does not depend on them to
@@ -39,24 +37,21 @@ class Criterion:
     part: float = 0.0
 
     def value(self, total: np.ndarray) -> np.ndarray:
-        """Of sums of information (draws, ..., entries, entries), (...)."""
+        """Of sums of information (..., entries, entries), (...)."""
         values = np.linalg.slogdet(total)[1]
         if self.target is not None:
             precision = -np.log(np.linalg.inv(total)[..., self.target, self.target])
             values = precision + self.part * values / total.shape[-1]
-        mean: np.ndarray = values.mean(axis=0)
-        return mean
+        return np.asarray(values)
 
     def rate(self, total: np.ndarray, single: np.ndarray) -> np.ndarray:
-        """Derivatives of the value by the weights of single impacts (draws, impacts, entries, entries)."""
+        """Derivatives of the value by the weights of single impacts (impacts, entries, entries)."""
         inverse = np.linalg.inv(total)
-        rates = np.einsum("mij,mcji->mc", inverse, single)
+        rates = np.einsum("ij,cji->c", inverse, single)
         if self.target is not None:
-            row = inverse[:, self.target]
-            of_target = np.einsum("mi,mcij,mj->mc", row, single, row) / row[:, None, self.target]
-            rates = of_target + self.part * rates / total.shape[-1]
-        mean: np.ndarray = rates.mean(axis=0)
-        return mean
+            row = inverse[self.target]
+            rates = np.einsum("i,cij,j->c", row, single, row) / row[self.target] + self.part * rates / total.shape[-1]
+        return np.asarray(rates)
 
 
 @dataclass(frozen=True)
@@ -66,18 +61,11 @@ class Choice:
     Attributes:
         points: (distinct impacts, 2), in the unit square.
         counts: how often each is repeated.
-        information: (draws, entries, entries), of all of them and what was known before.
-        value: of the criterion.
-        bound: what `value` cannot exceed by any choice of as many impacts among the candidates; None where the
-            information of the most promising candidate is too uncertain.
         candidates: number of them.
     """
 
     points: np.ndarray
     counts: np.ndarray
-    information: np.ndarray
-    value: float
-    bound: float | None
     candidates: int
 
 
@@ -89,7 +77,7 @@ def search(
 
     Arguments:
         evaluate: information of impacts.
-        before: (draws, entries, entries), what is known already; not singular.
+        before: (entries, entries), what is known already; not singular.
         size: number of impacts.
         first: (candidates, 2), the candidates to begin with.
         h: their spacing; it is halved at every level.
@@ -103,13 +91,10 @@ def search(
         promising = np.argsort(-table.rate(chosen))[: _PROMISING if level < _WIDE else 0]
         around = table.points[np.unique(np.concatenate([chosen, promising]))]
         table.add((around[:, None] + h * _AROUND * (np.ptp(first, axis=0) > 0)).reshape(-1, 2))
-        chosen = table.exchanged(chosen, _TOP * (level == _LEVELS - 1))
-    rate, bound = table.rate(chosen), None
-    if table.is_exact[np.argmax(rate)]:
-        bound = table.value(chosen) + size * float(rate.max()) - float(rate[chosen].sum())
+        chosen = table.exchanged(chosen)
     chosen = table.merged(chosen, near)
     distinct, counts = np.unique(chosen, return_counts=True)
-    return Choice(table.points[distinct], counts, table.total(chosen), table.value(chosen), bound, len(table.points))
+    return Choice(table.points[distinct], counts, len(table.points))
 
 
 class _Candidates:
@@ -124,7 +109,7 @@ class _Candidates:
 
     def total(self, chosen: np.ndarray) -> np.ndarray:
         """The information of chosen candidates and of what was known before."""
-        total: np.ndarray = self.before + self.single[:, chosen].sum(axis=1)
+        total: np.ndarray = self.before + self.single[chosen].sum(axis=0)
         return total
 
     def value(self, chosen: np.ndarray) -> float:
@@ -139,32 +124,27 @@ class _Candidates:
         new = np.array(sorted(set(map(tuple, np.clip(points, 0, 1).round(9).tolist())) - known)).reshape(-1, 2)
         if new.size:
             self.points = np.concatenate([self.points, new])
-            self.single = np.concatenate([self.single, self.evaluate(new)], axis=1)
+            self.single = np.concatenate([self.single, self.evaluate(new)])
             self.is_exact = np.concatenate([self.is_exact, np.zeros(len(new), bool)])
 
     def greedy(self, size: int) -> np.ndarray:
         """Candidates chosen one by one, each the best in addition to those before it."""
         total, chosen = self.before, []
         for _ in range(size):
-            chosen.append(int(np.argmax(self.criterion.value(total[:, None] + self.single))))
-            total = total + self.single[:, chosen[-1]]
+            chosen.append(int(np.argmax(self.criterion.value(total + self.single))))
+            total = total + self.single[chosen[-1]]
         return np.array(chosen)
 
-    def exchanged(self, chosen: np.ndarray, top: int = 0) -> np.ndarray:
-        """The choice after Fedorov's exchange, repeated until the information of all its impacts is exact.
-
-        Arguments:
-            top: number of promising candidates that are made exact at once until the best of them is: for the bound.
-        """
+    def exchanged(self, chosen: np.ndarray) -> np.ndarray:
+        """The choice after Fedorov's exchange, repeated until the information of all its impacts is exact."""
         start = chosen
         for _ in range(_CORRECTIONS):
             chosen = self._exchange(chosen.copy())
-            promising = np.argsort(-self.rate(chosen))[:top]
-            if self.is_exact[chosen].all() and self.is_exact[promising[:1]].all():
+            if self.is_exact[chosen].all():
                 break
-            which = np.unique(np.concatenate([chosen, promising]))
+            which = np.unique(chosen)
             which = which[~self.is_exact[which]]
-            self.single[:, which], self.is_exact[which] = self.exact(self.points[which]), True
+            self.single[which], self.is_exact[which] = self.exact(self.points[which]), True
         # an exchange for a candidate that was the best by its error may not be undone by single exchanges
         return start if self.is_exact[start].all() and self.value(start) > self.value(chosen) else chosen
 
@@ -174,7 +154,7 @@ class _Candidates:
         for _ in range(_ROUNDS):
             start = value
             for k in range(chosen.size):
-                values = self.criterion.value(self.total(np.delete(chosen, k))[:, None] + self.single)
+                values = self.criterion.value(self.total(np.delete(chosen, k)) + self.single)
                 best = int(np.argmax(values))
                 if values[best] > value + _GAIN:
                     chosen[k], value = best, float(values[best])

@@ -8,7 +8,6 @@ from dataclasses import asdict, dataclass, field
 from typing import Any
 
 from ..formatting.markdown import aligned, csv_text
-from ..formatting.notebook import view
 from ..host.pictures import Drawn
 from ..scene.origin import origin
 from ..scene.scene import Scene
@@ -105,6 +104,8 @@ class Critical(Drawn):
             lines += aligned([["", *where], *([name, *(_slope(one, name) for one in self.rows)] for name in names)])
         return "\n".join(lines)
 
+    __repr__ = __str__  # what a notebook shows
+
     def columns(self) -> dict[str, list[Any]]:
         """A value for each material and angle (rad) by name; speeds in m/s."""
         names = ("material", "angle", "relative_speed", "low", "high", "speed", "stokes", "to", "bounces_above")
@@ -116,10 +117,6 @@ class Critical(Drawn):
         columns, speeds = self.columns(), ("relative_speed", "low", "high", "speed", "bounces_above")
         units = {"angle": " [rad]"} | dict.fromkeys(speeds, " [m/s]")
         return csv_text([name + units.get(name, "") for name in columns], zip(*columns.values(), strict=True))
-
-    def _repr_html_(self) -> str:
-        head, rows = self.table()
-        return view("critical speeds", rows, head, [text for one in self.rows for text in one.sentences])
 
 
 def _number(value: float | None) -> str:

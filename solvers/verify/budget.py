@@ -15,7 +15,6 @@ from ...generated.automaton import OUTCOMES
 from ..collision.collide import collide
 from ..collision.result import Collision
 from ..errors import WetDoubletError
-from ..host.pictures import register
 from ..scene.scene import Scene
 from .sample import Collide
 
@@ -64,7 +63,6 @@ def budgeted(
     """The budget over impact angle (rad) and Stokes number, of collisions computed by `collide`."""
     import xarray as xr
 
-    register()
     shape = (len(angle), len(stokes))
     names = ("restitution", "excess", *TERMS, "residual", "gap", "ceiling")
     values = {name: np.full(shape, np.nan) for name in names}

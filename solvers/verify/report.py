@@ -2,13 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass, field
-from pathlib import Path
+from dataclasses import asdict, dataclass
 from textwrap import wrap
 from typing import TYPE_CHECKING, Any
-
-from ..errors import InputError
-from ..formatting.notebook import view
 
 if TYPE_CHECKING:
     import xarray
@@ -61,22 +57,9 @@ def note(name: str, statement: str, figure: str, where: str = "", about: tuple[s
 
 @dataclass(frozen=True)
 class Report:
-    """All findings; `str` is the report.
-
-    Arguments:
-        budget: budget of e_n^2 - 1 (`restitution_budget`), if a single scene was requested.
-    """
+    """All findings; `str` is the report."""
 
     findings: tuple[Finding, ...]
-    budget: xarray.Dataset | None = field(default=None, repr=False, compare=False)
-
-    def _repr_html_(self) -> str:
-        """The first line, the failures, and how each group fares."""
-        rows = [("FAIL", f"{one.group}: {one.name}", one.statement, one.figure, one.where) for one in self.failed]
-        for group, members in self._groups().items():
-            held = [one.ok for one in members if one.ok is not None]
-            rows.append((_MARKS[all(held)], group, f"{sum(map(bool, held))} of {len(held)} checks hold", "", ""))
-        return view(self.headline, rows)
 
     def to_dict(self) -> dict[str, Any]:
         """Whether all checks hold, and every finding by its attributes."""
@@ -89,21 +72,6 @@ class Report:
         texts = {name: ("check", [getattr(one, name) for one in self.findings]) for name in _COLUMNS if name != "ok"}
         held = [-1 if one.ok is None else int(one.ok) for one in self.findings]
         return xr.Dataset({**texts, "ok": ("check", held)})
-
-    def plot(self, path: str | Path | None = None) -> Any:
-        """Draw what e_n^2 - 1 is made of; returns the matplotlib Figure.
-
-        Arguments:
-            path: file to write (.png, .pdf or .svg); None only draws.
-
-        Raises:
-            InputError: the report is of all presets, and of no one scene.
-        """
-        from ..host.pictures import plot
-
-        if self.budget is None:
-            raise InputError("scene", None, "the report on one scene", "is missing: there is no one budget to draw")
-        return plot(self.budget, path)
 
     @property
     def ok(self) -> bool:
@@ -120,6 +88,8 @@ class Report:
         for group, members in self._groups().items():
             lines += _section(group, members)
         return "\n".join([*lines, *wrap(self.summary, WIDTH)])
+
+    __repr__ = __str__  # what a notebook shows
 
     @property
     def headline(self) -> str:

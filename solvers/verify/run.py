@@ -5,14 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from functools import cache
-from typing import TYPE_CHECKING
 
 from ..errors import WetDoubletError
 from ..host.arguments import check_flag
 from ..scene.scene import Scene
 from ..scene.scenefile import OF_THE_PAPER
 from .audit import stick_audit
-from .backward import backward
 from .closed import closed_forms
 from .conserved import conserved
 from .identities import symbolic
@@ -20,9 +18,6 @@ from .order import convergence
 from .region import argument, beside_cvodes, grid
 from .report import Finding, Report
 from .sample import WHOLE, Extent, collisions
-
-if TYPE_CHECKING:
-    import xarray
 
 
 def verify(
@@ -41,7 +36,6 @@ def verify(
     loaded = None if scene is None else Scene.load(scene)
     check_flag(recompute, "recompute")
     findings: list[Finding] = []
-    budget = None
 
     def take(results: Iterator[Finding]) -> None:
         for finding in results:
@@ -55,19 +49,15 @@ def verify(
             take(numeric(preset))
             take(numeric(preset, head_on=True))
     else:
-        budget = grid(loaded)
-        take(numeric(loaded, budget=budget))
-    return Report(tuple(findings), budget)
+        take(numeric(loaded))
+    return Report(tuple(findings))
 
 
-def numeric(
-    scene: Scene, head_on: bool = False, budget: xarray.Dataset | None = None, extent: Extent = WHOLE
-) -> Iterator[Finding]:
+def numeric(scene: Scene, head_on: bool = False, extent: Extent = WHOLE) -> Iterator[Finding]:
     """Findings of all numerical checks of a scene, in the order of the report.
 
     Arguments:
         head_on: check the head-on variant, without rotation.
-        budget: budget of the scene, if already computed.
         extent: size of the samples.
     """
     group = f"Numeric: {scene.name or 'scene'}{', head-on' * head_on}"
@@ -75,13 +65,12 @@ def numeric(
     sample = collisions(scene, angles, extent)
     checks: dict[str, Callable[[], Iterator[Finding]]] = {
         "conservation": lambda: conserved(sample),
-        "forward-back": lambda: backward(sample),
         "closed forms": lambda: closed_forms(scene, head_on),
         "convergence": lambda: convergence(sample, extent.tolerances),
         "stick certificate": lambda: stick_audit(scene, angles, extent.audited),
     }
     if not head_on:
-        data = cache(lambda: grid(scene, extent) if budget is None else budget)
+        data = cache(lambda: grid(scene, extent))
         checks["cvodes, on the grid"] = lambda: beside_cvodes(scene, data())
         checks["e_n > 1"] = lambda: argument(scene, data())
     for name, check in checks.items():

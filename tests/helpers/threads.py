@@ -33,7 +33,6 @@ from wetdoublet.solvers.engines.casadi.integrators import IntegrationFailed, Tol
 from wetdoublet.solvers.host.compiler import compiler
 from wetdoublet.solvers.model.model import load, select_model
 from wetdoublet.solvers.model.phases import Flow, Region
-from wetdoublet.solvers.verify.backward import backward
 from wetdoublet.solvers.verify.budget import restitution_budget
 from wetdoublet.solvers.verify.conserved import conserved
 from wetdoublet.solvers.verify.sample import collisions
@@ -141,7 +140,6 @@ LONG: dict[str, Callable[[], Any]] = {
     "band": lambda: solvers.band(GRANULATION, {"liquid.viscosity": "5 %"}, "impact.stokes", [0.03, 0.2], samples=8),
     "budget": lambda: restitution_budget(GRANULATION, stokes=[0.05, 0.1], angle=[0.5, 0.9]),
     "conserved": lambda: [str(one) for one in conserved(collisions(Scene.load(GRANULATION), (0.9,)))],
-    "integrated back": lambda: [str(one) for one in backward(collisions(Scene.load(GRANULATION), (0.9,)))],
 }
 
 

@@ -1,1 +1,1 @@
-"""Emission of the equations as LaTeX and Markdown."""
+"""Emission of the equations as LaTeX."""

@@ -1,4 +1,4 @@
-"""A model's equations as a document in LaTeX or compact Markdown, arranged as in Table 1 of the paper."""
+"""A model's equations as a LaTeX document, arranged as in Table 1 of the paper."""
 
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -57,22 +57,6 @@ class Document:
         return "\n".join(
             [_PREAMBLE, title, r"\date{}", r"\begin{document}", r"\maketitle", *body, r"\end{document}", ""]
         )
-
-    def markdown(self) -> str:
-        """A page of Markdown, formulas between dollars."""
-        body = [f"# {self.title}", ""]
-        for group, members in groupby(self.lines, key=lambda line: line[0]):
-            body += [f"## {group}", "", "| | |", "|---|---|"]
-            for _, left, relation, right, note in members:
-                formula = f"{left} {relation} {right}".replace("|", r"\vert ")
-                body.append(f"| ${formula}$ | {_cell(note)} |")
-            body.append("")
-        body += ["## Laws", "", *_table(("slot", "law", "source"), self.laws), ""]
-        if self.quantities:
-            body += ["## Quantities of the model", "", *_table(_QUANTITY_HEADS, self.quantities), ""]
-        if self.events:
-            body += ["## Events of the model", "", *_table(_EVENT_HEADS, self.events), ""]
-        return "\n".join(body)
 
 
 def document(
@@ -162,15 +146,6 @@ def _tabular(columns: str, heads: Sequence[str], rows: Iterable[Sequence[str]]) 
     lines = [rf"\noindent\begin{{tabularx}}{{\linewidth}}{{{shape}}}", " & ".join(heads) + r" \\ \hline"]
     lines += [" & ".join(_tex(cell) for cell in row) + r" \\" for row in rows]
     return [*lines, r"\end{tabularx}"]
-
-
-def _table(heads: Sequence[str], rows: Iterable[Sequence[str]]) -> list[str]:
-    lines = [f"| {' | '.join(heads)} |", "|" + "---|" * len(heads)]
-    return lines + [f"| {' | '.join(_cell(cell) for cell in row)} |" for row in rows]
-
-
-def _cell(text: str) -> str:
-    return text.replace("|", r"\|")
 
 
 def _tex(text: str) -> str:

@@ -1,5 +1,6 @@
-"""NAME.h: the law as a host sees it."""
+"""NAME.h: the law as a host sees it, and its structures for ctypes."""
 
+import re
 from collections.abc import Iterable, Sequence
 
 from ....generated.automaton import CRITERIA, KINDS, OUTCOMES
@@ -29,6 +30,8 @@ RESULTS = (
     ("double", "final_partner_spin", "rad/s, of the partner at separation"),
     ("double", "final_rotation_rate", "rad/s, of the line of centres at separation"),
 )
+Fields = list[tuple[str, str, tuple[int, ...]]]
+"""Members of a structure: type, name, shape."""
 
 
 def header(
@@ -153,3 +156,21 @@ def _structure(name: str, numbers: Iterable[Number]) -> list[str]:
 
 def _enumeration(rows: Iterable[tuple[str, int, str]]) -> list[str]:
     return ["enum {", *(f"    LAW_{name} = {number}, /* {what} */" for name, number, what in rows), "};", ""]
+
+
+def structures(header: str) -> dict[str, Fields]:
+    """The structures that a host fills or reads, by name."""
+    bodies = re.findall(r"typedef struct \{([^}]*)\} (law_\w+);", header)
+    return {
+        name: [
+            (kind, member, tuple(map(int, re.findall(r"\d+", shape))))
+            for kind, member, shape in re.findall(r"^ *(int|double|law_\w+) (\w+)((?:\[\d+\])*);", body, re.MULTILINE)
+        ]
+        for body, name in bodies
+    }
+
+
+def ctypes_fields(fields: Fields) -> str:
+    """The members as fields of a ctypes structure."""
+    kinds = ("".join([f"ctypes.c_{kind}", *(f" * {n}" for n in reversed(shape))]) for kind, _, shape in fields)
+    return ", ".join(f'("{name}", {kind})' for kind, (_, name, _) in zip(kinds, fields, strict=True))

@@ -11,8 +11,7 @@ from ...space.pairs import Bodies
 from ..equations import file_name
 from . import space
 from .amalgam import OWN, Source, digests, merged
-from .header import default_material, header, message_function
-from .interface import ctypes_fields, fortran, structures
+from .header import ctypes_fields, default_material, header, message_function, structures
 from .items import items
 from .kernels import BOOKED, HEAD_ON, PLANE, SPACE, Kernel, kernels, only_in_a_plane
 from .material import Number, Result, checks, impact, material, results
@@ -110,7 +109,6 @@ def texts(scene: Scene, rtol: float = RTOL) -> dict[str, str]:
     files = {
         f"{name}.h": _head(scene, law_kernels) + declared,
         f"{name}.c": law.c,
-        f"{name}.f90": fortran(declared).replace("@NAME@", name),
         "vectors.h": table(scene, law_kernels),
     }
     files |= {shown: _filled(file, scene, declared) for shown, file in _files(scene).items()}
@@ -119,7 +117,7 @@ def texts(scene: Scene, rtol: float = RTOL) -> dict[str, str]:
 
 def _files(scene: Scene) -> dict[str, str]:
     """The other files by name, and where their texts are."""
-    names = ("Makefile", "README.md", "check.c", "example.c", "example.f90")
+    names = ("Makefile", "README.md", "check.c", "example.c")
     files = {**{name: name for name in names}, "example.py": "example.py.in"}
     return files | ({} if only_in_a_plane(scene) else {"example.c": "example-space.c", "pairs.py": "pairs.py.in"})
 

@@ -2,8 +2,6 @@
 
 from collections.abc import Mapping, Sequence
 
-from wetdoublet.solvers.formatting.markdown import unpadded
-
 
 def us(seconds: float) -> str:
     """Microseconds with three digits."""
@@ -13,4 +11,5 @@ def us(seconds: float) -> str:
 def of_rows(rows: Sequence[Mapping[str, object]]) -> str:
     """Rows of a record as a Markdown table, numbers with two digits."""
     cells = [[f"{value:.2g}" if isinstance(value, float) else str(value) for value in row.values()] for row in rows]
-    return "\n".join(unpadded(list(rows[0]), cells))
+    lines = [list(rows[0]), ["---"] * len(rows[0]), *cells]
+    return "\n".join("| " + " | ".join(cell.replace("|", r"\|") for cell in line) + " |" for line in lines)

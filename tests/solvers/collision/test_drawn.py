@@ -18,7 +18,7 @@ from wetdoublet.solvers import (
     regime_map,
     sensitivities,
 )
-from wetdoublet.solvers.verify import Finding, Report, restitution_budget
+from wetdoublet.solvers.verify import Finding, Report
 
 from ...helpers.command import run
 
@@ -32,12 +32,10 @@ DRAWN: dict[str, Callable[[], Any]] = {
     "boundaries": lambda: boundary("granulation", angle=[0.5], stokes=(0.05, 0.2)),
     "boundary sensitivities": lambda: boundary_sensitivities("granulation", angle=0.5, stokes=(0.05, 0.2), wrt=WRT[0]),
     "sensitivities": lambda: sensitivities("granulation", wrt=WRT, **IMPACT),
-    "verification": lambda: Report(FINDINGS, restitution_budget("granulation", stokes=[0.02, 0.05], angle=[1.0, 1.3])),
     "many": lambda: collide_many("granulation", **SOME).wetdoublet,
     "map": lambda: regime_map("granulation", stokes=[0.02, 0.05, 0.2], angle=[0.5, 1.0]).wetdoublet,
     "gradients": lambda: gradients_many("granulation", wrt=WRT, **SOME).wetdoublet,
     "band": lambda: band("granulation", **BAND, samples=4).wetdoublet,
-    "budget": lambda: restitution_budget("granulation", stokes=[0.02, 0.05], angle=[1.0, 1.3]).wetdoublet,
 }
 
 

@@ -5,7 +5,6 @@ from typing import Any
 
 import pytest
 from wetdoublet.solvers import Scene, atlas, boundary, collide, sensitivities
-from wetdoublet.solvers.verify import Finding, Report
 
 NAME = "<b>&'\""
 SCENE = Scene.load("granulation").with_entries({"name": NAME})
@@ -20,10 +19,6 @@ RESULTS: dict[str, tuple[Callable[[], Any], list[str]]] = {
     "stick": (lambda: collide(SCENE, stokes=0.01, ledger=False), ["stick", "proved"]),
     "boundaries": (lambda: boundary(SCENE, angle=[0.5], stokes=(0.05, 0.2)), ["28.6479", "stick-rotate-separate"]),
     "sensitivities": (lambda: sensitivities(SCENE, stokes=0.01), ["restitution = 0", "wetdoublet boundary"]),
-    "verification": (
-        lambda: Report((Finding("Symbolic", NAME, "I < J", "left over: x", "", False),)),
-        ["1 of 1 checks FAIL", "I &lt; J"],
-    ),
 }
 
 

@@ -215,7 +215,7 @@ def test_no_name_of_a_scene_is_one_within_the_law(folder: Path):
     own = set(re.findall(r"\b[a-z]\w*", re.sub(r"/\*.*?\*/", "", header, flags=re.DOTALL)))
     within = set(re.findall(r"\b[a-z]\w+", (folder / "glass_beads_water.c").read_text())) - own
     names = {word.removesuffix(f"_{end}") for word in within for end in public if word.endswith(f"_{end}")}
-    names |= {path.stem for path in folder.iterdir() if path.suffix in (".c", ".h", ".f90")} - {prefix[:-1]}
+    names |= {path.stem for path in folder.iterdir() if path.suffix in (".c", ".h")} - {prefix[:-1]}
     assert {"check", "example", "vectors"} < names
     for name in names:
         assert law_name(Scene(name, GRANULATION.given)) not in names

@@ -58,7 +58,7 @@ def test_estimates_verdicts_and_intervals(pendulum):
 
 @pytest.mark.slow
 def test_what_it_writes_and_draws(pendulum, tmp_path):
-    """The scene that is written has the estimates, the intervals as comments; the report names every entry.
+    """The scene that is written has the estimates, the intervals as comments.
 
     In the picture the profile of the likelihood is 1.92 below its maximum where the interval ends.
     """
@@ -67,9 +67,6 @@ def test_what_it_writes_and_draws(pendulum, tmp_path):
     estimate = found.estimates[VISCOSITY]
     assert Scene.load(tmp_path / "fitted.toml").entries[VISCOSITY] == pytest.approx(estimate.value, rel=1e-5)
     assert "# fitted: 95 %" in (tmp_path / "fitted.toml").read_text()
-    files = found.report(tmp_path / "report")
-    assert [path.name for path in files] == ["report.md", "report.html", "fit.png"]
-    assert all(name in files[0].read_text() for name in found.estimates)
     drawn = found.plot().axes
     (axes,) = [each for each in drawn if each.get_xlabel() == "viscosity (Pa s)"]
     x, y = axes.lines[0].get_data()

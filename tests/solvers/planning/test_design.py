@@ -1,6 +1,7 @@
 """Designs: the search against theory, a design against random ones, what is refused, and the table to fill in."""
 
 import json
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -9,7 +10,7 @@ import pytest
 from wetdoublet.solvers import Design, InputError, Scene, design
 from wetdoublet.solvers.fitting.measurements import read_data
 from wetdoublet.solvers.planning.information import information
-from wetdoublet.solvers.planning.search import Criterion, search
+from wetdoublet.solvers.planning.search import Choice, Criterion, search
 
 from ...helpers.command import run
 
@@ -49,25 +50,29 @@ def test_impacts_are_counted_to_the_last() -> None:
 
 
 def regression(points: np.ndarray) -> np.ndarray:
-    """Information of a quadratic regression on the first coordinate, for one draw."""
+    """Information of a quadratic regression on the first coordinate."""
     x = np.stack([np.ones(len(points)), 2 * points[:, 0] - 1, (2 * points[:, 0] - 1) ** 2], axis=1)
-    return (x[:, :, None] * x[:, None, :])[None]
+    return x[:, :, None] * x[:, None, :]
+
+
+def summed(made: Choice, single: Callable[[np.ndarray], np.ndarray]) -> np.ndarray:
+    """The information of all impacts."""
+    return np.einsum("c,cij->ij", made.counts, single(made.points))
 
 
 def test_quadratic_regression_is_measured_at_its_ends_and_middle() -> None:
     """The D-optimal design of a quadratic on an interval has a third of its points at either end and the middle."""
     first = np.column_stack([np.linspace(0, 1, 8), np.zeros(8)])  # without the middle
-    made = search(regression, 1e-9 * np.eye(3)[None], Criterion(None), 9, first, 1 / 7)
+    made = search(regression, 1e-9 * np.eye(3), Criterion(None), 9, first, 1 / 7)
     order = np.argsort(made.points[:, 0])
     assert made.points[order, 0] == pytest.approx([0, 0.5, 1], abs=0.02)
     assert made.counts[order].tolist() == [3, 3, 3]
-    assert made.value == pytest.approx(made.bound, abs=1e-2)
 
 
 def test_curvature_is_measured_half_in_the_middle() -> None:
     """For the quadratic coefficient alone: a quarter at either end, half in the middle (Elfving)."""
     first = np.column_stack([np.linspace(0, 1, 9), np.zeros(9)])
-    made = search(regression, 1e-6 * np.eye(3)[None], Criterion(2), 8, first, 1 / 8)
+    made = search(regression, 1e-6 * np.eye(3), Criterion(2), 8, first, 1 / 8)
     order = np.argsort(made.points[:, 0])
     assert made.points[order, 0] == pytest.approx([0, 0.5, 1], abs=0.02)
     assert made.counts[order].tolist() == [2, 4, 2]
@@ -78,14 +83,15 @@ def test_another_entry_is_not_left_open() -> None:
 
     def line(points: np.ndarray) -> np.ndarray:
         x = np.stack([np.ones(len(points)), 2 * points[:, 0] - 1], axis=1)
-        return (x[:, :, None] * x[:, None, :] / (1 + 4 * x[:, 1] ** 2)[:, None, None])[None]
+        return x[:, :, None] * x[:, None, :] / (1 + 4 * x[:, 1] ** 2)[:, None, None]
 
-    first, known = np.column_stack([np.linspace(0, 1, 9), np.zeros(9)]), 1e-4 * np.eye(2)[None]
-    alone = search(line, known, Criterion(0), 10, first, 1 / 8)
-    both = search(line, known, Criterion(0, 0.1), 10, first, 1 / 8)
-    assert alone.information[0, 1, 1] == pytest.approx(1e-4, rel=0.1)
-    assert both.information[0, 1, 1] > 0.1
-    assert both.information[0, 0, 0] > 0.8 * alone.information[0, 0, 0]
+    first, known = np.column_stack([np.linspace(0, 1, 9), np.zeros(9)]), 1e-4 * np.eye(2)
+    alone, both = (
+        summed(search(line, known, one, 10, first, 1 / 8), line) for one in (Criterion(0), Criterion(0, 0.1))
+    )
+    assert alone[1, 1] < 1e-5
+    assert both[1, 1] > 0.1
+    assert both[0, 0] > 0.8 * alone[0, 0]
 
 
 @pytest.mark.slow
@@ -112,18 +118,16 @@ def test_a_design_beats_random_ones(found: Design) -> None:
     of_random = np.linalg.slogdet(1e-3 * np.eye(2) + single.reshape(20, 6, 2, 2).sum(axis=1))[1]
     own = information(scene, tuple(FREE), values, found.plan()).total.sum(axis=0) * np.outer(values, values)
     assert np.linalg.slogdet(own)[1] > of_random.max()
-    assert (found.efficiency or 0) > 0.9
     assert found.size == 6
 
 
 @pytest.mark.slow
 def test_a_prior_is_known_before() -> None:
-    """Without impacts an entry is known as its prior says; draws come from it; the named entry is told best."""
+    """Without impacts an entry is known as its prior says; the named entry is told best."""
     made = design("granulation", FREE[:1], {"stokes": (0.06, 0.3), "angle": 0.0}, 2,
-                  target=FREE[0], prior={FREE[0]: "2 Pa s +- 10 %"}, draws=2)  # fmt: skip
+                  target=FREE[0], prior={FREE[0]: "2 Pa s +- 10 %"})  # fmt: skip
     assert made.before[FREE[0]].sd == pytest.approx(0.1, rel=1e-3)
     assert made.expected[FREE[0]].sd < 0.1
-    assert made.draws == 2
 
 
 @pytest.mark.slow
@@ -182,7 +186,6 @@ def test_the_table_shows_the_impacts(found: Design) -> None:
         ({"over": {"stokes": 0.1, "speed": 1.0, "angle": 0.0}}, "over"),
         ({"n": 0}, "n"),
         ({"target": "particles.roughness"}, "target"),
-        ({"draws": 4}, "draws"),
         ({"speed_sd": "40 %"}, "speed_sd"),
         ({"speed_sd": 0, "angle_sd": 0}, "speed_sd"),
         ({"angle_sd": "40 deg"}, "angle_sd"),
@@ -214,11 +217,11 @@ def test_a_candidate_that_is_best_by_its_error_is_not_chosen() -> None:
     """Errors of a fifth on single candidates, which their exact information has not: as good as without errors."""
 
     def with_errors(points: np.ndarray) -> np.ndarray:
-        return regression(points) * (1 + 0.2 * np.sin(1e3 * points[:, 0]))[None, :, None, None]
+        return regression(points) * (1 + 0.2 * np.sin(1e3 * points[:, 0]))[:, None, None]
 
     first = np.column_stack([np.linspace(0, 1, 8), np.zeros(8)])
-    known = 1e-9 * np.eye(3)[None]
+    known = 1e-9 * np.eye(3)
     plain = search(regression, known, Criterion(None), 9, first, 1 / 7)
     made = search(with_errors, known, Criterion(None), 9, first, 1 / 7, regression)
-    assert made.value == pytest.approx(plain.value, abs=1e-3)
-    assert made.value <= made.bound + 1e-12
+    value, best = (np.linalg.slogdet(summed(each, regression))[1] for each in (made, plain))
+    assert value == pytest.approx(best, abs=1e-3)

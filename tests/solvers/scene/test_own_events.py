@@ -204,8 +204,8 @@ def test_commands_tell_of_declared_events(snaps: Path, tmp_path: Path):
     assert "declared events" in told
     done = run("export", "granulation", "--model", str(snaps), "--to", "latex", "--out", str(tmp_path))
     assert done.exception is None, done.exception
-    page = (tmp_path / "granulation.md").read_text()
-    assert "| snap | moving, opening, beyond the film | ends: separated | the bridge is stretched too fast |" in page
+    page = (tmp_path / "granulation.tex").read_text()
+    assert "snap & moving, opening, beyond the film & ends: separated & the bridge is stretched too fast &" in page
     assert "before the event snap" in page
 
 

@@ -7,11 +7,10 @@ from typing import Any
 
 import numpy as np
 import pytest
-from wetdoublet.solvers import Collision, Scene, collide, collide_many, plot
+from wetdoublet.solvers import Collision, Scene, collide, collide_many
 from wetdoublet.solvers.verify import (
     Finding,
     Report,
-    backward,
     closed,
     conserved,
     numeric,
@@ -25,8 +24,8 @@ from ...helpers.command import run
 from ...helpers.own_arm import surface
 
 LAWS = [
-    "completed", "energy ledger", "angular momentum", "cvodes = rosenbrock", "forward-back, cvodes",
-    "forward-back, rosenbrock", "film alone", "straight line", "spin relaxes", "convergence, cvodes",
+    "completed", "energy ledger", "angular momentum", "cvodes = rosenbrock", "film alone",
+    "straight line", "spin relaxes", "convergence, cvodes",
     "convergence, rosenbrock", "convergence, taylor", "taylor = rosenbrock", "taylor = cvodes", "stick certificate",
     "taylor = cvodes, on the grid", "e_n^2 - 1: identity", "e_n^2: ceiling", "e_n > 1",
 ]  # fmt: skip
@@ -102,45 +101,6 @@ def test_intervals_end_where_the_restitution_is_one() -> None:
         below, above = beside["restitution"].values
         assert below < 1 < above <= one.most
         assert (above - below > 0.1) == (one is jumps)
-
-
-@pytest.mark.slow
-def test_the_picture_shows_the_terms(monkeypatch, tmp_path) -> None:
-    """Map and two panels; the line of a panel is e_n^2 - 1, one point a Stokes number; `--plot` draws it."""
-    angles = np.radians([45, 60, 75]).tolist()
-    budget = restitution_budget("granulation", stokes=[0.01, 0.03, 0.1, 0.3], angle=angles)
-    figure = plot(budget, tmp_path / "budget.png")
-    assert (tmp_path / "budget.png").stat().st_size > 10_000
-    drawn = [np.asarray(line.get_ydata(), dtype=float) for axes in figure.axes for line in axes.lines]
-    drawn = [line[np.isfinite(line)] for line in drawn]  # broken where the outcome changes
-    for row in (1, 2):
-        excess = budget["excess"].values[row]
-        assert any(np.array_equal(line, excess[np.isfinite(excess)]) for line in drawn)
-    small = Report((), restitution_budget("pendulum", stokes=[1.0, 2.0], angle=[0.5, 1.0]))
-    monkeypatch.setattr("wetdoublet.solvers.verify.verify", lambda scene, progress, recompute: small)
-    assert run("verify", "granulation", "--plot", str(tmp_path / "p.png")).exit_code == 0
-    assert (tmp_path / "p.png").read_bytes().startswith(b"\x89PNG")
-
-
-def test_amplification_of_a_relaxing_spin() -> None:
-    """Gap held: the slip falls as exp(-k t), so backward the variational matrix grows by about exp(k t)."""
-    from wetdoublet.solvers.model.dimensionless import nondimensionalise
-    from wetdoublet.solvers.model.model import load, select_model
-    from wetdoublet.solvers.model.phases import Flow, Region
-
-    scene = Scene.load("granulation-dry-bridge")
-    n = nondimensionalise(scene, scene.speed_of(0.03), math.radians(60))
-    flow = Flow(select_model(scene, oblique=True, full=True), Region(1, 1, True))
-    p = load(flow.choice).group_values(n.groups)
-    start = np.array([0.5, 0.0, (4 + n.groups["aspect"] * 0.5) ** 2, 0.0])
-    a, m, mu, x = 50e-6, 5.2e-9, 2.0, 4e-6
-    r = 4 * a + x
-    decay = 8 * math.pi * mu * a**2 * math.log(2 * a / x) / m * (1 / r + 5 * r / (32 * a**2)) * n.time
-    for exponent in (2.0, 6.0):
-        found = backward._amplification(flow, start, p, exponent / decay)
-        # the norm is at least the spectral radius, and at most a few times it for so mild a non-normality
-        assert math.exp(exponent) * 0.5 < found < 4 * math.exp(exponent)
-    assert all(backward._amplification(flow, start, p, t) > backward.MOST for t in (12 / decay, 1e3 / decay))
 
 
 def test_the_slope_of_known_errors() -> None:
@@ -250,8 +210,8 @@ def test_what_finds_nothing_to_look_at_says_so() -> None:
     """A film so thin that glass is met at initial contact: every law that needs a trajectory is a note that says so."""
     scene = Scene.load("pendulum").with_entries({"liquid.film_thickness": 2e-6})
     collisions = sample.collisions(scene, (0.0, 0.5))
-    findings = [*conserved.conserved(collisions), *backward.backward(collisions), *order.convergence(collisions)]
+    findings = [*conserved.conserved(collisions), *order.convergence(collisions)]
     found = {finding.name: finding for finding in findings}
-    for law in ("forward-back, cvodes", "forward-back, rosenbrock", "convergence"):
-        assert (found[law].ok, found[law].figure) == (None, "no trajectory lasts: all rebound at initial contact")
+    why = "no trajectory lasts: all rebound at initial contact"
+    assert (found["convergence"].ok, found["convergence"].figure) == (None, why)
     assert found["angular momentum"].ok is None and "torque" in found["angular momentum"].figure

@@ -7,12 +7,10 @@ from functools import partial
 from typing import Any
 
 import pytest
-from casadi import SX, integrator, vertcat
 from wetdoublet.solvers import Collision, ComputationError, Scene, collide
 from wetdoublet.solvers.collision.by_kernel import recorded
-from wetdoublet.solvers.engines.casadi.integrators import Plain, plain
-from wetdoublet.solvers.model.phases import expressions
-from wetdoublet.solvers.verify import audit, backward, budget, closed, conserved, order, region, sample
+from wetdoublet.solvers.engines.casadi.integrators import plain
+from wetdoublet.solvers.verify import audit, budget, closed, conserved, order, region, sample
 from wetdoublet.solvers.verify.report import Finding
 
 pytestmark = pytest.mark.slow
@@ -91,22 +89,6 @@ def test_a_collision_that_fails_does_not_lose_the_others() -> None:
     assert failures(found.values()) == ["completed"]
     assert "St 0.12, 60 deg, cvodes" in found["completed"].about[0] and "no event" in found["completed"].about[0]
     assert found["energy ledger"].ok and found["cvodes = rosenbrock"].ok
-
-
-def test_a_wrong_sign_on_the_way_back_is_found(collisions) -> None:
-    """Backward with the opening rate's sign kept: the stretch does not come back, in any engine."""
-
-    def wrong(flow, engine, told):
-        parts, duration = expressions(flow), SX.sym("duration")
-        rates = [-rate for rate in SX.elements(parts.rates)]
-        rates[1] = -rates[1]
-        dae = {"x": parts.variables, "p": vertcat(flow.model.parameters, duration), "ode": duration * vertcat(*rates)}
-        return Plain(integrator("wrong", engine, dae, 0, 1, told.options(engine)), engine)
-
-    assert failures(backward.backward(collisions)) == []
-    found = by_name(backward.backward(collisions, wrong))
-    assert failures(found.values()) == ["forward-back, cvodes", "forward-back, rosenbrock"]
-    assert "St " in found["forward-back, cvodes"].where
 
 
 @pytest.mark.parametrize("name", ["granulation", "pendulum"])
