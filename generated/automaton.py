@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Automaton sha256 bd2fe62f4e5cd6f70ace935610d549456aef73a59cf6257777687dcd01029afe
+# Automaton sha256 a45f05d000724b79b1ae40f057e593ff57091d3fc6d40cd810f70da6d8d846b1
 """A collision as a hybrid automaton: events, their guards and effects, rules, words, outcomes."""
 
 from __future__ import annotations
@@ -100,9 +100,8 @@ class Status(IntEnum):
     NOT_FINITE = 3  # the state is not finite
     CHATTER = 4  # the budget of steps is exhausted after more than CHATTER_PHASES phases
     TOO_OBLIQUE = 5  # the centrifugal force is beyond MOST_OBLIQUE
-    RESTS_IN_FRICTION = 6  # resting contact with friction, whose modes this kernel does not integrate
-    ESCAPED = 7  # a stick that is proved separates when it is followed on: a defect
-    WITHIN_ROUNDING = 8  # the doublet separates at less than LEAST_PARTING, or by less than LEAST_MOMENTUM
+    ESCAPED = 6  # a stick that is proved separates when it is followed on: a defect
+    WITHIN_ROUNDING = 7  # the doublet separates at less than LEAST_PARTING, or by less than LEAST_MOMENTUM
 
 
 LAST_ANSWER = Status.PROVED_AT_TOUCH

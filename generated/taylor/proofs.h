@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Automaton sha256 bd2fe62f4e5cd6f70ace935610d549456aef73a59cf6257777687dcd01029afe
+ * Automaton sha256 a45f05d000724b79b1ae40f057e593ff57091d3fc6d40cd810f70da6d8d846b1
  *
  * Inequalities of stick proofs. Included where `vec` and `mask` are known. */
 
