@@ -151,7 +151,10 @@ def _times(a: np.ndarray, b: np.ndarray) -> np.ndarray:
 
 
 def test_recurrences_solve_their_equations(runtime: ctypes.CDLL):
-    """Products by convolution; q b = a; r^2 = a; e' = a' e; a l' = a'; s' = a' c, c' = -a' s; a p' = r a' p; t' = a' b."""
+    """Products by convolution; q b = a; r^2 = a; e' = a' e; a l' = a'; s' = a' c, c' = -a' s; t' = a' b; a p' = r a' p.
+
+    The arctangent's slope b is given.
+    """
     draw = np.random.default_rng(2)
     a, b = draw.uniform(-1, 1, (2, ORDER + 1)) * 0.5 ** np.arange(ORDER + 1)
     a[0], b[0] = 1.3, 0.7
