@@ -157,6 +157,6 @@ def _expression(each: Operation) -> sp.Expr:
         case "power":
             return sp.Pow(parts[0], each.factors[0], evaluate=False)
     functions = {"square": lambda a: a**2, "reciprocal": lambda a: 1 / a, "sqrt": sp.sqrt, "exp": sp.exp, "log": sp.log}
-    functions |= {"sine": sp.sin, "cosine": sp.cos, "side": sp.Function("side")}
+    functions |= {"sine": sp.sin, "cosine": sp.cos, "arctangent": sp.atan, "side": sp.Function("side")}
     result: sp.Expr = functions[each.kind](parts[0])
     return result

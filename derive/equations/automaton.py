@@ -352,7 +352,6 @@ STATUSES = (
     Status("NOT_FINITE", "the state is not finite"),
     Status("CHATTER", "the budget of steps is exhausted after more than CHATTER_PHASES phases"),
     Status("TOO_OBLIQUE", "the centrifugal force is beyond MOST_OBLIQUE"),
-    Status("RESTS_IN_FRICTION", "resting contact with friction, whose modes this kernel does not integrate"),
     Status("ESCAPED", "a stick that is proved separates when it is followed on: a defect"),
     Status("WITHIN_ROUNDING", "the doublet separates at less than LEAST_PARTING, or by less than LEAST_MOMENTUM"),
     Status("UNDECLARED", "a declared event creates kinetic energy that it does not declare"),

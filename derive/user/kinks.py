@@ -3,7 +3,7 @@
 `Abs`, `Max`, `Min`, `sign` and the conditions of a `Piecewise` have no Taylor series where they change. Each becomes a
 guard k, a named part of the law, and a side, k/|k|, so that |k| is side k. Steps and phases end where a guard is zero.
 Where a side is not fixed it is k/sqrt(k^2 + WIDTH^2), which no result can tell from it. Powers, roots and logarithms of
-what may vanish are rounded alike, and what vanishes is a guard.
+what may vanish are rounded alike, and what vanishes is a guard: that of an arcsine or arccosine is 1 - s^2.
 """
 
 from collections.abc import Collection, Iterable
@@ -91,6 +91,8 @@ class _Smoothing:
             return self._named("part", self._piecewise(node))
         if isinstance(node, sp.Pow):
             return self._power(node)
+        if isinstance(node, (sp.asin, sp.acos)):
+            return self._arcsine(node)
         arguments = [self(argument) for argument in node.args]
         if isinstance(node, sp.Abs):
             return self._side(arguments[0]) * arguments[0]
@@ -172,6 +174,12 @@ class _Smoothing:
         if base.xreplace(self.written).has(*_FLAT):  # stays zero where the base is
             return inner * self._squared(inner) ** ((exponent - 1) / 2)
         return self._squared(inner) ** (exponent / 2)
+
+    def _arcsine(self, node: sp.Expr) -> sp.Expr:
+        """An arcsine or arccosine by an arctangent, whose root is a guard: the slope is infinite where it vanishes."""
+        sine = node.args[0]
+        arcsine = 2 * self(sp.atan(sine / (1 + sp.sqrt(1 - sine**2))))
+        return arcsine if isinstance(node, sp.asin) else sp.pi / 2 - arcsine
 
     def _piecewise(self, node: sp.Piecewise) -> sp.Expr:
         *cases, (result, last) = node.args

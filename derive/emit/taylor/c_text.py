@@ -13,7 +13,8 @@ from ..casadi.printer import EmissionError, signed_sum
 from .program import Operation, Program
 
 _FUNCTIONS = {
-    sp.exp: "vec_exp", sp.log: "vec_log", sp.sin: "vec_sin", sp.cos: "vec_cos", sp.tan: "vec_tan", sp.Abs: "vec_abs",
+    sp.exp: "vec_exp", sp.log: "vec_log", sp.sin: "vec_sin", sp.cos: "vec_cos", sp.tan: "vec_tan", sp.atan: "vec_atan",
+    sp.Abs: "vec_abs",
 }  # fmt: skip
 _EXTREMES = {sp.Max: "vec_larger", sp.Min: "vec_smaller"}
 _ADD, _MUL, _ATOM = range(3)
@@ -125,12 +126,13 @@ _RECURRENCES = {
     "square": "square({0}, k)", "reciprocal": "reciprocal({0}, {whole}, k)",
     "quotient": "quotient({0}, {1}, {whole}, {over}, k)", "sqrt": "root({0}, {whole}, {over}, k)",
     "power": "power({0}, {whole}, {factor}, {over}, k)", "exp": "exponential({0}, {inner}, {whole}, k)",
-    "log": "logarithm({0}, {whole}, {slope}, {over}, k)", "side": f"k == 0 ? {_SIDE.format('{0}[0]')} : splat(0.0)",
+    "log": "logarithm({0}, {whole}, {slope}, {over}, k)", "arctangent": "arctangent({0}, {inner}, {1}, k)",
+    "side": f"k == 0 ? {_SIDE.format('{0}[0]')} : splat(0.0)",
 }  # fmt: skip
 _VALUES = {
     "square": "{0}*{0}", "reciprocal": "1.0/{0}", "quotient": "{0}/{1}", "power": "vec_exp({factor}*vec_log({0}))",
     "sqrt": "vec_sqrt({0})", "exp": "vec_exp({0})", "log": "vec_log({0})", "sine": "vec_sin({0})",
-    "cosine": "vec_cos({0})", "side": _SIDE.format("{0}"),
+    "cosine": "vec_cos({0})", "arctangent": "vec_atan({0})", "side": _SIDE.format("{0}"),
 }  # fmt: skip
 
 
@@ -277,7 +279,7 @@ class Recurrences:
                 lines.append(f"{operation.call[0]}_{operation.call[1]}_series {operation.name};")
                 continue
             arrays = [operation.name]
-            if operation.kind in ("exp", "sine"):
+            if operation.kind in ("exp", "sine", "arctangent"):
                 arrays.append(f"slope_of_{operation.series[0]}")
             if operation.kind == "log":
                 arrays.append(f"slope_of_{operation.name}")

@@ -19,7 +19,7 @@ from ..casadi.printer import EmissionError
 # Cost of an operation in products of whole series; a square counts one half.
 COST = {
     "linear": 0.0, "product": 1.0, "square": 0.5, "quotient": 1.0, "reciprocal": 1.0, "sqrt": 0.5, "exp": 1.0,
-    "log": 1.0, "side": 0.0, "power": 2.0, "sine": 2.0, "cosine": 0.0, "call": 0.0,
+    "log": 1.0, "side": 0.0, "power": 2.0, "sine": 2.0, "cosine": 0.0, "arctangent": 1.0, "call": 0.0,
 }  # fmt: skip
 Call = tuple[str, str, tuple[str | sp.Expr, ...]]
 """Slot, function and arguments of a law's call: a series by name, a constant as an expression."""
@@ -182,6 +182,9 @@ class Program:
             return self.series(side * (1 - fallen) / (1 + fallen), name)
         if isinstance(node, (sp.sinh, sp.cosh)):
             return self.series(node.rewrite(sp.exp), name)
+        if isinstance(node, sp.atan):
+            inner, slope = self.series(node.args[0]), self.series(1 / (1 + node.args[0] ** 2))
+            return self._add("arctangent", (inner, slope), name, f"arctangent_of_{inner}")
         raise EmissionError(f"no Taylor recurrence for {type(node).__name__}: {node}")
 
     def _sum(self, node: sp.Add, name: str | None) -> str:

@@ -34,6 +34,7 @@ EXPRESSIONS = [
     (1 / sp.sqrt(x), ["sqrt", "reciprocal"]),
     (sp.exp(x), ["exp"]),
     (sp.log(x), ["log"]),
+    (sp.atan(x) + 1 / (1 + x**2), ["square", "linear", "reciprocal", "arctangent", "linear"]),
     (sp.sin(x) * sp.cos(x), ["sine", "cosine", "product"]),
     (x ** sp.Rational(2, 3), ["power"]),
     (sp.cosh(x), ["exp", "linear", "exp", "linear"]),

@@ -94,8 +94,14 @@ def test_kinks_by_every_engine(tmp_path: Path):
     _agrees(scene(tmp_path, f'law("film", "mine", resistance=6*pi*mu*a**2*u/x*(1 - x/x0)**2*({factor}))'), 3)
 
 
+def test_arcs_by_every_engine(tmp_path: Path):
+    """Values and derivatives of a bridge whose force falls with the angle that a cap of liquid takes."""
+    _agrees(scene(tmp_path, 'law("bridge", "mine", force=R*sigma*(acos(1 - 2/(1 + x/x0)) + atan(x0/x)/4))'), 3)
+
+
 STEP = "(Rational(5, 4) + tanh(u/(v0/1000))/4)"  # a thousand times steeper than the speeds vary
 BENT = "3*mu*a*(-u)/x**2*(1.95 + Min(x/x0, 0.926))"
+ARCS = "(acos(x/x0) + asin(x/x0/2) + (2 + atan(5*u/v0))/4)"
 CAPPED = "force=Min(1/gap**2, 100), potential=-Piecewise((20 - 100*gap, gap < Rational(1, 10)), (1/gap, True))"
 
 
@@ -105,11 +111,12 @@ CAPPED = "force=Min(1/gap**2, 100), potential=-Piecewise((20 - 100*gap, gap < Ra
         (f'law("attraction", "capped", {CAPPED})', "granulation-dry-bridge"),  # kinks that no force calls
         (f'law("film", "mine", resistance=6*pi*mu*a**2*u/x*(1 - x/x0)**2*{STEP})', "granulation"),  # no exp overflows
         (f'law("glass", "mine", pressure={BENT})', "granulation"),  # the criterion is met behind the kink
+        (f'law("film", "mine", resistance=6*pi*mu*a**2*u/x*(1 - x/x0)**2*{ARCS})', "granulation"),
     ],
-    ids=["potential", "steep", "pressure"],
+    ids=["potential", "steep", "pressure", "arcs"],
 )
 def test_all_engines_agree(body: str, preset: str, tmp_path: Path):
-    """A potential with kinks, a step by tanh, a pressure with a kink."""
+    """A potential with kinks, a step by tanh, a pressure with a kink, an arccosine at the end of its domain."""
     own = scene(tmp_path, body, preset)
     values = [collide(own, stokes=0.1, rtol=1e-11, engine=by).restitution for by in ENGINES]
     assert values == pytest.approx([values[0]] * 3, rel=1e-8)

@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
-from wetdoublet.generated.automaton import LAST_ANSWER
-from wetdoublet.solvers import ComputationError, InputError, Scene, gradients_many, sensitivities
+from wetdoublet.generated.automaton import LAST_ANSWER, OUTCOMES, Status
+from wetdoublet.solvers import ComputationError, InputError, Scene, collide, gradients_many, sensitivities
 from wetdoublet.solvers.engines.choice import gradient_engine
 from wetdoublet.solvers.engines.taylor.call import Impacts
 from wetdoublet.solvers.engines.taylor.tangent import run_tangent
@@ -67,6 +67,20 @@ def test_many_are_taken_back() -> None:
     assert separated.sum() > 40
     apart = np.abs(along - own).max(axis=1)[separated]
     assert (apart < 1e-6 * np.abs(along).max(axis=1)[separated]).all()
+
+
+@pytest.mark.parametrize("backward", [False, True])
+def test_resting_with_friction_is_decided(backward: bool) -> None:
+    """A kernel with derivatives follows a doublet through resting contact: the same stick with the same events."""
+    beads = Scene.load("glass-beads-water")
+    entries = {"liquid.viscosity": 1e-3 * dict(beads.si)["liquid.viscosity"], "particles.friction": 0.3}
+    scene = beads.with_entries({**entries, "particles.dry_restitution": 0.05})
+    found = collide(scene, speed=0.3, angle=1.2, engine="taylor")
+    assert found.events[-1].kind == "rests" and found.until > found.events[-1].time  # proved later than it rests
+    run = run_tangent(Impacts(scene, np.array([0.3]), np.array([1.2]), {}), True, 1e-9, False, backward=backward)
+    answer = run.answers[0]
+    assert answer["status"] == Status.DECIDED
+    assert (answer["outcome"], answer["events"]) == (OUTCOMES.index(found.outcome), len(found.events))
 
 
 def test_sticks_and_boundaries() -> None:

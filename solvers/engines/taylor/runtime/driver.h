@@ -29,7 +29,7 @@ typedef struct {
 #elif BACKWARD
     vec contraction;
 #endif
-#if RUBS
+#if FRICTION
     rubbing r;
 #endif
 #if SPACE
@@ -139,7 +139,7 @@ static void expand_states(expansion *e, const lanes *l, const fixed *f)
 #else
     expand(&e->s, &f->c, acting(l), l->shear, NOT(l->resting));
 #endif
-#if RUBS
+#if FRICTION
     if (bits(l->alive & l->resting))
 #if SPACE
         expand_rubbing(&e->r, &e->s, &f->c, l, bits(e->turns) ? &e->turning : 0);
@@ -169,7 +169,7 @@ static vec length_of_step(queue *q, expansion *e, const lanes *l, const fixed *f
 #endif
     if (bits(*creeps))
         damp(a, *creeps);
-#if RUBS
+#if FRICTION
     if (bits(*creeps & l->alive & l->resting))
         expand_damped(&e->r, &e->s, &f->c, l);
 #endif
@@ -281,10 +281,6 @@ static void run(queue *q)
             return;
         end_sticks(q, &l, &f);
         criteria_met(q, &l, &f);
-#if FRICTION && TURNS && !RUBS
-        if (rests_ended(q, &l, &f)) /* other collisions may have taken these lanes */
-            continue;
-#endif
         if (!bits(l.alive))
             continue;
 #if OWN_EVENTS

@@ -4,9 +4,8 @@
 #include "automaton.h"
 #include "model.h"
 
-/* Whether resting contact with friction is integrated (rest_in_friction.h), and whether it rolls: in space it creeps. */
-#define RUBS (FRICTION && !GRADIENTS)
-#define ROLLS (RUBS && !SPACE)
+/* Whether resting contact with friction rolls (rest_in_friction.h): in space it creeps. */
+#define ROLLS (FRICTION && !SPACE)
 
 #if FRICTION
 /* What the dry contact does in a lane: its impulse, whether it sticks, and the sign with which it slides (0: without

@@ -43,7 +43,7 @@ typedef struct {
     const constants *c;
     vec film, shear;
     mask moving;
-#if RUBS
+#if FRICTION
     rubbing r;
     const lanes *l;
 #endif
@@ -61,7 +61,7 @@ OUTLINE void rates_at(slow *w, const vec *y, vec *rate)
     coefficients(&w->s, w->c, w->film, w->shear, w->moving, 0);
     for (int state = 0; state < STATES; state++)
         rate[state] = a[state][1];
-#if RUBS
+#if FRICTION
     if (bits(w->l->resting))
         rubbing_rates(&w->r, w->c, w->l, y, rate);
 #endif
@@ -234,7 +234,7 @@ OUTLINE void crawl(queue *q)
     w.film = acting(&l);
     w.shear = l.shear;
     w.moving = NOT(l.resting);
-#if RUBS
+#if FRICTION
     w.l = &l;
 #endif
 #if SPACE

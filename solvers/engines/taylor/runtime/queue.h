@@ -130,7 +130,7 @@ static void begin(queue *q, lanes *l, fixed *f, int lane, long row)
     LANE(l->top, lane) = LANE(l->swing, lane) = 0.0;
     LANE(l->cycles, lane) = 0;
 #endif
-#if RUBS
+#if FRICTION
     LANE(l->sliding, lane) = LANE(l->rolling, lane) = 0.0;
 #endif
     LANE(l->steps, lane) = LANE(l->phases, lane) = LANE(l->crept, lane) = 0;

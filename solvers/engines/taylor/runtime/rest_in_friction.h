@@ -2,7 +2,8 @@
  *
  * The gap is held and the tangential states go on, by recurrences of their own (derive/emit/taylor/resting.py). A lane
  * slides until its slip vanishes, and rolls while friction can hold the surfaces together; in space it slides in the
- * direction of its slip, and creeps. As solvers/engines/casadi/locate.py; with derivatives it is left to that.
+ * direction of its slip, and creeps. As solvers/engines/casadi/locate.py. No derivative passes resting contact, so that
+ * those of a trajectory through it mean nothing.
  */
 #pragma once
 
@@ -68,7 +69,7 @@ static mask keeps_rubbing(const constants *c, const lanes *l, const vec *from, c
 }
 #endif
 
-#if RUBS
+#if FRICTION
 /* The series of lanes that rest, in place of those without friction. */
 #if SPACE
 OUTLINE void expand_rubbing(rubbing *r, series *s, const constants *c, const lanes *l, const axes *turning)

@@ -124,6 +124,13 @@ INLINE void circular(const vec *a, vec *slope, vec *s, vec *c, int k)
     c[k] = -rest(slope, s, k)*(1.0/k);
 }
 
+/* q = arctan(a): k q_k = sum of j a_j w_(k-j), w = 1/(1 + a^2); `slope` keeps j a_j */
+INLINE vec arctangent(const vec *a, vec *slope, const vec *w, int k)
+{
+    slope[k] = (double)k*a[k];
+    return k == 0 ? vec_atan(a[0]) : rest(slope, w, k)*(1.0/k);
+}
+
 /* q = a^r: k a_0 q_k = sum of (j r - (k - j)) a_j q_(k-j) */
 INLINE vec power(const vec *a, const vec *q, vec r, vec *over, int k)
 {

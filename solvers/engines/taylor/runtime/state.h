@@ -69,7 +69,7 @@ typedef struct {
     vec top, swing; /* gap and size of the orbital momentum at the last maximum of the gap */
     mask cycles;    /* successive maxima that did not grow (chatter.h) */
 #endif
-#if RUBS
+#if FRICTION
     vec sliding, rolling; /* at rest: the sign of the slip, or 0; 1 without slip, else 0 */
 #endif
     mask alive, closing, resting, fresh;

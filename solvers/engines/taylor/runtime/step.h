@@ -81,7 +81,7 @@ SCHEDULED OUTLINE vec expand(series *RESTRICT s, const constants *c, vec film, v
 SCHEDULED OUTLINE void expand(series *RESTRICT s, const constants *c, vec film, vec shear, mask moving)
 #endif
 {
-#if READS_SERIES || RUBS
+#if READS_SERIES || FRICTION
     series *w = s;
     EVERY(TERM)
 #else

@@ -38,7 +38,7 @@ static void opens(lanes *l, const fixed *f, int lane)
         LANE(l->film, lane) = 0.0;
     if (is_on_edge(LANE(l->y[GAP], lane), LANE(f->edge, lane)))
         LANE(l->shear, lane) = 0.0;
-#if RUBS
+#if FRICTION
     LANE(l->sliding, lane) = LANE(l->rolling, lane) = 0.0;
 #endif
 }
@@ -146,7 +146,7 @@ static void rebounds(queue *q, lanes *l, fixed *f, int lane, int kind)
 #if ROLLS
         if (rubs(l, f, lane))
             note(q, LANE(l->index, lane), KIND_ROLLS, LANE(l->time, lane));
-#elif RUBS
+#elif FRICTION
         LANE(l->sliding, lane) = 1.0;
 #endif
         note_mode(q, l, lane);
@@ -223,23 +223,6 @@ static void criteria_met_by(queue *q, lanes *l, fixed *f, mask candidates)
         if (any >> lane & 1)
             rebounds(q, l, f, lane, glass >> lane & 1 ? KIND_GLASS : kind_at_gap(&f->c, LANE(l->y[GAP], lane), lane));
 }
-
-#if FRICTION && TURNS && !RUBS
-/* Ends the lanes that rest: as sticks where that is proved; else their sliding and rolling is left to others. Returns
- * whether there were any. */
-static int rests_ended(queue *q, lanes *l, fixed *f)
-{
-    mask rests = l->alive & l->resting;
-    if (!bits(rests))
-        return 0;
-    mask proved = proved_underway(l, f, q->rtol) & provable(q, l->closing);
-    EACH_OF(lane, bits(rests)) {
-        int certain = LANE(proved, lane) != 0;
-        finish(q, l, f, lane, certain ? DECIDED : RESTS_IN_FRICTION, STICK, certain);
-    }
-    return 1;
-}
-#endif
 
 #if TURNS
 /* Ends as sticks the resting lanes whose series are constant: no force changes any more. Returns whether there were any.

@@ -360,3 +360,42 @@ static inline vec vec_tan(vec x)
     vec_sin_cos(x, &sine, &cosine);
     return sine/cosine;
 }
+
+/* atan: reduced to |r| <= 7/16 by atan x = atan c + atan((x - c)/(1 + c x)), after fdlibm's s_atan.c. */
+static inline vec vec_atan(vec x)
+{
+    vec size = vec_abs(x), over = size, under = splat(1.0), high = splat(0.0), low = splat(0.0);
+    mask far = size > 0.4375;
+    over = choose(far, 2.0*size - 1.0, over);
+    under = choose(far, 2.0 + size, under);
+    high = choose(far, splat(4.63647609000806093515e-01), high);
+    low = choose(far, splat(2.26987774529616870924e-17), low);
+    far = size > 0.6875;
+    over = choose(far, size - 1.0, over);
+    under = choose(far, size + 1.0, under);
+    high = choose(far, splat(7.85398163397448278999e-01), high);
+    low = choose(far, splat(3.06161699786838301793e-17), low);
+    far = size > 1.1875;
+    over = choose(far, size - 1.5, over);
+    under = choose(far, 1.0 + 1.5*size, under);
+    high = choose(far, splat(9.82793723247329054082e-01), high);
+    low = choose(far, splat(1.39033110312309984516e-17), low);
+    far = size > 2.4375;
+    over = choose(far, splat(-1.0), over);
+    under = choose(far, size, under);
+    high = choose(far, splat(1.57079632679489655800e+00), high);
+    low = choose(far, splat(6.12323399573676603587e-17), low);
+    vec r = over/under, z = r*r, s = splat(1.62858201153657823623e-02);
+    s = s*z - 3.65315727442169155270e-02;
+    s = s*z + 4.97687799461593236017e-02;
+    s = s*z - 5.83357013379057348645e-02;
+    s = s*z + 6.66107313738753120669e-02;
+    s = s*z - 7.69187620504482999495e-02;
+    s = s*z + 9.09088713343650656196e-02;
+    s = s*z - 1.11111104054623557880e-01;
+    s = s*z + 1.42857142725034663711e-01;
+    s = s*z - 1.99999999998764832476e-01;
+    s = s*z + 3.33333333333329318027e-01;
+    vec result = high - ((r*z*s - low) - r);
+    return from_pattern(pattern(result) | (pattern(x) & SIGN));
+}

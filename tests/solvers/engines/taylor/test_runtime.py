@@ -18,7 +18,7 @@ HARNESS = """#include "whole_series.h"
 #include "roots.h"
 #define SHOW(name) void lanes_##name(const double *x, double *y) { vec a; memcpy(&a, x, sizeof a); a = vec_##name(a); \\
     memcpy(y, &a, sizeof a); }
-SHOW(exp) SHOW(log) SHOW(sin) SHOW(cos) SHOW(tan)
+SHOW(exp) SHOW(log) SHOW(sin) SHOW(cos) SHOW(tan) SHOW(atan)
 
 /* f of the series a (and b), each in every lane */
 void recur(int which, const double *a, const double *b, double *f, double *g)
@@ -35,6 +35,7 @@ void recur(int which, const double *a, const double *b, double *f, double *g)
         if (which == 6) w[k] = logarithm(u, w, slope, &over, k);
         if (which == 7) circular(u, slope, w, z, k);
         if (which == 8) w[k] = power(u, w, splat(b[0]), &over, k);
+        if (which == 9) w[k] = arctangent(u, slope, v, k);
         f[k] = LANE(w[k], LANES - 1);
         g[k] = which == 7 ? LANE(z[k], LANES - 1) : 0.0;
     }
@@ -85,6 +86,7 @@ RANGES = {
     "sin": (-50.0, 50.0),
     "cos": (-50.0, 50.0),
     "tan": (0.0, 1.57),
+    "atan": (-10.0, 10.0),
 }
 
 
@@ -101,6 +103,19 @@ def test_functions_equal_libm(runtime: ctypes.CDLL, name: str):
     expected = np.array([getattr(math, name)(value) for value in x])
     unit = np.spacing(np.maximum(np.abs(expected), 1.0 if name in ("sin", "cos") else 0.0))
     assert np.max(np.abs(y - expected) / unit) <= (4.0 if name == "tan" else 2.0)  # tan divides two of them
+
+
+def test_arctangent_at_its_ends(runtime: ctypes.CDLL):
+    """Small arguments are returned, infinite ones give half of pi; zero keeps its sign, and NaN stays NaN."""
+    lanes = machine.lanes()
+    for value in (0.0, -0.0, 1e-300, -1e-9, 1e300, math.inf, -math.inf):
+        x, y = np.full(lanes, value), np.zeros(lanes)
+        runtime.lanes_atan(_pointer(x), _pointer(y))
+        expected = math.atan(value)
+        assert (y == expected).all() and (np.copysign(1.0, y) == math.copysign(1.0, expected)).all()
+    x = np.full(lanes, math.nan)
+    runtime.lanes_atan(_pointer(x), _pointer(x))
+    assert np.isnan(x).all()
 
 
 def test_log_outside_its_domain(runtime: ctypes.CDLL):
@@ -136,7 +151,10 @@ def _times(a: np.ndarray, b: np.ndarray) -> np.ndarray:
 
 
 def test_recurrences_solve_their_equations(runtime: ctypes.CDLL):
-    """Products by convolution; q b = a; r^2 = a; e' = a' e; a l' = a'; s' = a' c, c' = -a' s; a p' = r a' p."""
+    """Products by convolution; q b = a; r^2 = a; e' = a' e; a l' = a'; s' = a' c, c' = -a' s; t' = a' b; a p' = r a' p.
+
+    The arctangent's slope b is given.
+    """
     draw = np.random.default_rng(2)
     a, b = draw.uniform(-1, 1, (2, ORDER + 1)) * 0.5 ** np.arange(ORDER + 1)
     a[0], b[0] = 1.3, 0.7
@@ -158,6 +176,8 @@ def test_recurrences_solve_their_equations(runtime: ctypes.CDLL):
     assert (sine[0], cosine[0]) == near((math.sin(a[0]), math.cos(a[0])), rel=1e-15)
     assert _slope(sine) == near(_times(_slope(a), cosine), abs=1e-13)
     assert _slope(cosine) == near(-_times(_slope(a), sine), abs=1e-13)
+    assert of(9)[0] == near(math.atan(a[0]), rel=1e-15)
+    assert _slope(of(9)) == near(_times(_slope(a), b[:-1]), abs=1e-13)
     raised = of(8)
     assert raised[0] == near(a[0] ** b[0], rel=1e-14)
     assert _times(a[:-1], _slope(raised)) == near(b[0] * _times(_slope(a), raised[:-1]), abs=1e-13)
