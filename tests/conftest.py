@@ -8,10 +8,10 @@ import pytest
 from hypothesis import HealthCheck, settings
 
 from .helpers.data import BOUNDARIES, COLLISIONS
+from .helpers.flags import QUICK
 
-# Some 150 kernels are compiled without optimization: the same results but for rounding. What users get is compiled
-# by `test_kernel.py`, which integrates every reference collision.
-os.environ.setdefault("WETDOUBLET_CFLAGS", "-O0")
+# Some 150 kernels are compiled so. What users get is compiled by `test_kernel.py`.
+os.environ.setdefault("WETDOUBLET_CFLAGS", QUICK)
 
 # a shell starts what runs in the background with Ctrl-C ignored, and processes inherit that
 signal.signal(signal.SIGINT, signal.default_int_handler)
