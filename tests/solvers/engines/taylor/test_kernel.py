@@ -12,6 +12,7 @@ from wetdoublet.solvers.engines.taylor import call as engine
 from wetdoublet.solvers.engines.taylor import headers
 from wetdoublet.solvers.engines.taylor.record import run_recorded
 from wetdoublet.solvers.host.compiler import compiler
+from wetdoublet.solvers.scene.scenefile import PRESETS
 
 from ....helpers.flags import QUICK
 from ....helpers.own_arm import described
@@ -19,13 +20,14 @@ from ....helpers.own_arm import described
 pytestmark = [pytest.mark.skipif(compiler() is None, reason="no C compiler"), pytest.mark.slow]
 
 
-@pytest.fixture(scope="module", autouse=True)
-def shipped() -> Iterator[None]:
-    """Compile as users do, not with the flags of the other tests."""
-    with pytest.MonkeyPatch.context() as patch:
-        patch.delenv("WETDOUBLET_CFLAGS")
-        library.kernel.cache_clear()
-        yield
+@pytest.fixture(autouse=True)
+def shipped(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+    """Compile as users do, not with the flags of the other tests; of the references those of presets."""
+    asked = request.getfixturevalue("reference")["name"] if "reference" in request.fixturenames else "granulation"
+    if asked in PRESETS:
+        monkeypatch.delenv("WETDOUBLET_CFLAGS")
+    library.kernel.cache_clear()
+    yield
     library.kernel.cache_clear()
 
 
