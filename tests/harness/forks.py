@@ -1,4 +1,7 @@
-"""Tests named on standard input, each run in a fork of this process, which has loaded libraries but not the package."""
+"""Tests named on standard input, each run in a fork of this process, which has loaded libraries but not the package.
+
+Nor hypothesis, whose assertions pytest writes anew.
+"""
 
 import json
 import os
@@ -7,7 +10,6 @@ import sys
 import tempfile
 
 import casadi  # noqa: F401 -- for the forks, as the next ones
-import hypothesis.strategies  # noqa: F401
 import pint  # noqa: F401
 import pytest
 import scipy.integrate

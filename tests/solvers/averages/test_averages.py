@@ -29,6 +29,8 @@ UNEQUAL = Scene.load("granulation").with_entries(
 )
 OF = ("outcome", "restitution", "tangential_restitution")
 
+pytestmark = pytest.mark.usefixtures("optimized")
+
 
 def sums(
     scene: Scene | str, speed: np.ndarray | float, angle: np.ndarray, weight: np.ndarray | None = None
