@@ -2,16 +2,18 @@
 
 import os
 import signal
+from collections.abc import Iterator
 from typing import Any
 
 import pytest
 from hypothesis import HealthCheck, settings
+from wetdoublet.solvers.engines.taylor.build import kernel
 
 from .helpers.data import BOUNDARIES, COLLISIONS
+from .helpers.flags import OPTIMIZED, QUICK
 
-# Some 150 kernels are compiled without optimization: the same results but for rounding. What users get is compiled
-# by `test_kernel.py`, which integrates every reference collision.
-os.environ.setdefault("WETDOUBLET_CFLAGS", "-O0")
+# Some 150 kernels are compiled so. What users get is compiled by `test_kernel.py`.
+os.environ.setdefault("WETDOUBLET_CFLAGS", QUICK)
 
 # a shell starts what runs in the background with Ctrl-C ignored, and processes inherit that
 signal.signal(signal.SIGINT, signal.default_int_handler)
@@ -43,3 +45,13 @@ def separated_reference(request: pytest.FixtureRequest) -> dict[str, Any]:
 def reference_boundaries() -> dict[str, Any]:
     """Changes of outcome of the presets at four angles."""
     return BOUNDARIES
+
+
+@pytest.fixture(scope="module")
+def optimized() -> Iterator[None]:
+    """Kernels of this module are optimized."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("WETDOUBLET_CFLAGS", OPTIMIZED)
+        kernel.cache_clear()
+        yield
+    kernel.cache_clear()

@@ -13,7 +13,7 @@ import pytest
 from wetdoublet.derive.checks import Check, symbolic_checks
 from wetdoublet.derive.equations.model import Model, derive
 from wetdoublet.derive.physics.laws import LAWS
-from wetdoublet.derive.physics.structure import structures
+from wetdoublet.derive.physics.structure import FREE, Structure, structures
 
 from ..helpers.shared import made_once
 
@@ -93,3 +93,10 @@ def mutate(monkeypatch: pytest.MonkeyPatch) -> Iterator[Callable[[Any, Any], Non
     yield replace
     monkeypatch.undo()
     _forget(users)
+
+
+@pytest.fixture
+def few_structures(mutate: Callable[[Any, Any], None]) -> None:
+    """A wrong derivation is derived for three structures that have, together, every state, force and event."""
+    few = (FREE, Structure(True, True, False, reduced=True), Structure(True, False, True))
+    mutate(structures, lambda: few)

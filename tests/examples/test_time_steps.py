@@ -17,12 +17,13 @@ import pytest
 from wetdoublet.solvers import Scene, collide
 
 from ..helpers.exported_law import FOUND, written
+from ..helpers.flags import QUICK
 
 FOLDER = Path(__file__).resolve().parents[2] / "examples" / "time_steps"
 pytestmark = [pytest.mark.slow, pytest.mark.skipif("gcc" not in FOUND, reason="needs gcc and g++")]
 
 
-UNOPTIMIZED = "sh -c 'exec gcc \"$@\" -O0' sh"
+UNOPTIMIZED = f"sh -c 'exec gcc \"$@\" {QUICK}' sh"
 
 
 @pytest.fixture(scope="module")

@@ -1,9 +1,11 @@
 """Each property fails for a package with a fault of its kind."""
 
+import json
 import os
 import shutil
 import subprocess
 import sys
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
@@ -29,25 +31,36 @@ def copy(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
+@pytest.fixture(scope="module")
+def outcome(copy: Path) -> Iterator[Callable[[str], tuple[int, str]]]:
+    """Exit status and output of a test with the package that is copied."""
+    with subprocess.Popen(
+        (sys.executable, "-m", "tests.harness.forks", copy.parent), cwd=HERE.parents[1], text=True,
+        env=os.environ | {"WETDOUBLET_MUTANT": "1"}, stdin=subprocess.PIPE, stdout=subprocess.PIPE,
+    ) as process:  # fmt: skip
+        assert process.stdin and process.stdout
+
+        def ask(test: str) -> tuple[int, str]:
+            print(test, file=process.stdin, flush=True)
+            status, text = json.loads(process.stdout.readline())
+            return status, text
+
+        yield ask
+        process.stdin.close()
+
+
 @pytest.mark.parametrize("name", MUTANTS)
-def test_a_property_notices_its_mutant(name: str, copy: Path, tmp_path: Path) -> None:
+def test_a_property_notices_its_mutant(name: str, copy: Path, outcome: Callable[[str], tuple[int, str]]) -> None:
     """It fails by an assertion, and of an error in one line by another kind of error."""
     mutant = MUTANTS[name]
     file = copy / mutant.file
     text = file.read_text(encoding="utf-8")
     assert mutant.old in text
     file.write_text(text.replace(mutant.old, mutant.new), encoding="utf-8")
-    environment = os.environ | {"PYTHONPATH": str(copy.parent), "WETDOUBLET_MUTANT": "1"}
-    if mutant.file.startswith("derive/"):  # what is kept of structures is not named by the derivation
-        environment["WETDOUBLET_CACHE"] = str(tmp_path)
-    command = (sys.executable, "-m", "pytest", "-x", "-p", "no:xdist", "-o", "addopts=--import-mode=importlib -q")
     try:
-        done = subprocess.run(
-            [*command, "-p", "no:cacheprovider", f"{HERE / mutant.property}"], cwd=HERE.parents[1], text=True,
-            env=environment, capture_output=True, timeout=600, check=False,
-        )  # fmt: skip
+        status, shown = outcome(f"{HERE / mutant.property}")
     finally:
         file.write_text(text, encoding="utf-8")
-    assert done.returncode == 1, done.stdout[-2000:] + done.stderr[-2000:]
-    assert "1 failed" in done.stdout
-    assert str(copy) in done.stdout or "AssertionError" in done.stdout or "DID NOT RAISE" in done.stdout
+    assert status == 1, shown[-2000:]
+    assert "1 failed" in shown
+    assert str(copy) in shown or "AssertionError" in shown or "DID NOT RAISE" in shown

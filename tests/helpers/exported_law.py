@@ -12,10 +12,15 @@ import numpy as np
 from wetdoublet.solvers import Scene
 from wetdoublet.solvers.export.law.texts import law_name, texts
 
+from .flags import CALLS
+
 COMPILERS = {"gcc": "g++", "clang": "clang++"}
 _SANITIZED = "-fsanitize=address,undefined -fno-sanitize-recover=all -fno-sanitize=null,object-size"
 # Compiled in a tenth of the time: checks are calls, and what AddressSanitizer sees anyway is not checked twice.
-_CALLS = "-O1 -fno-expensive-optimizations -fno-tree-pre -fno-gcse --param=asan-instrumentation-with-call-threshold=0"
+_CALLS = (
+    f"-O1 -fno-inline {CALLS} -fno-expensive-optimizations -fno-tree-pre -fno-gcse "
+    "--param=asan-instrumentation-with-call-threshold=0"
+)
 SANITIZED = {"gcc": f"{_SANITIZED} {_CALLS}".split(), "clang": f"{_SANITIZED} -O0".split()}
 FOUND = [name for name, other in COMPILERS.items() if shutil.which(name) and shutil.which(other)]
 

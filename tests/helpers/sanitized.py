@@ -22,7 +22,8 @@ from wetdoublet.solvers.scene.groups import si_values
 # Compiled in a third of the time: checks are calls, and what AddressSanitizer sees anyway is not checked twice.
 FLAGS = (
     "-O1 -fno-expensive-optimizations -fno-tree-pre -fno-gcse --param=asan-instrumentation-with-call-threshold=0 "
-    "-fsanitize=address,undefined -fno-sanitize=null,object-size -fno-sanitize-recover=all"
+    "-fsanitize=address,undefined -fno-sanitize=null,object-size -fno-sanitize-recover=all "
+    "-fno-inline -Dalways_inline="
 )
 RTOL = 1e-7
 BUDGET = 3000  # steps: what creeps for longer shows nothing new

@@ -1,22 +1,18 @@
 """Every public function from several threads at once, beside the same calls in one thread.
 
-    python -X faulthandler tests/helpers/threads.py [--seconds 60] [--threads 8] [--quick]
+    python -X faulthandler tests/helpers/threads.py [--seconds 60] [--threads 8]
 
 Threads start together in a cold process, each at another place of the list of calls, and go round it until the time is
 over; then one thread makes the same calls, once each. What it gives, every thread must have given, to the last bit;
-exit status 1 if one has not, or fails. `--quick` leaves out what takes more than a second.
+exit status 1 if one has not, or fails.
 """
 
 # ruff: noqa: T201 -- a script that prints
 import argparse
-import atexit
 import hashlib
 import io
 import math
-import os
-import shutil
 import sys
-import tempfile
 import threading
 import time
 import warnings
@@ -28,22 +24,17 @@ from typing import Any
 import numpy as np
 import xarray as xr
 from wetdoublet import solvers
-from wetdoublet.solvers import Scene, atlas, boundary, collide, collide_many, gradients_many, regime_map, sensitivities
+from wetdoublet.solvers import Scene, boundary, collide, collide_many, gradients_many, regime_map, sensitivities
 from wetdoublet.solvers.engines.casadi.integrators import IntegrationFailed, Tolerance, plain
 from wetdoublet.solvers.host.compiler import compiler
 from wetdoublet.solvers.model.model import load, select_model
 from wetdoublet.solvers.model.phases import Flow, Region
-from wetdoublet.solvers.verify.budget import restitution_budget
-from wetdoublet.solvers.verify.conserved import conserved
-from wetdoublet.solvers.verify.sample import collisions
-from yielding import LAW  # beside this script
 
 GRANULATION, PENDULUM = "granulation", "pendulum"
 IMPACT: dict[str, Any] = {"stokes": 0.05, "angle": "60 deg"}
 MANY = {"stokes": np.geomspace(0.01, 0.3, 300), "angle": np.linspace(0.0, 1.4, 300)}
 FEW = {"stokes": np.geomspace(0.02, 0.3, 6), "angle": 0.9}
 WRT = ("liquid.viscosity", "bridge.volume", "impact.angle")
-MODEL = Path(tempfile.gettempdir()) / f"wetdoublet-threads-{os.getpid()}" / "mine.py"
 SCENE = Path(solvers.__file__).parent / "scene" / "presets" / "pendulum.toml"
 
 
@@ -55,18 +46,6 @@ def _png(figure: Any) -> bytes:
 
 def _traced(**options: Any) -> Any:
     return boundary(GRANULATION, angle=np.array([0.6, 0.9]), rtol=1e-8, **options)
-
-
-def _drawn_boundary() -> bytes:
-    from wetdoublet.solvers.boundaries import plot as boundary_plot
-
-    return _png(boundary_plot.draw(Scene.load(GRANULATION), boundary(GRANULATION, angle=0.9, rtol=1e-8)))
-
-
-def _drawn_map() -> bytes:
-    from wetdoublet.solvers.many.plot_map import draw_map
-
-    return _png(draw_map(_mapped()))
 
 
 def _mapped(**options: Any) -> xr.Dataset:
@@ -101,7 +80,7 @@ def _varied() -> Scene:
     return Scene.load(GRANULATION).with_entries({"liquid.viscosity": "3 Pa s", "particles.reduced_radius": "0.06 mm"})
 
 
-QUICK: dict[str, Callable[[], Any]] = {
+CALLS: dict[str, Callable[[], Any]] = {
     "collide by cvodes": lambda: collide(GRANULATION, **IMPACT),
     "collide by rosenbrock": lambda: collide(GRANULATION, engine="rosenbrock", trajectory=True, **IMPACT),
     "collide by taylor": lambda: collide(GRANULATION, engine="taylor", trajectory=True, **IMPACT),
@@ -118,28 +97,6 @@ QUICK: dict[str, Callable[[], Any]] = {
     "boundary": _traced,
     "sensitivities": lambda: sensitivities(GRANULATION, wrt=WRT, engine="rosenbrock", **IMPACT),
     "gradients": lambda: gradients_many(GRANULATION, wrt=WRT, engine="taylor", stokes=MANY["stokes"], angle=0.9),
-}
-LONG: dict[str, Callable[[], Any]] = {
-    "atlas": lambda: atlas(GRANULATION, span=(0.6, 0.7), stokes=(0.03, 0.3), lines=2),
-    "few by cvodes": lambda: collide_many(GRANULATION, engine="cvodes", **FEW),
-    "a small map": lambda: regime_map(GRANULATION, stokes=FEW["stokes"], angle=[0.4, 0.9], engine="rosenbrock"),
-    "adjoint": lambda: sensitivities(GRANULATION, wrt=WRT, method="adjoint", engine="cvodes", **IMPACT),
-    "collide with a partner": lambda: collide(
-        Scene.load(GRANULATION).with_entries({"partner.radius": "0.2 mm", "partner.mass": "40 ug"}), **IMPACT
-    ),
-    "many by loky": lambda: collide_many(GRANULATION, engine="rosenbrock", **MANY),
-    "gradients one by one": lambda: gradients_many(GRANULATION, wrt=WRT, engine="rosenbrock", **FEW),
-    "tornado": lambda: _png(sensitivities(GRANULATION, engine="rosenbrock", **IMPACT).plot()),
-    "boundary sensitivities": lambda: solvers.boundary_sensitivities(GRANULATION, angle=0.9, wrt=WRT),
-    "boundary, drawn": _drawn_boundary,
-    "map, drawn": _drawn_map,
-    "a model of one's own": lambda: collide(Scene.load(GRANULATION, model=MODEL), stokes=0.1, angle=0.9),
-    "a structure derived": lambda: collide_many(
-        Scene.load(GRANULATION).with_entries({"attraction.hamaker": 1e-19, "model.film": "constant-volume"}), **FEW
-    ),
-    "band": lambda: solvers.band(GRANULATION, {"liquid.viscosity": "5 %"}, "impact.stokes", [0.03, 0.2], samples=8),
-    "budget": lambda: restitution_budget(GRANULATION, stokes=[0.05, 0.1], angle=[0.5, 0.9]),
-    "conserved": lambda: [str(one) for one in conserved(collisions(Scene.load(GRANULATION), (0.9,)))],
 }
 
 
@@ -203,15 +160,9 @@ def main() -> int:
     parser = argparse.ArgumentParser()
     parser.add_argument("--seconds", type=float, default=60.0)
     parser.add_argument("--threads", type=int, default=8)
-    parser.add_argument("--quick", action="store_true")
     asked = parser.parse_args()
     warnings.simplefilter("ignore", solvers.ModelWarning)
-    calls = QUICK if asked.quick else QUICK | LONG
-    MODEL.parent.mkdir(mode=0o700)
-    atexit.register(shutil.rmtree, MODEL.parent)
-    MODEL.write_text(LAW)
-    if compiler() is None:
-        calls = {name: call for name, call in calls.items() if "taylor" not in name}
+    calls = {name: call for name, call in CALLS.items() if compiler() is not None or "taylor" not in name}
     before = sys.stderr
     found, wrong = together(calls, asked.threads, asked.seconds), 0
     for name, said in found.items():

@@ -1,31 +1,22 @@
 """The dimension walker looks at every term and names what is wrong; the checks fail where they must."""
 
-from dataclasses import replace
 from fractions import Fraction
 
 import pytest
 import sympy as sp
 from hypothesis import given
 from hypothesis import strategies as st
-from wetdoublet.derive.checks.conservation import energy_balance, momentum_rate
-from wetdoublet.derive.checks.dimensions import dimension_checks, si_equations
-from wetdoublet.derive.equations.model import derive
-from wetdoublet.derive.physics.laws import LAWS
-from wetdoublet.derive.physics.mechanics import equations_of_motion
-from wetdoublet.derive.physics.structure import Structure
 from wetdoublet.derive.vocabulary.dimensions import (
     FORCE,
     LENGTH,
-    MASS,
     ONE,
     SPEED,
-    TIME,
     Dimension,
     DimensionError,
     demand_dimension,
     dimension_of,
 )
-from wetdoublet.derive.vocabulary.quantities import DIMENSIONS, a, m, mu, u, v0, x, x0
+from wetdoublet.derive.vocabulary.quantities import DIMENSIONS, a, m, mu, u, x, x0
 
 ANY = sp.Symbol("unheard_of")
 
@@ -132,39 +123,3 @@ def test_walker_takes_powers_as_they_are(power: Fraction):
     """A power of a length has that power of length and of nothing else."""
     found = dimension_of(x ** sp.Rational(power.numerator, power.denominator), DIMENSIONS)
     assert found == Dimension(length=power)
-
-
-def test_a_wrong_equation_fails_its_check_by_name():
-    """A dimension check given one false equation fails and names that equation and no other."""
-    rooms = si_equations()
-    rooms["mechanics"]["du/dt"] = (rooms["mechanics"]["du/dt"][0] + v0, LENGTH / TIME**2)
-    failed = [check for check in dimension_checks(rooms) if not check.ok]
-    assert [check.name for check in failed] == ["dimensions: mechanics"]
-    assert failed[0].figure.startswith("du/dt:")
-    assert "speed" in failed[0].figure
-
-
-def test_the_surface_arm_does_not_conserve_angular_momentum():
-    """The check of L can fail: with the surface arm the rate is not zero, and vanishes in contact."""
-    right = LAWS["arm"]["midgap"]
-    surface = replace(right, name="surface", functions=(replace(right.functions[0], result=sp.Integer(2)),))
-    rate = momentum_rate(derive(Structure(True, False, False)), {"arm": surface})
-    assert rate != 0
-    gap = next(s for s in rate.free_symbols if s.name == "gap")
-    assert rate.subs(gap, 0) == 0
-
-
-def test_a_lost_term_fails_the_energy_balance():
-    """The energy balance is sensitive to every loss: without any one of them it is not zero."""
-    structure = Structure(True, True, True)
-    model = derive(structure)
-    assert energy_balance(structure) == 0
-    for _, loss in model["energy_rates"].outputs:
-        assert model.expanded(loss) != 0
-
-
-def test_momenta_have_their_dimension():
-    """Both momenta are M L^2/T: what the walker finds is what the mechanics says."""
-    motion = equations_of_motion()
-    for momentum in (motion.orbital_momentum, motion.spin_momentum):
-        assert dimension_of(momentum, DIMENSIONS) == MASS * LENGTH**2 / TIME

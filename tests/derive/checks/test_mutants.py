@@ -31,7 +31,7 @@ from wetdoublet.derive.physics.scaling import group_definitions
 from wetdoublet.derive.physics.structure import Structure
 from wetdoublet.derive.vocabulary import quantities as q
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.usefixtures("few_structures")]
 
 OBLIQUE = Structure(oblique=True, bridge=False, strings=False)
 Mutate = Callable[[Any, Any], None]

@@ -25,67 +25,45 @@ from wetdoublet.derive.vocabulary import quantities as q
 
 from .test_mutants import Healthy, Mutate, altered_force, caught
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.usefixtures("few_structures")]
 
 
-def _margins() -> dict[str, sp.Expr]:
-    ((_, _, margins),) = pendulum.functions()
-    return dict(margins)
+_RIGHT = dict(pendulum.definitions())
+_SLOWER = {pendulum.FASTEST: pendulum.FASTEST / 10}
+_REST = sp.sqrt(2 * pendulum.LARGEST_PULL)
+_HALF_THE_PULL = sp.sqrt(sp.Min(q.normal_velocity, 0) ** 2 + pendulum.LARGEST_PULL)
 
 
-def _emit(mutate: Mutate, margins: dict[str, sp.Expr]) -> None:
-    mutate(pendulum.functions, lambda *_: [("pendulum_margins", "", margins)])
-
-
-def _recoil_of(share: sp.Expr) -> dict[str, sp.Expr]:
-    """The margins with a recoil at a share of its speed."""
-    right = _margins()
-    slower = right["recoil"].subs(pendulum.FASTEST, share * pendulum.FASTEST)
-    assert slower != right["recoil"]
-    return {**right, "recoil": slower}
-
-
-def test_a_recoil_of_a_tenth(mutate: Mutate, healthy: Healthy):
-    """A rebound taken at a tenth of its speed: the film stops it where it would not."""
-    wrong = _recoil_of(sp.Rational(1, 10))
-    _emit(mutate, wrong)
-    caught(margins_are_the_lemmas(), healthy, "margin of the stick proof: recoil")
-
-
-def test_a_recoil_without_its_reach(mutate: Mutate, healthy: Healthy):
-    """A rebound that starts in contact always, and never where the glass criterion is met."""
-    right = _margins()
-    wrong = {**right, "recoil": right["recoil"].subs(pendulum.REACH, pendulum.CONTACT)}
-    _emit(mutate, wrong)
-    caught(margins_are_the_lemmas(), healthy, "margin of the stick proof: recoil")
-
-
+# Bounds taken where they are not the worst, what is wrong with margins themselves, and the margins that are caught.
+# Of different margins several are derived at once.
 @pytest.mark.parametrize(
-    ("name", "wrong", "margin"),
+    ("bounds", "margins", "names"),
     [
-        (pendulum.NEAREST, 4 + q.aspect, "outward"),
-        (pendulum.FARTHEST, 4 + q.aspect * pendulum.CONTACT, "outward"),
-        (pendulum.LARGEST_MOMENTUM, q.orbital_momentum, "outward"),
-        (pendulum.CONTACT, q.rough_gap, "outward, pull, recoil"),
-        (pendulum.LARGEST_PULL, pendulum.pull_at(sp.Integer(1), q.beta), "recoil, beneath"),
-        (pendulum.FASTEST, sp.sqrt(sp.Min(q.normal_velocity, 0) ** 2 + pendulum.LARGEST_PULL), "recoil"),
-        (pendulum.FASTEST, sp.sqrt(2 * pendulum.LARGEST_PULL), "recoil"),
+        ({pendulum.NEAREST: 4 + q.aspect, pendulum.FASTEST: _HALF_THE_PULL}, {}, "outward recoil"),
+        ({pendulum.FARTHEST: 4 + q.aspect * pendulum.CONTACT, pendulum.FASTEST: _REST}, {}, "outward recoil"),
+        ({pendulum.LARGEST_MOMENTUM: q.orbital_momentum}, {"recoil": _SLOWER}, "outward recoil"),
+        ({pendulum.CONTACT: q.rough_gap}, {}, "outward pull recoil"),
+        ({pendulum.LARGEST_PULL: pendulum.pull_at(sp.Integer(1), q.beta)}, {}, "recoil beneath"),
+        ({}, {"recoil": {pendulum.REACH: pendulum.CONTACT}, "pull": {pendulum.CONTACT: sp.Integer(1)}}, "pull recoil"),
     ],
-    ids=["nearest", "farthest", "orbital_momentum", "contact", "pull at beta", "half the pull", "from rest"],
+    ids=[
+        "nearest, half the pull",
+        "farthest, from rest",
+        "momentum, a tenth",
+        "contact",
+        "pull at beta",
+        "reach, touch",
+    ],
 )
-def test_a_bound_taken_elsewhere(mutate: Mutate, healthy: Healthy, name, wrong, margin):
-    """Least and largest distance, orbit, contact, pull and speed taken where they are not the worst."""
-    right = dict(pendulum.definitions())
-    assert right[name] != wrong
-    mutate(pendulum.definitions, lambda *_: tuple({**right, name: wrong}.items()))
-    caught(margins_are_the_lemmas(), healthy, *(f"margin of the stick proof: {each}" for each in margin.split(", ")))
-
-
-def test_a_pull_at_first_touch(mutate: Mutate, healthy: Healthy):
-    """The pull at x0 is larger than at contact: the inward force is taken for too large."""
-    wrong = {**_margins(), "pull": pendulum.pull_at(sp.Integer(1), q.beta)}
-    _emit(mutate, wrong)
-    caught(margins_are_the_lemmas(), healthy, "margin of the stick proof: pull")
+def test_a_margin_that_is_not_the_worst(mutate: Mutate, healthy: Healthy, bounds, margins, names):
+    """Each wrong distance, orbit, contact, pull, speed or reach of a rebound is caught by the margins that have it."""
+    ((_, _, right),) = pendulum.functions()
+    wrong = {name: value.subs(margins.get(name, {})) for name, value in dict(right).items()}
+    assert all(_RIGHT[name] != value for name, value in bounds.items())
+    assert all(wrong[name] != dict(right)[name] for name in margins)
+    mutate(pendulum.definitions, lambda *_: tuple({**_RIGHT, **bounds}.items()))
+    mutate(pendulum.functions, lambda *_: [("pendulum_margins", "", wrong)])
+    caught(margins_are_the_lemmas(), healthy, *(f"margin of the stick proof: {each}" for each in names.split()))
 
 
 def _with(right: Callable[..., Any], name: Any, change: Callable[[sp.Expr], sp.Expr]) -> Callable[..., Any]:

@@ -1,145 +1,31 @@
-"""Emitted functions against the equations retyped in plain floats and SI, law by law, structure by structure."""
+"""Emitted bridge laws and groups against those retyped in plain floats and SI."""
 
 import importlib
 import math
 import random
-from collections.abc import Callable
-from itertools import product
-from types import ModuleType
 
 import pytest
-from wetdoublet.derive.physics.structure import Structure, structures
 from wetdoublet.generated import scaling
-from wetdoublet.generated.assemble import Laws
+from wetdoublet.solvers.scene.schema import BRIDGE_LAWS
 
-Bridge = Callable[[float, float, float], float]
-pi, ln, exp, sqrt, cos, sin = math.pi, math.log, math.exp, math.sqrt, math.cos, math.sin
+from ...helpers.two_bodies import Bodies
 
-
-def emitted(name: str) -> ModuleType:
-    """An emitted module of `generated`."""
-    return importlib.import_module(f"wetdoublet.generated.{name}")
+pi, sqrt = math.pi, math.sqrt
 
 
-# The published bridge laws, F_c/(pi R sigma) as a function of h = x/R, V and phi.
-
-
-def _exponential(h: float, V: float, phi: float, slope: float, offset: float, tail: float, logarithm: float) -> float:
-    A = -1.1 * V**-0.53
-    B = (slope * logarithm - 0.96) * phi**2 + offset * logarithm + 0.48
-    C = tail * logarithm + 0.078
-    return exp(A * h + B) + C
-
-
-WILLETT = (
-    ((-0.44507, 0.050832, -1.1466), (-0.1119, -0.000411, -0.1490), (-0.012101, -0.0036456, -0.01255),
-     (-0.0005, -0.0003505, -0.00029076)),
-    ((1.9222, -0.57473, -1.2918), (-0.0668, -0.1201, -0.22574), (-0.0013375, -0.0068988, -0.01137)),
-    ((1.268, -0.01396, -0.23566), (0.198, 0.092, -0.06418), (0.02232, 0.02238, -0.009853),
-     (0.0008585, 0.001318, -0.00053)),
-    ((-0.010703, 0.073776, -0.34742), (0.03345, 0.04543, -0.09056), (0.0018574, 0.004456, -0.006257)),
-)  # fmt: skip
-"""Of f1 to f4, by powers of ln V: coefficients of 1, phi and phi^2."""
-
-
-def _willett(h: float, V: float, phi: float) -> float:
-    lnS, L = ln(h / (2 * sqrt(V))), ln(V)
-
-    def term(p: float, q: float, r: float) -> float:
-        return p + q * phi + r * phi**2
-
-    f1, f2, f3, f4 = (sum(term(*row) * L**k for k, row in enumerate(rows)) for rows in WILLETT)
-    return 2 * exp(f1 - f2 * exp(f3 * lnS + f4 * lnS**2))
-
-
-def _lambert(h: float, V: float, phi: float) -> float:
-    return 2 * cos(phi) * (1 - h / sqrt(h * h + 2 * V / pi))
-
-
-def _rabinovich(h: float, V: float, phi: float) -> float:
-    filling = sqrt(sqrt(h * h + 2 * V / pi) - h)
-    return _lambert(h, V, phi) + 2 * sin(filling) * sin(filling + phi)
-
-
-def _willett_simple(h: float, V: float, phi: float) -> float:
-    S = h / sqrt(V)
-    return 2 * cos(phi) / (1 + 1.05 * S + 2.5 * S * S)
-
-
-BRIDGES: dict[str, Bridge] = {
-    "mikami": lambda h, V, phi: _exponential(h, V, phi, -0.34, -0.019, 0.0042, ln(V)),
-    "mikami_log10": lambda h, V, phi: _exponential(h, V, phi, -0.34, -0.019, 0.0042, math.log10(V)),
-    "soulie": lambda h, V, phi: _exponential(h, V, phi, -0.148, -0.0082, 0.0018, ln(V)),
-    "willett": _willett,
-    "willett_simple": _willett_simple,
-    "lambert": _lambert,
-    "rabinovich": _rabinovich,
-    "constant": lambda h, V, phi: 2 * cos(phi),
-}
-
-
-def test_every_bridge_law_is_retyped():
-    """The laws above are those that are emitted."""
-    names = {each.name.removeprefix("bridge_") for each in _law_modules("bridge")}
-    assert names == BRIDGES.keys()
-
-
-def _law_modules(slot: str) -> list[ModuleType]:
-    from wetdoublet.derive.physics.laws import LAWS
-
-    modules = [emitted(f"laws.{law.module}") for law in LAWS[slot].values()]
-    for module in modules:
-        module.name = module.__name__.rsplit(".", 1)[-1]
-    return modules
-
-
-@pytest.mark.parametrize("name", BRIDGES)
+@pytest.mark.parametrize("name", BRIDGE_LAWS)
 def test_bridge_law(name: str):
     """The emitted law is the published fit at 200 random gaps, volumes and angles, to 1e-13 of its value's terms."""
-    law, published, draw = emitted(f"laws.bridge_{name}"), BRIDGES[name], random.Random(name)
+    law, draw = (
+        importlib.import_module(f"wetdoublet.generated.laws.bridge_{name.replace('-', '_')}"),
+        random.Random(name),
+    )
+    rest = {"masses": (1.0, 1.0), "viscosity": 1.0, "film_thickness": 1.0, "roughness": 0.0, "dry_restitution": 1.0}
     for _ in range(200):
         h, V, phi = draw.uniform(1e-3, 0.6), 10 ** draw.uniform(-3, -0.7), draw.uniform(0, 1.2)
-        expected = published(h, V, phi)
+        published = Bodies(radii=(1.0, 1.0), law=name, tension=1 / pi, volume=V, wetting=phi, **rest)  # R = 1
         # largest term: the exponential forms add C < 0.1, lambert's 1 - h/s cancels by at most s/(s - h)
-        assert float(law.force(h, V, phi)) == pytest.approx(expected, rel=1e-13, abs=1e-14), (h, V, phi)
-
-
-# The equations of motion, section 2 and 3, in SI.
-
-
-def si_rates(
-    scene: dict[str, float], state: dict[str, float], structure: Structure, laws: dict[str, str]
-) -> dict[str, tuple[float, float]]:
-    """(rate, sum of the magnitudes of its terms) of x, u, r^2 omega, xi and beta."""
-    a, m, mu, x0 = (scene[key] for key in ("a", "m", "mu", "x0"))
-    x, u, omega, xi, beta = (state[key] for key in ("x", "u", "omega", "xi", "beta"))
-    r = 4 * a + x
-    F_n = 6 * pi * mu * a**2 * u / x * (1 - x / x0) ** 2 if x < x0 else 0.0
-    outer = x0 if laws["shear"] == "film" else 2 * a
-    log_factor = ln(outer / x) if x < outer else 0.0
-    F_t = 8 * pi * mu * a**2 * (omega - xi) * log_factor
-    F_t_terms = 8 * pi * mu * a**2 * (abs(omega) + abs(xi)) * log_factor
-    F_c = 0.0
-    if structure.bridge:
-        R = 2 * a
-        F_c = pi * R * scene["sigma"] * BRIDGES[laws["bridge"]](x / R, scene["V"], scene["phi"])
-    S_n = S_t = S_n_terms = 0.0
-    if structure.strings:
-        squared = (r * r + 16 * a * a - 8 * a * r * cos(beta)) / 4
-        reach = scene["l"] if laws["strings"] == "small_angle" else sqrt(scene["l"] ** 2 - squared)
-        S_n = m * scene["g"] * (r - 4 * a * cos(beta)) / reach
-        S_n_terms = m * scene["g"] * (r + 4 * a) / reach
-        S_t = m * scene["g"] * 4 * a * sin(beta) / reach
-    arm = r / 2
-    du = (m * r * omega**2 - F_n - F_c - S_n) / m
-    domega = ((-F_t - S_t) / m - 2 * u * omega) / r
-    return {
-        "x": (u, abs(u)),
-        "u": (du, r * omega**2 + (abs(F_n) + abs(F_c) + S_n_terms) / m),
-        "r2omega": (2 * r * u * omega + r * r * domega, r * (F_t_terms + abs(S_t)) / m + 4 * r * abs(u * omega)),
-        "xi": (F_t * arm / (16 / 5 * m * a**2), F_t_terms * arm / (16 / 5 * m * a**2)),
-        "beta": (omega, abs(omega)),
-    }
+        assert float(law.force(h, V, phi)) == pytest.approx(published.pull(h), rel=1e-13, abs=1e-14), (h, V, phi)
 
 
 def _scene(draw: random.Random) -> dict[str, float]:
@@ -178,66 +64,6 @@ def _groups(scene: dict[str, float], names: tuple[str, ...]) -> dict[str, float]
         "string_ratio": scene["l"] / a,
     }
     return {name: every[name] for name in names if name in every}
-
-
-@pytest.mark.parametrize("structure", structures(), ids=lambda structure: structure.name)
-def test_emitted_equations_are_the_si_equations(structure: Structure):
-    """Emitted rates times their scales are the SI equations: all laws, in and out of the film and the shear's edge."""
-    module, draw = emitted(structure.name), random.Random(structure.name)
-    variants = {
-        "shear": ("immersed", "film") if structure.oblique else ("immersed",),
-        "arm": ("midgap",),
-        "strings": ("exact", "small_angle") if structure.strings else ("exact",),
-        "bridge": tuple(BRIDGES) if structure.bridge else ("mikami",),
-    }
-    for choice in product(*variants.values()):
-        laws = dict(zip(variants, choice, strict=True))
-        filled = Laws(
-            film=emitted("laws.film_finite"), **{slot: emitted(f"laws.{slot}_{name}") for slot, name in laws.items()}
-        )
-        scene = _scene(draw)
-        a, x0, v0 = scene["a"], scene["x0"], scene["v0"]
-        omega0, unit = v0 * math.tan(scene["theta"]) / (4 * a), v0 * _scale(scene) / (4 * a)
-        edge = float(filled.shear.edge(x0 / a)) * x0
-        # in the film, beyond the film but sheared if the law shears there, and beyond both
-        for x in (draw.uniform(0.01, 0.99) * x0, draw.uniform(1.05, 1.9) * x0, draw.uniform(1.05, 2) * max(edge, x0)):
-            r = 4 * a + x
-            omega = draw.uniform(0.1, 2) * omega0 if structure.oblique else 0.0
-            xi = draw.uniform(-0.5, 1) * omega0 if structure.oblique else 0.0
-            if structure.reduced:  # L keeps its start value
-                xi = ((4 * a + x0) ** 2 * omega0 - r * r * omega) / (32 / 5 * a**2) + scene["spin"]
-            beta = draw.uniform(0.01, 3) if structure.oblique else 0.0
-            si = {"x": x, "u": draw.uniform(-1.5, 1.5) * v0, "omega": omega, "xi": xi, "beta": beta}
-            state = {
-                "gap": x / x0,
-                "normal_velocity": si["u"] / v0,
-                "orbital_momentum": r * r * omega / (a * a * unit),
-                "spin": xi / unit,
-                "rotation": beta,
-            }
-            rates = module.right_hand_side(
-                {name: state[name] for name in module.STATES},
-                _groups(scene, module.GROUPS),
-                filled,
-                film=int(x < x0),
-                shear=int(x < edge),
-            )
-            expected = si_rates(scene, si, structure, laws)
-            if structure.reduced:  # the eliminated spin is itself a difference
-                magnitude = ((4 * a + x0) ** 2 * omega0 + r * r * omega) / (32 / 5 * a**2) + abs(scene["spin"])
-                expected = {key: (value, terms * (1 + magnitude / abs(xi))) for key, (value, terms) in expected.items()}
-            scales = {
-                "gap": ("x", v0),
-                "normal_velocity": ("u", v0**2 / x0),
-                "orbital_momentum": ("r2omega", a * a * unit * v0 / x0),
-                "spin": ("xi", unit * v0 / x0),
-                "rotation": ("beta", v0 / x0),
-            }
-            assert set(rates) == set(module.STATES)
-            for name, rate in rates.items():
-                key, scale = scales[name]
-                value, terms = expected[key]
-                assert abs(float(rate) * scale - value) <= 1e-12 * terms, (name, laws, x / x0)
 
 
 def test_emitted_groups_are_the_published_ones():

@@ -29,6 +29,8 @@ UNEQUAL = Scene.load("granulation").with_entries(
 )
 OF = ("outcome", "restitution", "tangential_restitution")
 
+pytestmark = pytest.mark.usefixtures("optimized")
+
 
 def sums(
     scene: Scene | str, speed: np.ndarray | float, angle: np.ndarray, weight: np.ndarray | None = None
@@ -77,10 +79,10 @@ def test_a_gas_of_unequal_spheres_is_what_random_collisions_show() -> None:
 def test_errors_are_not_larger_than_estimated() -> None:
     """A coarse quadrature differs from a finer one by less than it says, and by less than its tolerance."""
     table = ([1.0, 2.0], [1.0, 3.0])
-    coarse, fine = (collision_averages(UNEQUAL, speeds=table, tolerance=to) for to in (1e-3, 1e-6))
+    coarse, fine = (collision_averages(UNEQUAL, speeds=table, tolerance=to) for to in (1e-3, 1e-5))
     assert (np.abs(averages(coarse) - averages(fine)) <= errors(coarse) + errors(fine)).all()
     assert errors(coarse)[:5].max() <= 1.5e-3
-    assert errors(fine)[:5].max() <= 1.5e-6
+    assert errors(fine)[:5].max() <= 1.5e-5
 
 
 @pytest.mark.slow
@@ -125,7 +127,7 @@ def test_derivatives_are_those_of_differences() -> None:
     found = collision_averages(UNEQUAL, **speeds, wrt=entry, tolerance=1e-4)
     mu, step = float(UNEQUAL.entries[entry]), 0.01
     low, high = (
-        averages(collision_averages(UNEQUAL.with_si({entry: mu * factor}), **speeds, tolerance=1e-6))
+        averages(collision_averages(UNEQUAL.with_si({entry: mu * factor}), **speeds, tolerance=1e-5))
         for factor in (1 - step, 1 + step)
     )
     difference = (high - low) / (2 * step * mu)
@@ -207,14 +209,14 @@ def test_bad_input_is_named(given: dict[str, Any], field: str) -> None:
 @pytest.mark.slow
 @pytest.mark.parametrize("tolerance", [1e-3])
 def test_pairs_between_others_have_the_averages_of_their_own_collisions(tolerance: float) -> None:
-    """Of 30 radii most pairs are interpolated: within the declared errors they are what finer quadrature gives."""
-    radii = np.geomspace(100e-6, 110e-6, 30)
+    """Of 20 radii most pairs are interpolated: within the declared errors they are what finer quadrature gives."""
+    radii = np.geomspace(100e-6, 106e-6, 20)
     told: list[tuple[int, int]] = []
     found = collision_averages(
         "granulation", speeds="1.5 m/s", radii=radii, tolerance=tolerance, progress=lambda *call: told.append(call)
     )
-    assert told[-1][0] == told[-1][1] < 30 * 31 / 2 / 4  # pairs that were computed
-    few = [3, 17, 28]
+    assert told[-1][0] == told[-1][1] < 20 * 21 / 2 / 4  # pairs that were computed
+    few = [3, 11, 18]
     one_by_one = collision_averages("granulation", speeds="1.5 m/s", radii=radii[few], tolerance=tolerance / 10)
     some = found.isel(radius=few, partner_radius=few)
     for name in QUANTITIES:
@@ -227,11 +229,11 @@ def test_pairs_between_others_have_the_averages_of_their_own_collisions(toleranc
 @pytest.mark.slow
 def test_an_interrupted_matrix_goes_on(tmp_path: Path) -> None:
     """Finished pairs are kept and not computed again; the result is that of workers on all cores."""
-    radii = np.geomspace(60e-6, 120e-6, 11)
+    radii = np.geomspace(60e-6, 120e-6, 8)
     resume, seen = tmp_path / "averages.nc", list[int]()
 
     def interrupt(done: int, total: int) -> None:
-        assert total == 66
+        assert total == 36
         if done:
             raise KeyboardInterrupt
 
@@ -245,7 +247,7 @@ def test_an_interrupted_matrix_goes_on(tmp_path: Path) -> None:
         progress=lambda done, _: seen.append(done),
         resume=resume,
     )
-    assert seen == [32, 64, 66]
+    assert seen == [32, 36]
     assert found.identical(collision_averages("granulation", speeds=2.0, radii=radii, tolerance=1e-2))
 
 
@@ -346,7 +348,7 @@ def test_energies_and_rates_are_those_of_random_pairs_of_a_gas() -> None:
         "stick_probability": (speed * sticks, speed),
         "collision_rate": (2 * np.pi * (contact + film) ** 2 * speed, np.ones(count)),
     }
-    found = collision_averages(scene, speeds=f"maxwell:{deviation} m/s", tolerance=1e-5)
+    found = collision_averages(scene, speeds=f"maxwell:{deviation} m/s", tolerance=1e-4)
     for name, (above, below) in rows.items():
         ratio = above.mean() / below.mean()
         error = (above - ratio * below).std() / below.mean() / np.sqrt(count)

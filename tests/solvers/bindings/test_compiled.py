@@ -10,6 +10,7 @@ from wetdoublet.solvers import Scene, collide_many
 from wetdoublet.solvers.bindings.extras import required
 
 from ...helpers.exported_law import FOUND, written
+from ...helpers.flags import QUICK
 
 PAGE = Path(__file__).resolve().parents[3] / "docs/how-to/c-law.md"
 
@@ -19,7 +20,8 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The granulation's law, made as the page says."""
     above = tmp_path_factory.mktemp("from-python")
     written(Scene.load("granulation"), above / "law")
-    subprocess.run(["make", "-s", "-C", "law", "shared", "CFLAGS=-O0 -DGRANULATION_LANES=1"], cwd=above, check=True)
+    flags = f"CFLAGS={QUICK} -DGRANULATION_LANES=1"
+    subprocess.run(["make", "-s", "-C", "law", "shared", flags], cwd=above, check=True)
     return above
 
 

@@ -14,7 +14,7 @@ from wetdoublet.solvers.formatting.style import LETTERS
 
 from ...helpers.command import run
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.usefixtures("optimized")]
 
 OUTCOMES = ("stick", "stick-rotate-separate", "bounce")
 SPANS = {"granulation": (0.005, 0.5), "pendulum": (0.01, 10.0), "granulation-dry-bridge": (0.05, 0.5)}

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 import pytest
-from wetdoublet.solvers import Scene, boundary, collide, collide_many
+from wetdoublet.solvers import Scene, collide, collide_many
 from wetdoublet.solvers.boundaries.scene_sampler import SceneSampler
 
 RTOL = 1e-9
@@ -54,14 +54,3 @@ def test_margins(name: str):
         moved = collide_many(scene, stokes=stokes, angle=angle, vary=vary, of=("reversal",))
         assert ((moved.reversal.values >= 0) == is_met).all()
 
-
-@pytest.mark.slow
-def test_contact_time_diverges_at_the_separatrix():
-    """Towards the saddle the contact time grows with the logarithm of the distance, as a margin has to show."""
-    scene, angle = Scene.load("granulation"), math.radians(LINES["granulation"][0])
-    (change, *_) = boundary(scene, angle=angle, stokes=(0.01, 0.02)).changes[0]
-    stokes = change.stokes * (1 + np.geomspace(1e-2, 1e-6, 9))
-    time = SceneSampler(scene, RTOL)(np.full(stokes.size, angle), stokes)["time"]
-    growth = np.diff(time)
-    assert (np.diff(growth) > 0).all()
-    assert growth[-1] == pytest.approx(growth[-2], rel=0.01)  # equal ratios of distance, equal times

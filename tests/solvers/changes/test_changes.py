@@ -119,28 +119,6 @@ def test_rows_collide_as_their_scenes() -> None:
 
 
 @pytest.mark.slow
-def test_derivatives_are_those_of_displaced_experiments() -> None:
-    """By the free entries, and by speed and angle, results change as differences say."""
-    scene = Scene.load("granulation")
-    values = [float(scene.entries[name]) for name in ("liquid.film_thickness", "particles.roughness")]
-    experiment = rows(scene, [1.8, 2.2], values)
-    at = np.array([0, 1]), np.array([2.5, 3.0]), np.array([0.4, 0.6])
-    names, step = ("restitution", "rotation"), 1e-5
-    results = experiment.results(names, *at)
-    for k, value in enumerate(values):
-        high, low = (experiment.displaced(k, sign * step * value) for sign in (1, -1))
-        assert high is not None and low is not None
-        slope = (high.plain(names, *at) - low.plain(names, *at)) / (2 * step * value)
-        assert results.free[..., k] == pytest.approx(slope, rel=1e-3, abs=1e-3 * np.abs(slope).max())
-    ends = [experiment.plain(names, at[0], at[1] + step, at[2]), experiment.plain(names, at[0], at[1] - step, at[2])]
-    assert results.speed == pytest.approx((ends[0] - ends[1]) / (2 * step), rel=1e-3)
-    ends = [experiment.plain(names, at[0], at[1], at[2] + step), experiment.plain(names, at[0], at[1], at[2] - step)]
-    assert results.angle == pytest.approx((ends[0] - ends[1]) / (2 * step), rel=1e-3)
-    mirrored = experiment.results(names, at[0], at[1], -at[2])
-    assert mirrored.value == pytest.approx(results.value * np.array([[1.0], [-1.0]]))
-
-
-@pytest.mark.slow
 def test_approximate_slopes_and_differences_are_those_of_boundary_sensitivities() -> None:
     """Critical speeds at an angle move with viscosity and film thickness as the exact derivatives say."""
     scene, angle = Scene.load("granulation"), math.radians(45)

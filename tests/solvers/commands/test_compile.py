@@ -10,6 +10,7 @@ import pytest
 from wetdoublet.solvers.host.compiler import compiler
 
 from ...helpers.command import quiet
+from ...helpers.flags import QUICK
 
 LATER = """
 from wetdoublet.solvers import collide, collide_many, compile_kernels, regime_map
@@ -25,7 +26,7 @@ print(collide_many(scene, **impacts).engine, regime_map(scene, **impacts).engine
 def test_what_is_compiled_answers(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     """All kernels of a scene are compiled; a later process takes them for one collision, a batch and a map."""
     monkeypatch.setenv("WETDOUBLET_CACHE", str(tmp_path / "cache"))
-    monkeypatch.setenv("WETDOUBLET_CFLAGS", "-O0")
+    monkeypatch.setenv("WETDOUBLET_CFLAGS", QUICK)
     command = (sys.executable, "-m", "wetdoublet.solvers", "compile", "granulation-dry-bridge", "--json")
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     assert (done.returncode, quiet(done.stderr)) == (0, "")

@@ -7,7 +7,7 @@ from fractions import Fraction
 import mpmath
 import numpy as np
 import pytest
-from wetdoublet.solvers import InputError, Scene, collide, prove
+from wetdoublet.solvers import InputError, Scene, prove
 from wetdoublet.solvers.engines.interval.build import FLAGS, RUNTIME, NotProvable, Why, engine, source
 from wetdoublet.solvers.engines.interval.call import BOX, enclose
 from wetdoublet.solvers.engines.interval.inputs import Inputs
@@ -239,18 +239,6 @@ def test_laws_without_an_enclosure_are_refused(name: str) -> None:
     assert proof.reason
     with pytest.raises(NotProvable):
         engine(select_model(scene, True, fold=True), False, 0)
-
-
-def test_a_box_holds_for_its_points() -> None:
-    """For every viscosity between two: outcome and restitution of points of the box lie in what is proved."""
-    scene = Scene.load("granulation").with_impact(stokes=0.3, angle="20 deg")
-    proof = prove(scene, within={"liquid.viscosity": ("1.9 Pa s", "2.1 Pa s")})
-    assert proof.outcome == "bounce"
-    assert proof.restitution is not None
-    for viscosity in np.linspace(1.9, 2.1, 7):
-        one = collide(scene.with_entries({"liquid.viscosity": float(viscosity)}, hold="stokes"), ledger=False)
-        assert one.outcome == "bounce"
-        assert proof.restitution[0] <= one.restitution <= proof.restitution[1]
 
 
 def test_a_box_across_a_boundary_is_not_proved() -> None:

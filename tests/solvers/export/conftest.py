@@ -6,6 +6,7 @@ import pytest
 from wetdoublet.solvers import Scene
 
 from ...helpers.exported_law import FOUND, Law, written
+from ...helpers.flags import QUICK
 
 SPHERES = Scene.load("glass-beads-water").with_entries(
     {
@@ -19,7 +20,7 @@ OWN = Scene.load("granulation").with_entries(  # equal masses, which is far from
         "liquid.viscosity": 0.3, "partner.radius": "0.3 mm", "partner.mass": "3e-5 g", "bridge.volume": 0.02,
     }
 )  # fmt: skip
-STRICT = ("-O0", "-pedantic", "-Wall", "-Wextra", "-Werror")
+STRICT = (*QUICK.split(), "-pedantic", "-Wall", "-Wextra", "-Werror")
 
 
 @pytest.fixture(scope="session")

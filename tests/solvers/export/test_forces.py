@@ -9,6 +9,7 @@ from wetdoublet.solvers import Scene
 from wetdoublet.solvers.space.pairs import Bodies
 
 from ...helpers.exported_law import FOUND, Law, written
+from ...helpers.flags import QUICK
 from ...helpers.host_of_forces import Host
 from .conftest import OWN
 from .test_law_in_space import GRANULATION, arrivals
@@ -28,7 +29,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 @pytest.fixture(scope="module")
 def law(folder: Path) -> Law:
     """Its law."""
-    return Law(OWN, folder, "-O0", "-march=native")
+    return Law(OWN, folder, *QUICK.split(), "-march=native")
 
 
 @pytest.fixture(scope="module")
@@ -41,7 +42,7 @@ def host(law: Law, folder: Path) -> Host:
 def alone(tmp_path_factory: pytest.TempPathFactory) -> tuple[Law, Host]:
     """Law and host of equal spheres without a bridge, whose kinetic energy is all there is."""
     folder = written(FILM_ALONE, tmp_path_factory.mktemp("law") / "film")
-    law = Law(FILM_ALONE, folder, "-O0")
+    law = Law(FILM_ALONE, folder, *QUICK.split())
     return law, Host(FILM_ALONE, law, folder)
 
 
@@ -270,7 +271,7 @@ def test_what_has_no_forces_says_so(tmp_path: Path):
 def test_dry_contacts_rub(tmp_path: Path):
     """With friction at every rebound, outcomes, e_n and both spins are the law's; rubbing adds no energy."""
     scene = FILM_ALONE.with_entries(ROUGH | {"model.contact_friction": "all"})
-    law = Law(scene, written(scene, tmp_path), "-O0")
+    law = Law(scene, written(scene, tmp_path), *QUICK.split())
     host, pairs = Host(scene, law, tmp_path), arrivals(scene, COUNT, seed=3)
     found, times = durations(scene, law, pairs)
     smooth = law.material()
@@ -291,7 +292,7 @@ def test_dry_contacts_rub(tmp_path: Path):
 def test_a_wall_is_a_far_larger_sphere(law: Law, tmp_path: Path):
     """As the page says: 10,000 times as large and heavy, and held beneath the sphere; e_n is that of the wall."""
     wall = GRANULATION.with_entries({"partner.wall": True})
-    walled, material = Law(wall, written(wall, tmp_path), "-O0"), law.material()
+    walled, material = Law(wall, written(wall, tmp_path), *QUICK.split()), law.material()
     normal, velocities, spins = arrivals(wall, 15, seed=2)
     found = walled.collide_pairs(walled.pairs(normal, velocities, spins[:, :1]))
     for name in walled.material().dtype.names:

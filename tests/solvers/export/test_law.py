@@ -23,6 +23,7 @@ from wetdoublet.solvers.export.law.material import results
 from wetdoublet.solvers.export.law.texts import law_name
 
 from ...helpers.exported_law import COMPILERS, FOUND, Law, written
+from ...helpers.flags import CALLS, QUICK
 from .conftest import SPHERES
 
 PENDULUM, GRANULATION = Scene.load("pendulum"), Scene.load("granulation")
@@ -52,8 +53,8 @@ def test_builds_and_checks(compiler: str, folder: Path, tmp_path: Path):
         pytest.skip(f"{compiler} or {COMPILERS[compiler]} is missing")
     copy = shutil.copytree(folder, tmp_path / "law", ignore=shutil.ignore_patterns("*.so", "mixture*"))
     names = {each.name for each in copy.iterdir()}
-    strict = "-std=c++11 -O0 -pedantic -Werror -DGLASS_BEADS_WATER_LANES=1"
-    flags = ["CFLAGS=-O0 -Werror", f"CXXFLAGS={strict}", f"CC={compiler}", f"CXX={COMPILERS[compiler]}"]
+    strict = f"-std=c++11 {QUICK} -pedantic -Werror -DGLASS_BEADS_WATER_LANES=1"
+    flags = [f"CFLAGS={QUICK} -Werror", f"CXXFLAGS={strict}", f"CC={compiler}", f"CXX={COMPILERS[compiler]}"]
     command = ["make", "-s", "check", "check-cpp", *flags]
     done = subprocess.run(command, cwd=copy, capture_output=True, text=True, check=False)
     assert (done.returncode, done.stderr) == (0, "")
@@ -72,7 +73,7 @@ def test_is_exported_without_a_compiler(tmp_path: Path):
     words = ["export", "pendulum", "--to", "c", "--out", tmp_path / "law"]
     subprocess.run([sys.executable, "-m", "wetdoublet.solvers", *words], env=without, check=True)
     assert not list((tmp_path / "cache").glob("*.so"))
-    make = ["make", "-s", "check", "CC=gcc", "CFLAGS=-O0"]
+    make = ["make", "-s", "check", "CC=gcc", f"CFLAGS={QUICK}"]
     done = subprocess.run(make, cwd=tmp_path / "law", capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stdout
     (impacts,) = re.findall(r"^0 of (\d+)", done.stdout, re.MULTILINE)
@@ -197,7 +198,7 @@ def test_shares_no_data(folder: Path, tmp_path: Path):
     if shutil.which("nm") is None:
         pytest.skip("nm is missing")
     subprocess.run(
-        ["gcc", "-std=c99", "-O0", "-c", "-o", tmp_path / "law.o", folder / "glass_beads_water.c"], check=True
+        ["gcc", "-std=c99", *QUICK.split(), "-c", "-o", tmp_path / "law.o", folder / "glass_beads_water.c"], check=True
     )
     listed = subprocess.run(["nm", tmp_path / "law.o"], check=True, capture_output=True, text=True).stdout
     kinds = {line.split()[-2]: line.split()[-1] for line in listed.splitlines()}
@@ -247,7 +248,7 @@ def test_other_arithmetic_has_no_answers(flags: str, pendulum: Path, tmp_path: P
     if importlib.util.find_spec("ziglang") is None and shutil.which("clang") is None:
         pytest.skip("needs clang, or ziglang, which contains it")
     clang = ["clang"] if shutil.which("clang") else [sys.executable, "-m", "ziglang", "cc"]
-    options = ["-std=c99", "-O1", "-w", "-DPENDULUM_LANES=1", *flags.split()]
+    options = ["-std=c99", "-O1", CALLS, "-w", "-DPENDULUM_LANES=1", *flags.split()]
     files = [str(pendulum / name) for name in ("check.c", "pendulum.c")]
     subprocess.run([*clang, *options, *files, "-lm", "-o", tmp_path / "check"], check=True, capture_output=True)
     done = subprocess.run([tmp_path / "check"], check=False, capture_output=True, text=True)

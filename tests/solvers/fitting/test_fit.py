@@ -15,6 +15,8 @@ from tests.helpers.synthetic import drawn
 
 VISCOSITY, FILM, ROUGHNESS = "liquid.viscosity", "liquid.film_thickness", "particles.roughness"
 
+pytestmark = pytest.mark.usefixtures("optimized")
+
 
 def plan(scene: Scene, rows: int, stokes: tuple[float, float], seed: int = 0) -> Measurements:
     random = np.random.default_rng(seed)

@@ -15,6 +15,8 @@ from tests.helpers.synthetic import drawn
 from .test_fit import VISCOSITY, plan
 
 NOISE, FILM = "noise.restitution", "liquid.film_thickness"
+
+pytestmark = pytest.mark.usefixtures("optimized")
 OIL = Scene.load("pendulum").with_entries({"name": "oil"})
 SYRUP = Scene.load("pendulum").with_entries({"name": "syrup", VISCOSITY: "16 Pa s"})
 

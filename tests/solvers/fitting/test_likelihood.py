@@ -15,6 +15,8 @@ from wetdoublet.solvers.fitting.scatter import EXACT, Resolution
 
 FINE = Resolution(7, 12, 256, 21, False, 1e-10)
 
+pytestmark = pytest.mark.usefixtures("optimized")
+
 
 def impacts(scene: Scene, stokes: list[float], degrees: list[float], outcome: list[int], restitution: list[float]):
     speed = np.array(stokes) / scene.stokes_per_speed

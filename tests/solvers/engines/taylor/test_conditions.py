@@ -15,6 +15,8 @@ from wetdoublet.solvers.engines.taylor.includes import resolved
 from wetdoublet.solvers.host.compiler import compiler
 from wetdoublet.solvers.model.model import select_model
 
+from ....helpers.flags import QUICK
+
 pytestmark = pytest.mark.skipif(compiler() is None, reason="no C compiler")
 
 CONDITIONS = {
@@ -47,7 +49,7 @@ def kernel(tmp_path_factory: pytest.TempPathFactory) -> ctypes.CDLL:
     folder = tmp_path_factory.mktemp("conditions")
     calls = '#include "guards.h"\n' + "".join(call(*each) for each in CONDITIONS.items())
     (folder / "conditions.c").write_text(resolved(calls, text.files(text.Variant(choice, 9, lanes=2), emitted)))
-    flags = ["-std=gnu11", "-fPIC", "-shared", "-O1"]
+    flags = ["-std=gnu11", "-fPIC", "-shared", *QUICK.split()]
     command = [*tool.command, *flags, "-o", str(folder / "it.so"), str(folder / "conditions.c"), "-lm"]
     subprocess.run(command, check=True, capture_output=True)
     return ctypes.CDLL(str(folder / "it.so"))

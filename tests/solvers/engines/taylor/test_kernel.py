@@ -12,19 +12,22 @@ from wetdoublet.solvers.engines.taylor import call as engine
 from wetdoublet.solvers.engines.taylor import headers
 from wetdoublet.solvers.engines.taylor.record import run_recorded
 from wetdoublet.solvers.host.compiler import compiler
+from wetdoublet.solvers.scene.scenefile import PRESETS
 
+from ....helpers.flags import QUICK
 from ....helpers.own_arm import described
 
 pytestmark = [pytest.mark.skipif(compiler() is None, reason="no C compiler"), pytest.mark.slow]
 
 
-@pytest.fixture(scope="module", autouse=True)
-def shipped() -> Iterator[None]:
-    """Compile as users do, not with the flags of the other tests."""
-    with pytest.MonkeyPatch.context() as patch:
-        patch.delenv("WETDOUBLET_CFLAGS")
-        library.kernel.cache_clear()
-        yield
+@pytest.fixture(autouse=True)
+def shipped(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+    """Compile as users do, not with the flags of the other tests; of the references those of presets."""
+    asked = request.getfixturevalue("reference")["name"] if "reference" in request.fixturenames else "granulation"
+    if asked in PRESETS:
+        monkeypatch.delenv("WETDOUBLET_CFLAGS")
+    library.kernel.cache_clear()
+    yield
     library.kernel.cache_clear()
 
 
@@ -97,7 +100,7 @@ def _one(preset: str, stokes: float, angle: float) -> engine.Impacts:
 def test_the_engine_of_many(monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     """One collision, a few and many go to the kernel and have the same bits; without a compiler Rosenbrock answers."""
     monkeypatch.setenv("WETDOUBLET_CACHE", str(tmp_path))
-    monkeypatch.setenv("WETDOUBLET_CFLAGS", "-O1")  # flags with which no kernel is shipped
+    monkeypatch.setenv("WETDOUBLET_CFLAGS", QUICK)  # flags with which no kernel is shipped
     library.kernel.cache_clear()
     few = collide_many("granulation", stokes=[0.02] * 3, angle=1.3)
     lots = collide_many("granulation", stokes=[0.02] * 101, angle=1.3)
@@ -118,7 +121,7 @@ def test_the_engine_of_many(monkeypatch: pytest.MonkeyPatch, capfd: pytest.Captu
 def test_a_kernel_is_compiled_once(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
     """The library is addressed by its content and found again by the next process; nothing else is left behind."""
     monkeypatch.setenv("WETDOUBLET_CACHE", str(tmp_path))
-    monkeypatch.setenv("WETDOUBLET_CFLAGS", "-O1")  # flags with which no kernel is shipped
+    monkeypatch.setenv("WETDOUBLET_CFLAGS", QUICK)  # flags with which no kernel is shipped
     scene, kept = Scene.load("granulation-dry-bridge"), []
     for _ in range(2):
         library.kernel.cache_clear()

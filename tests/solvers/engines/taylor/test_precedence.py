@@ -13,6 +13,8 @@ from wetdoublet.solvers.engines.taylor.includes import resolved
 from wetdoublet.solvers.host.compiler import compiler
 from wetdoublet.solvers.model.model import select_model
 
+from ....helpers.flags import QUICK
+
 pytestmark = pytest.mark.skipif(compiler() is None, reason="no C compiler")
 
 # Series of which those asked for are 1 - 2 t, up to a power of two: they vanish together, to the last bit.
@@ -70,7 +72,7 @@ def kernel(tmp_path_factory: pytest.TempPathFactory) -> ctypes.CDLL:
     folder = tmp_path_factory.mktemp("precedence")
     text = resolved(HARNESS, source.files(source.Variant(choice, 9, lanes=2), emitted))
     (folder / "events.c").write_text(text)
-    flags = ["-std=gnu11", "-fPIC", "-shared", "-O1"]
+    flags = ["-std=gnu11", "-fPIC", "-shared", *QUICK.split()]
     command = [*found.command, *flags, "-o", str(folder / "events.so"), str(folder / "events.c"), "-lm"]
     subprocess.run(command, check=True, capture_output=True)
     loaded = ctypes.CDLL(str(folder / "events.so"))

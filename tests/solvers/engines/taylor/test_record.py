@@ -73,19 +73,6 @@ def test_the_trajectory_is_that_of_rosenbrock(name: str):
         assert mine[variable].attrs == other[variable].attrs
 
 
-def test_a_trajectory_is_continuous():
-    """Where one step's series ends the next one's begins: both give the state between them, to rounding."""
-    scene = Scene.load("granulation")
-    impact = record.Impacts(scene, np.array([scene.speed_of(0.02)]), np.array([np.radians(75)]), {})
-    told = record.run_recorded(impact, True, RTOL, ledger=True, trajectory=True)
-    assert told is not None
-    assert told.steps is not None
-    rows = told.steps.rows
-    assert rows["time"][-1] + rows["length"][-1] == told.answers["time"][0]
-    ends = (rows["series"] * rows["length"][:, None, None] ** np.arange(rows["series"].shape[2])).sum(axis=2)
-    np.testing.assert_allclose(ends[:-1], rows["series"][1:, :, 0], rtol=1e-14, atol=1e-15)
-
-
 def collided(room: tuple[int, int], keep: bool = True) -> record.Recorded:
     """Chatter on a rough pendulum, and a short trajectory beside it, with this room for events and steps at first."""
     scene = Scene.load("pendulum").with_entries({"particles.roughness": "208.57911437038672 um"})
