@@ -34,16 +34,17 @@ SET_UP = re.compile(
 LONG = re.compile(
     r"wetdoublet (reproduce|bench|verify|compile|explore|design|fit \S+ \S+ .* --plot|boundary \S+ --angle 0:85 )"
     r"|--stress|--scheduler|:10000 "
+    r"|wetdoublet (averages|boundary granulation|critical lactose-pvp|fit pendulum|map granulation --stokes log:0.005:0.5:60)"
 )
-"""Commands that take tens of seconds: `tests/test_docs.py` holds their options, tests of their own what they do, and
-cells of the pages compute designs and fits; the site has an explorer of its own."""
+"""Commands that take tens of seconds, or do what a cell of their page does: `tests/test_docs.py` holds their options,
+tests of their own what they do; the site has an explorer of its own."""
 DATA = {"synthetic-steel-spheres.csv": "impacts.csv", "films.csv": "films.csv", "materials.csv": "materials.csv"}
 """Tables of the reader's, and what pages call them."""
 GIVEN = {
     "my-scene.toml": read_text("granulation")[0], "mine.py": TEMPLATE,
-    "bad.py": TEMPLATE.replace("stress * neck", "stress * R"),
+    "bad.py": TEMPLATE.replace("stress * neck", "stress * R"), "fitted.toml": read_text("pendulum")[0],
 }  # fmt: skip
-"""A scene and models of the reader's, for pages that name them and do not make them."""
+"""Scenes and models of the reader's, for pages that name them and do not make them."""
 PREAMBLE = "import numpy as np\nst, theta = np.array([0.02, 0.03]), np.array([1.3, 1.3])\n"
 """What snippets take for given: arrays of Stokes numbers and angles."""
 
