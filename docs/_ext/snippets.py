@@ -34,7 +34,8 @@ SET_UP = re.compile(
 LONG = re.compile(
     r"wetdoublet (reproduce|bench|verify|compile|explore|design|fit \S+ \S+ .* --plot|boundary \S+ --angle 0:85 )"
     r"|--stress|--scheduler|:10000 "
-    r"|wetdoublet (averages|boundary granulation|critical lactose-pvp|fit pendulum|map granulation --stokes log:0.005:0.5:60)"
+    r"|wetdoublet (averages|boundary granulation|critical lactose-pvp|fit pendulum)"
+    r"|wetdoublet map granulation --stokes log:0.005:0.5:60"
 )
 """Commands that take tens of seconds, or do what a cell of their page does: `tests/test_docs.py` holds their options,
 tests of their own what they do; the site has an explorer of its own."""
@@ -131,7 +132,7 @@ def _last(text: str) -> str:
 def main() -> None:
     """Run all pages."""
     os.environ["PATH"] = f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"
-    os.environ.setdefault("WETDOUBLET_CFLAGS", "-O0")  # as the tests and the site, which share the cache of kernels
+    os.environ.setdefault("WETDOUBLET_CFLAGS", "-O0")  # as the tests, which share the cache of kernels
     os.environ.setdefault("CFLAGS", "-O0")
     for module in ("casadi", "h5netcdf", "matplotlib.figure", "pandas", "scipy.optimize", "xarray", *_COMMANDS):
         __import__(module)

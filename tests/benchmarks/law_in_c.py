@@ -174,8 +174,9 @@ def section(record: dict[str, Any]) -> str:
         "fills one lane, and is faster where there is only one."
     )
     agreed = (
-        f"Of {COMPARED} random pairs of each preset, compiled with and without contraction, {other} have another outcome "
-        f"than by our kernel of the same variant; {beside} of these lie within {BESIDE:g} of a boundary in the speed."
+        f"Of {COMPARED} random pairs of each preset, compiled with and without contraction, {other} have another "
+        f"outcome than by our kernel of the same variant; {beside} of these lie within {BESIDE:g} of a boundary in the "
+        "speed."
     )
     return "\n\n".join(["## The exported law", of_rows(speeds), said, agreed])
 

@@ -6,10 +6,8 @@ import sys
 import tempfile
 import time
 from collections.abc import Callable, Mapping
-from statistics import median
 from typing import Any
 
-from wetdoublet.solvers.formatting.markdown import table
 from wetdoublet.solvers.host.compiler import compiler
 
 Record = dict[str, Any]

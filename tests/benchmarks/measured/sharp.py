@@ -8,7 +8,6 @@ from typing import Any
 import numpy as np
 from wetdoublet.generated.automaton import CRITERIA
 from wetdoublet.solvers.engines.casadi.locate import EventLocator
-from wetdoublet.solvers.formatting.markdown import table
 from wetdoublet.solvers.model.dimensionless import DimensionlessGroups
 from wetdoublet.solvers.model.model import load, select_model
 from wetdoublet.solvers.scene.scene import Scene
