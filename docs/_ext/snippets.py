@@ -35,12 +35,14 @@ LONG = re.compile(
     r"wetdoublet (reproduce|bench|verify|compile|explore|design|fit \S+ \S+ .* --plot|boundary \S+ --angle 0:85 )"
     r"|--stress|--scheduler|:10000 "
     r"|wetdoublet (averages|boundary granulation|critical lactose-pvp|fit pendulum)"
-    r"|wetdoublet map granulation --stokes log:0.005:0.5:60"
+    r"|wetdoublet map (my-powder.toml|granulation --stokes log:0.005:0.5:60)"
 )
 """Commands that take tens of seconds, or do what a cell of their page does: `tests/test_docs.py` holds their options,
 tests of their own what they do; the site has an explorer of its own."""
 DATA = {"synthetic-steel-spheres.csv": "impacts.csv", "films.csv": "films.csv", "materials.csv": "materials.csv"}
 """Tables of the reader's, and what pages call them."""
+TESTED = {"surprises.md"}
+"""Pages of which every line has a test of its own."""
 GIVEN = {
     "my-scene.toml": read_text("granulation")[0], "mine.py": TEMPLATE,
     "bad.py": TEMPLATE.replace("stress * neck", "stress * R"), "fitted.toml": read_text("pendulum")[0],
@@ -52,7 +54,7 @@ PREAMBLE = "import numpy as np\nst, theta = np.array([0.02, 0.03]), np.array([1.
 
 def pages() -> list[Path]:
     """README.md and what was written by hand for the site."""
-    site = (path for path in (ROOT / "docs").rglob("*.md") if not {*path.relative_to(ROOT).parts} & MADE)
+    site = (path for path in (ROOT / "docs").rglob("*.md") if not {*path.relative_to(ROOT).parts} & (MADE | TESTED))
     return [ROOT / "README.md", *sorted(site)]
 
 
@@ -132,7 +134,7 @@ def _last(text: str) -> str:
 def main() -> None:
     """Run all pages."""
     os.environ["PATH"] = f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"
-    os.environ.setdefault("WETDOUBLET_CFLAGS", "-O0")  # as the tests, which share the cache of kernels
+    os.environ.setdefault("WETDOUBLET_CFLAGS", "-Og")  # as the site, which shares the cache
     os.environ.setdefault("CFLAGS", "-O0")
     for module in ("casadi", "h5netcdf", "matplotlib.figure", "pandas", "scipy.optimize", "xarray", *_COMMANDS):
         __import__(module)
