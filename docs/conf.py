@@ -10,7 +10,7 @@ sys.path.insert(0, str(HERE / "_ext"))
 # notebooks and their shell commands find the environment that builds the site
 os.environ["PATH"] = str(Path(sys.executable).parent) + os.pathsep + os.environ["PATH"]
 os.environ["WETDOUBLET_DOCS"] = str(HERE)  # and the data
-os.environ.setdefault("WETDOUBLET_CFLAGS", "-Og")  # as `snippets.py`: kernels of few uses
+os.environ.setdefault("WETDOUBLET_CFLAGS", "-Og")  # with kernels of -O0 a fit takes more than twice as long
 
 from gallery_pictures import WrittenPictures  # noqa: E402 -- found by the path that is set above
 
@@ -47,7 +47,6 @@ myst_heading_anchors = 3
 nb_execution_mode = "force"  # outputs are those of the code as it is
 nb_execution_in_temp = True
 nb_execution_show_tb = True
-nb_execution_cache_path = str(HERE / "_build" / ".jupyter_cache")
 nb_execution_timeout = 180
 nb_execution_raise_on_error = True
 nb_merge_streams = True

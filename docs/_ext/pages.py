@@ -8,36 +8,25 @@ from typing import Any
 import api
 import automaton_drawing
 import automaton_page
-import drawings
 import laws
 import scene_entries
 from wetdoublet.solvers.explorer.page_of_scene import explore
-from wetdoublet.solvers.scene.scene import Scene
 from wetdoublet.solvers.scene.scenefile import PRESETS
 
 DOCS = Path(__file__).resolve().parents[1]
 
 
-def put(path: Path, text: str) -> None:
-    """Write a page if it has changed, so that Sphinx does not read it again for nothing."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    if not path.is_file() or path.read_text(encoding="utf-8") != text:
-        path.write_text(text, encoding="utf-8")
-
-
-def write(_app: Any = None) -> None:
+def write(_app: Any = None, _config: Any = None) -> None:
     """Write all pages and drawings."""
-    for name, text in {**scene_entries.pages(), **laws.pages(), **api.pages()}.items():
-        put(DOCS / name, text)
+    written = {**scene_entries.pages(), **laws.pages(), **api.pages(), "_emitted/automaton.md": automaton_page.page()}
+    written["_emitted/site/explorer.html"] = explore(*PRESETS).html
+    for name, text in written.items():
+        path = DOCS / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        if not path.is_file() or path.read_text(encoding="utf-8") != text:  # else Sphinx reads it again for nothing
+            path.write_text(text, encoding="utf-8")
     laws.plots(DOCS / "reference" / "laws")
-    drawings.write(DOCS / "_emitted")
-    mikami = Scene.load("granulation")
-    put(
-        DOCS / "_emitted" / "site" / "explorer.html",
-        explore(*PRESETS, mikami.with_entries({"bridge.law": "willett"})).html,
-    )
-    put(DOCS / "_emitted" / "automaton.svg", automaton_drawing.drawing())
-    put(DOCS / "_emitted" / "automaton.md", automaton_page.page())
+    automaton_drawing.draw(DOCS / "_emitted" / "automaton.svg")
 
 
 def required_arguments(_app: Any, context: Any, lines: list[str]) -> None:
@@ -51,10 +40,6 @@ def required_arguments(_app: Any, context: Any, lines: list[str]) -> None:
 def setup(app: Any) -> dict[str, bool]:
     """Register with Sphinx."""
     app.setup_extension("sphinx_click")
-    app.connect("config-inited", lambda app, _config: write(app))
+    app.connect("config-inited", write)
     app.connect("sphinx-click-process-arguments", required_arguments)
     return {"parallel_read_safe": True, "parallel_write_safe": True}
-
-
-if __name__ == "__main__":
-    write()

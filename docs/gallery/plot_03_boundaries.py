@@ -9,7 +9,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 from wetdoublet import Scene, boundary
 
-scene, degrees = Scene.load("granulation"), np.arange(20, 81, 5.0)
+scene, degrees = Scene.load("granulation"), np.arange(20, 81, 7.5)
 figure, axes = plt.subplots(layout="constrained")
 for viscosity, colour in (("1 Pa s", "#e3b34c"), ("2 Pa s", "#c1554a"), ("4 Pa s", "#5b7fa3")):
     found = boundary(scene.with_entries({"liquid.viscosity": viscosity}), angle=np.radians(degrees))

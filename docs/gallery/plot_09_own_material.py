@@ -10,7 +10,7 @@ import numpy as np
 import wetdoublet as wd
 
 scene = wd.Scene.load("lactose-pvp").with_entries({"particles.diameter": "300 um", "liquid.coating_thickness": "6 um"})
-angles = np.radians(np.linspace(0, 75, 16))
+angles = np.radians(np.linspace(0, 75, 11))
 
 figure, axes = plt.subplots(layout="constrained")
 for viscosity in ("7 mPa s", "40 mPa s", "100 mPa s"):

@@ -13,7 +13,7 @@ from wetdoublet import collide_many
 
 names = ["liquid.viscosity", "bridge.volume", "particles.dry_restitution", "angle"]
 box = {"num_vars": 4, "names": names, "bounds": [(1.5, 2.5), (0.05, 0.2), (0.9, 1.0), (1.0, 1.3)]}  # SI, radians
-*entries, angle = sobol.sample(box, 512, calc_second_order=False, seed=0).T
+*entries, angle = sobol.sample(box, 256, calc_second_order=False, seed=0).T
 found = collide_many("granulation", stokes=0.05, angle=angle, vary=dict(zip(names, entries, strict=False)), rtol=1e-6)
 part = indices.analyze(box, found.restitution.values, calc_second_order=False, seed=1)
 

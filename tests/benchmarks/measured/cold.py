@@ -6,10 +6,8 @@ import sys
 import tempfile
 import time
 from collections.abc import Callable, Mapping
-from statistics import median
 from typing import Any
 
-from wetdoublet.solvers.formatting.markdown import table
 from wetdoublet.solvers.host.compiler import compiler
 
 Record = dict[str, Any]
@@ -60,25 +58,3 @@ def first_use(repeats: int = 5, process: Process | None = None) -> list[Record]:
                     taken[name].append((process or spent)(["-c", program], where))
         rows.append({"preset": preset, **taken})
     return rows
-
-
-def cold_table(taken: Mapping[str, list[float]]) -> str:
-    """Wall times of fresh processes."""
-    least = {name: min(times) for name, times in taken.items()}
-    base = least.get("import casadi")
-    rows = [
-        [name, f"{least[name]:.3f}", f"{median(times):.3f}", f"{least[name] / base:.2f}" if base else "-"]
-        for name, times in taken.items()
-    ]
-    return table(["process", "best s", "median s", "times import casadi"], rows)
-
-
-def first_table(found: list[Record]) -> str:
-    """Whole processes by what they find; the difference to the imports is of the best of each."""
-    rows = []
-    for each in found:
-        least = {name: min(each[name]) for name in ("imports", "first", "second")}
-        more = [f"{least[name]:.3f} ({least[name] - least['imports']:+.3f})" for name in ("first", "second")]
-        rows.append([each["preset"], f"{least['imports']:.3f}", *more])
-    head = ["collide_many by the kernel", "imports alone, s", "empty cache, s (beyond the imports)"]
-    return table([*head, "next process, s (beyond the imports)"], rows)

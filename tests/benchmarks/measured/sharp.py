@@ -8,7 +8,6 @@ from typing import Any
 import numpy as np
 from wetdoublet.generated.automaton import CRITERIA
 from wetdoublet.solvers.engines.casadi.locate import EventLocator
-from wetdoublet.solvers.formatting.markdown import table
 from wetdoublet.solvers.model.dimensionless import DimensionlessGroups
 from wetdoublet.solvers.model.model import load, select_model
 from wetdoublet.solvers.scene.scene import Scene
@@ -126,27 +125,3 @@ def sharp(tell: Callable[[str], None] = lambda _: None) -> list[Record]:
             }
         )
     return found
-
-
-def sharp_text(found: Sequence[Record]) -> str:
-    """The table, of every second tolerance, and whether the goal is reached."""
-    cells = [
-        [
-            f"{each['preset']}, {each['collisions']} collisions",
-            f"{row['rtol']:.0e}",
-            f"{row['relative']:.1e}",
-            f"{row['conditioned']:.1e}",
-        ]
-        for each in found
-        for row in each["rows"][::2]
-    ]
-    own = ", ".join(f"{each['reference']:.0e} ({each['preset']})" for each in found)
-    least = max(min(row["conditioned"] for row in each["rows"]) for each in found)
-    said = "is reached" if least <= GOAL else f"is missed: {least:.1e}"
-    note = (
-        "Largest relative error in e_n of the collisions that separate, and the largest over the conditioning "
-        "|d ln e_n/d ln v0| (at least 1), of the kernel; against heyoka in 80-bit numbers at a tolerance of 1e-18, "
-        f"from the same equations. At 1e-17 that differs by {own} of the conditioning."
-    )
-    head = ["collisions", "rtol", "error", "over the conditioning"]
-    return "\n\n".join([note, table(head, cells), f"{GOAL:.0e} times the conditioning {said}."])

@@ -78,15 +78,12 @@ def note(record: Record) -> str:
 
 
 NOTE = """\
-Each at its cheapest setting with all outcomes right and a largest error of at most {bound}, 1000 in a call or just
-more, all in one run. Events of heyoka end in callbacks; from Python these are Python. The pendulum's margins that prove
-a stick are a compiled function of heyoka's, called from there.
+Each at its cheapest setting with all outcomes right and a largest error of at most {bound}, some 1000 in a call, all
+in one run. Events of heyoka end in callbacks; from Python these are Python.
 
-* **heyoka in Python**: as a Python user gets it.
-* **Without callbacks**: less the CPU time within callbacks, by a clock in each. The way from heyoka to Python and the
-  clock are subtracted too, measured on an oscillator whose crossings call a function that does nothing{around}.
-  Somebody who calls heyoka from C++ waits at least so long: what callbacks do costs something there as well. There is
-  no driver in C++ here, as neither PyPI's nor Debian's packages hold heyoka's headers.
+* **Without callbacks**: less the CPU time within callbacks, by a clock in each, and less the way from heyoka to Python,
+  measured on an oscillator whose crossings call a function that does nothing{around}. A caller in C++ waits at least
+  so long, as what callbacks do costs something there as well.
 * **Ours**: `collide_many` and `gradients_many` as a user calls them; "kernel alone" leaves out what these add.
 
 All get the same collisions, none of which is decided at initial contact by any of our proofs. heyoka does not get our

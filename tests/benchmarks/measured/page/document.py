@@ -12,7 +12,6 @@ from pathlib import Path
 from typing import Any
 
 from ...law_in_c import section as exported_law
-from ..cold import cold_table
 from . import beside_heyoka, tables
 from .targets import headline, target_table
 
@@ -46,7 +45,6 @@ def page(bench: Record, stress: Record | None, folder: str, law: Record | None =
         parts += [title, *drawn, *([body] if body else [])]
     if law is not None:
         parts.append(exported_law(law))
-    parts += ["## Cold start", cold_table(bench["cold_start"])]
     if stress is not None:
         parts += ["## Engines against each other", STRESS, f"**{stress['summary']}**"]
         parts += [stress["tables"]["disagreements"], stress["tables"]["engines"], stress["tables"]["ledgers"]]

@@ -4,11 +4,9 @@ from typing import Any
 
 from wetdoublet.solvers.formatting.markdown import table
 
-from ..cold import first_table
 from ..digits import us
 from ..gradient_work import gradient_work_text
 from ..near import near_text
-from ..sharp import sharp_text
 
 BOUNDS = (1e-4, 1e-6, 1e-8, 1e-10)  # of the largest error, in the table of costs at equal error
 
@@ -83,16 +81,12 @@ def _some(places: list[str]) -> str:
 
 
 def others(record: Record) -> list[str]:
-    """What was measured besides: gradients, exact answers, the separatrix, growth; nothing for what was not."""
+    """What was measured besides: gradients, the separatrix, growth; nothing for what was not."""
     parts: list[str] = []
     if record["gradient_work"]:
         parts += ["## Gradients to twelve parameters, beside peers", gradient_work_text(record["gradient_work"])]
-    if record["sharp"]:
-        parts += ["## How exact an answer can be asked for", sharp_text(record["sharp"])]
     if record["near"]:
         parts += ["## Near the separatrix", near_text(record["near"])]
     if record["growth"]:
         parts += ["## From one collision to many"]
-    if record["first_use"]:
-        parts += ["## First use", first_table(record["first_use"])]
     return parts
