@@ -340,6 +340,7 @@ sensitivity pendulum --wrt liquid.viscosity,impact.angle --method adjoint --json
 export granulation --to casadi --out exported
 export pendulum --to latex --out exported
 export granulation --to matlab
+diff granulation granulation --set bridge.law=willett
 reproduce factors --out paper
 """
 COMMANDS = """
@@ -347,6 +348,8 @@ map pendulum --stokes 0.5:3:6 --angle 20:60:5 --vary liquid.viscosity=20Pa_s:40P
 boundary granulation --angle 30:60 --plot atlas.png
 boundary granulation --angle 50:60 --json
 sensitivity granulation --wrt liquid.viscosity,impact.angle
+diff library mine.py
+diff granulation granulation-dry-bridge -o diff.md
 generate mine.py --out mine
 collide granulation --model mine
 reproduce table1 --out paper

@@ -19,7 +19,7 @@ from .bar import AtWork
 
 COMMANDS = (
     "scenes", "collide", "sensitivity", "map", "boundary", "critical", "averages", "reproduce", "generate",
-    "export", "explore", "verify", "bench", "prove", "tracks", "check", "fit", "design", "compile", "cite",
+    "diff", "export", "explore", "verify", "bench", "prove", "tracks", "check", "fit", "design", "compile", "cite",
 )  # fmt: skip
 """Each is the function `command` of the module of that name in `commands/`, imported when it is called."""
 

@@ -6,6 +6,7 @@ import pytest
 import sympy as sp
 from wetdoublet.derive.checks.user import checks_of, model_checks
 from wetdoublet.derive.checks.words import conserved, in_words
+from wetdoublet.derive.emit.compare import same
 from wetdoublet.derive.emit.document.document import document
 from wetdoublet.derive.equations.model import derive
 from wetdoublet.derive.physics.laws import LAWS, fill
@@ -24,8 +25,6 @@ from wetdoublet.derive.vocabulary.dimensions import (
     UnitError,
     dimension_of_unit,
 )
-
-from ...helpers.same_mathematics import same
 
 HEAD = "from wetdoublet.derive.user import *\n"
 
@@ -258,9 +257,10 @@ def test_document_has_the_models_own_lines():
     """Table 1 of a model shows its force over its quantities, its parts, and its group; strings are left out."""
     laws = {slot: next(iter(known)) for slot, known in LAWS.items()} | {"bridge": "yielding"}
     made = document("mine", laws, read(Path("mine.py"), TEMPLATE), ("strings",))
-    tex = made.tex()
-    assert r"\tau_y" in tex
-    assert r"\frac{x}{2 a \sqrt{V}}" in tex
-    assert r"\frac{a \tau_y}{\sigma}" in tex
-    assert "F_{S,n}" not in tex
+    tex, page = made.tex(), made.markdown()
+    for text in (tex, page):
+        assert r"\tau_y" in text
+        assert r"S = \frac{x}{2 a \sqrt{V}}".partition(" = ")[2] in text
+        assert r"\frac{a \tau_y}{\sigma}" in text
+        assert "F_{S,n}" not in text
     assert tex.count(r"\begin{align*}") == tex.count(r"\end{align*}")

@@ -4,13 +4,12 @@ from pathlib import Path
 
 import pytest
 import sympy as sp
+from wetdoublet.derive.emit.compare import same
 from wetdoublet.derive.equations.model import derive
 from wetdoublet.derive.physics.structure import Structure
 from wetdoublet.derive.user.declarations import ModelFileError
 from wetdoublet.derive.user.modelfile import read
 from wetdoublet.derive.user.structures import UserModel
-
-from ...helpers.same_mathematics import same
 
 OBLIQUE = Structure(True, True, False)
 HEAD = 'from wetdoublet.derive.user import *\nk = quantity("k", unit="1/s")\nd = quantity("d", unit="m")\n'

@@ -38,7 +38,7 @@ DRAWN = {"collide", "sensitivity", "sensitivity band", "boundary", "critical", "
 SILENT = {  # why the others show no speed
     "prove": "names in SI and Stokes numbers", "reproduce": "the paper's figures are over Stokes numbers and angles",
     "verify": "residuals of laws", "bench": "CPU times and errors", "export": "functions, whose headers name arguments",
-    "generate": "files of equations", "compile": "digests", "cite": "references",
+    "generate": "files of equations", "diff": "files of equations", "compile": "digests", "cite": "references",
     "explore": "a page, whose labels say which",
     "tracks": "the columns of `fit`; printed, they say normal speed",
 }  # fmt: skip

@@ -1,4 +1,4 @@
-"""`export`: equations that read, C that computes the same."""
+"""`diff`: exactly the terms that differ, and what they do; `export`: equations that read, C that computes the same."""
 
 import json
 import re
@@ -8,9 +8,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import sympy as sp
 from matplotlib.mathtext import MathTextParser
+from wetdoublet.derive.emit.compare import compare, equations, plain, same
+from wetdoublet.derive.emit.read import ReadError, functions
 from wetdoublet.solvers import Scene
-from wetdoublet.solvers.export import functions
+from wetdoublet.solvers.export import differences
 from wetdoublet.solvers.export.functions import functions as exported
 from wetdoublet.solvers.export.functions import texts as c_texts
 from wetdoublet.solvers.model.dimensionless import nondimensionalise
@@ -18,7 +21,92 @@ from wetdoublet.solvers.model.model import load, select_model
 
 from ...helpers.command import run
 
-GENERATED = Path(functions.__file__).parents[2] / "generated"
+GENERATED = Path(differences.__file__).parents[2] / "generated"
+RULES = ("__init__.py", "assemble.py", "automaton.py", "references.py")  # no equations
+MODULES = sorted(path for path in GENERATED.rglob("*.py") if path.name not in RULES)
+
+
+def edited(path: str, before: str, after: str):
+    """Changes found when `before` stands as `after` in an emitted module."""
+    text = (GENERATED / path).read_text()
+    assert before in text
+    pair = (equations({"here": each}) for each in (text, text.replace(before, after)))
+    return [(change.kind, change.equation, change.before, change.after) for change in compare(*pair)]
+
+
+@pytest.mark.parametrize("path", MODULES, ids=lambda path: path.stem)
+def test_every_emitted_module_is_read_back(path: Path):
+    """What is emitted is read as mathematics without being run: as many functions as it has, no change to itself."""
+    text = path.read_text()
+    assert len(functions(text)) == len(re.findall(r"^def ", text, re.MULTILINE)) > 0
+    found = equations({"": text})
+    assert compare(found, found) == ()
+
+
+def test_a_changed_coefficient_is_that_term():
+    """One coefficient of Mikami's fit: one equation, one term, before and after."""
+    [(kind, equation, before, after)] = edited("laws/bridge_mikami.py", "0.0042*log_volume", "0.0018*log_volume")
+    assert (kind, equation) == ("changed", "here: tail")
+    assert (plain(before), plain(after)) == ("0.0042*log_volume", "0.0018*log_volume")
+
+
+def test_an_added_and_a_removed_term():
+    """A force more in the equation of motion is added to it; read the other way it is removed."""
+    text = (GENERATED / "oblique_reduced.py").read_text()
+    more = text.replace(
+        '"normal_velocity": centrifugal_force - film_force', '"normal_velocity": centrifugal_force - film_force - gap'
+    )
+    assert more != text
+    one, other = (equations({"": each}) for each in (text, more))
+    [added] = compare(one, other)
+    [removed] = compare(other, one)
+    assert (added.kind, added.equation, plain(added.after)) == ("added", "d normal_velocity/dt", "-gap")
+    assert (removed.kind, plain(removed.before)) == ("removed", "-gap")
+
+
+def test_rearranging_is_no_difference():
+    """The same mathematics written otherwise differs in no term; another sign does."""
+    assert edited("laws/bridge_constant.py", "2*cos(contact_angle)", "cos(contact_angle)/0.5") == []
+    assert len(edited("laws/bridge_constant.py", "2*cos(contact_angle)", "-2*cos(contact_angle)")) == 1
+    x = sp.Symbol("x", positive=True)
+    assert same((x + 1) ** 2, x**2 + 2 * x + 1)
+    assert not same(sp.sin(x), x)
+
+
+def test_foreign_code_is_not_read():
+    """Text that is never emitted is an error that names its line."""
+    with pytest.raises(ReadError, match="line 2"):
+        functions("def f(x):\n    import os\n")
+    with pytest.raises(ReadError, match=r"os\.system"):
+        functions("def f(x):\n    return os.system(x)\n")
+
+
+@pytest.mark.slow
+def test_the_command_shows_terms_and_what_they_do():
+    """Soulie instead of Mikami: two coefficients of B, one of C, the own rupture; Ce* falls."""
+    done = run("diff", "granulation", "granulation", "--set", "bridge.law=soulie")
+    assert done.exit_code == 0, done.output
+    assert "3 equations differ" in done.output
+    changed = re.findall(r"changed  (.*)\n +to   (.*)", done.output)
+    assert ("0.0042*log_volume", "0.0018*log_volume") in changed
+    assert ("-0.019*log_volume", "-0.0082*log_volume") in changed
+    assert len(changed) == 4
+    ce = [float(value) for value in re.findall(r"Ce\* ([\d.]+)", done.output.split("stick-rotate-separate")[1])]
+    assert ce[0] == pytest.approx(4.121, rel=1e-3)  # midgap arm, the prototype's
+    assert ce[1] < ce[0]
+
+
+@pytest.mark.slow
+def test_folders_of_other_versions_are_compared(tmp_path: Path):
+    """Two folders that `generate` made, one of them by other equations: the term is shown, nothing is computed."""
+    for name in ("old", "new"):
+        shutil.copytree(GENERATED, tmp_path / name, ignore=shutil.ignore_patterns("__pycache__"))
+    law = tmp_path / "new" / "laws" / "shear_film.py"
+    law.write_text(law.read_text().replace("-log(gap)", "-log(gap) + aspect"))
+    done = run("diff", str(tmp_path / "old"), str(tmp_path / "new"))
+    assert done.exit_code == 0, done.output
+    assert "1 equation differs" in done.output
+    assert re.search(r"laws/shear_film: log_factor\n +added +aspect", done.output)
 
 
 @pytest.mark.slow

@@ -1,0 +1,169 @@
+"""Differences between two models: terms of their equations, and results of a few collisions."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from ..boundaries.boundary import boundary
+from ..collision.collide import collide
+from ..errors import ComputationError, InputError, did_you_mean
+from ..host import bounded
+from ..host.emitted import text, with_imports
+from ..model.key import ModelKey
+from ..model.model import select_model
+from ..scene.scene import Scene
+from ..scene.scenefile import PRESETS
+from ..scene.user_model import Package
+from ..scene.user_model_source import open_package
+
+if TYPE_CHECKING:
+    from ...derive.emit.compare import Change
+
+LIBRARY = "library"
+_ANGLES = (0.0, 45.0, 60.0, 75.0)
+_FACTORS = (0.5, 1.0, 2.0)
+_LINE = math.radians(45)
+
+
+@dataclass(frozen=True)
+class Side:
+    """One of the two models: texts of its emitted modules by name, and its scene if it can be computed."""
+
+    name: str
+    modules: dict[str, str]
+    scene: Scene | None
+
+
+@dataclass(frozen=True)
+class Probe:
+    """One impact computed with both models: outcome and e_n of each (None if failed)."""
+
+    stokes: float
+    angle: float  # rad
+    results: tuple[tuple[str, float] | None, tuple[str, float] | None]
+
+
+@dataclass(frozen=True)
+class Differences:
+    """The differences. `boundaries` has, for each side, (change, St, Ce) along 45 deg."""
+
+    names: tuple[str, str]
+    changes: tuple[Change, ...]
+    probes: tuple[Probe, ...]
+    boundaries: tuple[tuple[tuple[str, float, float | None], ...], ...]
+
+
+def differences(one: str, other: str, probe: str = "granulation", changes: dict[str, str] | None = None) -> Differences:
+    """Compare two models; InputError for an argument that is none of these.
+
+    Arguments:
+        one, other: `library`, a preset, a scene file, a model's folder or file, or a folder of `generate`.
+        probe: the scene into which models are put for the compared collisions.
+        changes: entries to change in the second scene.
+    """
+    from ...derive.emit.compare import compare, equations  # imports sympy
+    from ...derive.emit.read import ReadError
+
+    sides = _sides(one, other, probe, changes or {})
+    try:
+        equation_changes = compare(*(equations(side.modules) for side in sides))
+    except ReadError as error:
+        raise InputError(
+            "diff", None, "folders as `wetdoublet generate` emits them", f"cannot be read: {error}"
+        ) from None
+    scenes = [side.scene for side in sides if side.scene is not None]
+    if len(scenes) < 2:
+        return Differences((sides[0].name, sides[1].name), equation_changes, (), ())
+    lines = tuple(tuple(_line(scene)) for scene in scenes)
+    return Differences((sides[0].name, sides[1].name), equation_changes, tuple(_probes(scenes)), lines)
+
+
+def _sides(one: str, other: str, probe: str, changes: dict[str, str]) -> tuple[Side, Side]:
+    if bounded.is_folder(one) and bounded.is_folder(other):
+        try:
+            packages = [open_package(one, "A"), open_package(other, "B")]
+        except InputError:  # perhaps of another version: compare emitted texts, compute nothing
+            return Side(one, _folder(one), None), Side(other, _folder(other), None)
+        first, second = (Scene.load(probe, package) for package in packages)
+    else:
+        first, second = _scene(one, probe, "A"), _scene(other, probe, "B")
+    second = second.with_entries(changes)
+    return Side(one, _modules(first), first), Side(other, _modules(second), second)
+
+
+def _scene(source: str, probe: str, label: str) -> Scene:
+    if source == LIBRARY:
+        return Scene.load(probe)
+    if bounded.is_folder(source) or source.endswith(".py"):
+        return Scene.load(probe, open_package(source, label))
+    if source not in PRESETS and not bounded.exists(source):
+        known = (LIBRARY, *PRESETS)
+        accepted = f"{', '.join(known)}, a scene file, a folder of `generate`, or MODEL.py"
+        raise InputError(label, source, accepted, "is none of these" + did_you_mean(source, known))
+    return Scene.load(source)
+
+
+def _modules(scene: Scene) -> dict[str, str]:
+    """Emitted texts of the structure and laws of a scene's oblique collisions."""
+    choice = select_model(scene, oblique=True, full=True)
+    texts = {"": _structure(choice)}
+    for slot, name in choice.laws:
+        texts[slot] = _law(choice.package, slot, name)
+    if choice.package is not None and choice.package.manifest["scaling"]:
+        texts["scaling"] = choice.package.text_of("scaling.py")
+    return texts
+
+
+def _structure(choice: ModelKey) -> str:
+    package = choice.package
+    if package is not None and package.changes(tuple(slot for slot, _ in choice.laws)):
+        return package.structure_text(choice.structure)
+    return text(choice.structure)
+
+
+def _law(package: Package | None, slot: str, name: str) -> str:
+    if package is not None and name in package.laws(slot):
+        return package.text_of(package.law_file(slot, name))
+    return text(f"laws.{slot}_{name.replace('-', '_')}")
+
+
+def _folder(path: str) -> dict[str, str]:
+    """Texts of every law, structure and scaling in a folder written by `generate`."""
+    folder = Path(path)
+    accepted = "a folder made by `wetdoublet generate --out DIR`"
+    try:
+        listed = json.loads(bounded.text(folder / "manifest.json"))["files"]
+        others = ("__init__.py", "assemble.py", "automaton.py", "model.py")  # which hold no equations
+        names = [name for name in listed if name.endswith(".py") and not name.endswith(others)]
+        texts = {name.removesuffix(".py"): bounded.text(folder / name) for name in names}
+        return {name: with_imports(each, texts.__getitem__) for name, each in texts.items()}
+    except (AttributeError, OSError, ValueError, KeyError, TypeError, SyntaxError, bounded.NotRead):
+        raise InputError("diff", path, accepted, "holds nothing emitted") from None
+
+
+def _probes(scenes: Sequence[Scene]) -> list[Probe]:
+    stokes = scenes[0].stokes or 1.0
+    probes = []
+    for angle in map(math.radians, _ANGLES):
+        for factor in _FACTORS:
+            pair = [_collided(scene, stokes * factor, angle) for scene in scenes]
+            probes.append(Probe(stokes * factor, angle, (pair[0], pair[1])))
+    return probes
+
+
+def _collided(scene: Scene, stokes: float, angle: float) -> tuple[str, float] | None:
+    try:
+        one = collide(scene, stokes=stokes, angle=angle, ledger=False)
+    except ComputationError:
+        return None
+    return one.outcome, one.restitution
+
+
+def _line(scene: Scene) -> list[tuple[str, float, float | None]]:
+    line = boundary(scene, angle=_LINE)
+    return [(f"{one.before} -> {one.after}", one.stokes, one.centrifugal) for one in line.changes[0]]
