@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Automaton sha256 25e653dd14dd2315245e58f0c4d66a5b0165d1807848e1dc6cfca7cf6d3cd5a6
+# Automaton sha256 90498b3db377b83820431858c35fad21cbb346718f97c2416b4cc7b1c711689e
 """A collision as a hybrid automaton: events, their guards and effects, rules, words, outcomes."""
 
 from __future__ import annotations
@@ -100,10 +100,9 @@ class Status(IntEnum):
     NOT_FINITE = 3  # the state is not finite
     CHATTER = 4  # the budget of steps is exhausted after more than CHATTER_PHASES phases
     TOO_OBLIQUE = 5  # the centrifugal force is beyond MOST_OBLIQUE
-    RESTS_IN_FRICTION = 6  # resting contact with friction, whose modes this kernel does not integrate
-    ESCAPED = 7  # a stick that is proved separates when it is followed on: a defect
-    WITHIN_ROUNDING = 8  # the doublet separates at less than LEAST_PARTING, or by less than LEAST_MOMENTUM
-    UNDECLARED = 9  # a declared event creates kinetic energy that it does not declare
+    ESCAPED = 6  # a stick that is proved separates when it is followed on: a defect
+    WITHIN_ROUNDING = 7  # the doublet separates at less than LEAST_PARTING, or by less than LEAST_MOMENTUM
+    UNDECLARED = 8  # a declared event creates kinetic energy that it does not declare
 
 
 LAST_ANSWER = Status.PROVED_AT_TOUCH

@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Automaton sha256 25e653dd14dd2315245e58f0c4d66a5b0165d1807848e1dc6cfca7cf6d3cd5a6
+ * Automaton sha256 90498b3db377b83820431858c35fad21cbb346718f97c2416b4cc7b1c711689e
  *
  * The search for the events of a step. Included behind what it calls. */
 

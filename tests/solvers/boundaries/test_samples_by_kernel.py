@@ -53,4 +53,3 @@ def test_margins(name: str):
         }
         moved = collide_many(scene, stokes=stokes, angle=angle, vary=vary, of=("reversal",))
         assert ((moved.reversal.values >= 0) == is_met).all()
-
