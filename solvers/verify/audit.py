@@ -60,8 +60,8 @@ def stick_audit(
         try:
             on = run(scene, n, _RTOL, until=end + LONG).answers[0]
         except ComputationError as failure:
-            kind = escaped if SEPARATES in failure.message else unfinished
-            kind.append(f"{place(stokes, angle)}, decided at {end:.3g} x0/v0: {failure.message}")
+            where = escaped if SEPARATES in failure.message else unfinished
+            where.append(f"{place(stokes, angle)}, decided at {end:.3g} x0/v0: {failure.message}")
             continue
         cut += on["time"] < end + LONG
     tried = proved + settled
@@ -78,5 +78,5 @@ def stick_audit(
     if integrated < count:
         about.append(f"  {count - integrated} more impacts were left out for lack of time")
     ok = not escaped and len(unfinished) <= tried // 10 if tried else None
-    where = escaped[0] if escaped else ""
-    yield Finding("", "stick certificate", statement, figure, "", ok, where, tuple(about))
+    first = escaped[0] if escaped else ""
+    yield Finding("", "stick certificate", statement, figure, "", ok, first, tuple(about))

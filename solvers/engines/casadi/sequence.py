@@ -149,8 +149,8 @@ def _simultaneous(log: np.ndarray, words: Sequence[str]) -> Iterator[list[np.voi
 def _run(model: Model, phase: Phase, duration: float, kinds: tuple[str, ...]) -> PhaseRun:
     word = kinds[0]
     if word in CRITERIA:
-        event = "glass" if word == "glass" else "contact"
-        landed = event if duration > 0 else None
+        surface = "glass" if word == "glass" else "contact"
+        landed = surface if duration > 0 else None
         return PhaseRun(phase, duration, landed, kinds, rebounds=True, holds=_RESTS in kinds)
     own = next((event for event in model.own_events if event.word == word), None)
     if own is not None:

@@ -116,7 +116,8 @@ def _low_minima(parts: np.ndarray, values: np.ndarray, rates: np.ndarray, low: f
         at = np.where(np.abs(cubic) > 1e-14 * np.abs(square), (root - square) / (3 * cubic), -slope / (2 * square))
     at = np.clip(np.nan_to_num(at, nan=0.5), 0.0, 1.0)
     least = ((cubic * at + square) * at + slope) * at + first
-    return dips[least < low]
+    low_ones: np.ndarray = dips[least < low]
+    return low_ones
 
 
 def _narrowed(

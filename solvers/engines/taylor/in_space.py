@@ -2,6 +2,7 @@
 
 import ctypes
 from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 
@@ -57,7 +58,7 @@ def run_in_space(
 
 def recorded_in_space(
     scene: Scene, vectors: Mapping[str, np.ndarray], speed: np.ndarray, rtol: float
-) -> tuple[np.void, np.ndarray]:
+) -> tuple[Any, np.ndarray]:
     """The answer of one collision, and its events with the modes between them (`HAPPENING`)."""
     library, room = kernel(variant_in_space(scene, rtol)), _ROOM
     while True:
