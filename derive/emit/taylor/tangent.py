@@ -14,6 +14,7 @@ from ...equations.friction import IMPULSE
 from ...equations.model import Model
 from ...physics.laws import LAWS
 from ...physics.laws.base import Law, filled, slot_calls
+from ..casadi.printer import EmissionError
 from ..provenance import header, model_digest
 from .adjoint import Adjoint, contraction
 from .c_text import Text
@@ -208,6 +209,8 @@ class Tangent(LinearFlow):
             ("rubbed", "vec impulse, vec moved, vec *after", states,
              "Derivative of the state just after an impulse, which moves as well.", (IMPULSE,)),
         )  # fmt: skip
+        if "arm.lever" in self.beside.extra:
+            raise EmissionError("the dry friction of a lever arm of more than the gap has no derivatives in C")
         lines = []
         for name, arguments, targets, doc, moved in jumps:
             head = f"static inline void {name}_along({_ALONG}{arguments})"
