@@ -85,13 +85,16 @@ def _attempt(step: Callable[..., Any], *arguments: Any) -> Any:
 
 
 def _enclosed(angles: Sequence[float], sampler: SceneSampler, brackets: Brackets) -> Brackets:
-    """The brackets divided by outcomes to _NARROW in ln St, first with the steps of a sample, then with all."""
+    """The brackets divided by outcomes to _NARROW in ln St; with all steps where those of a sample do not decide."""
 
     def outcomes(budget: int, line: np.ndarray, stokes: np.ndarray) -> np.ndarray:
         return sampler.outcomes(np.array(angles)[line], stokes, budget)
 
     for budget in (SAMPLE_BUDGET, KERNEL_STEPS):
-        brackets = enclose(partial(outcomes, budget), brackets, _NARROW, at_once=_AT_ONCE, unknown=-1, logarithmic=True)
+        wide = np.log(brackets.high / brackets.low) >= MERGED
+        labels = partial(outcomes, budget)
+        narrow = enclose(labels, brackets.part(wide), _NARROW, at_once=_AT_ONCE, unknown=-1, logarithmic=True)
+        brackets = Brackets.joined([brackets.part(~wide), narrow])
     return brackets
 
 

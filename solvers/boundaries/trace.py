@@ -16,15 +16,15 @@ from ..errors import ComputationError
 from ..host.workers import lasting_workers
 from ..scene.scene import Scene
 from .changes import Change, changes_along
-from .samples import first_grid, known, merged, sampled
-from .scene_sampler import PER_DECADE, SceneSampler, blank
+from .samples import first_grid, known, sampled
+from .scene_sampler import PER_DECADE, SceneSampler
 
 SHARPEST = 1e-13
 _TOGETHER = 32  # lines traced together
 _FINER, _SHARPER = 2, 1e-2  # for a line that failed once: factors of more samples and of a smaller tolerance
 _HOLE = 4.5  # most initial spacings without a completed collision
 _ROUNDED = 1.01  # factor on a spacing, for rounding
-_SLOW = 8  # most missing collisions computed again
+_SLOW = 8  # most missing collisions computed again at once
 
 
 @dataclass
@@ -113,27 +113,28 @@ def _block(
 
 
 def _completed(samples: np.ndarray, grid: np.ndarray, sampler: SceneSampler, angle: float) -> tuple[np.ndarray, float]:
-    """Samples of a line and their widest relative spacing; some missing ones are computed again with a larger budget.
+    """Samples of a line and their widest relative spacing; some missing ones are computed again with all steps.
 
     Raises:
         ComputationError: too many in a row are still missing.
     """
-    spacing = math.log(grid[1] / grid[0])
-    at = _spaced(samples, grid)
-    missing = samples["stokes"][samples["outcome"] < 0]
-    place = np.clip(np.searchsorted(at, np.log(missing)), 1, at.size - 1)
-    missing = missing[at[place] - at[place - 1] > _ROUNDED * spacing]
-    if missing.size:
+    spacing, hole = math.log(grid[1] / grid[0]), _ROUNDED
+    while True:
+        at, log_stokes = _spaced(samples, grid), np.log(samples["stokes"])
+        place = np.clip(np.searchsorted(at, log_stokes), 1, at.size - 1)
+        missing = np.flatnonzero((samples["outcome"] < 0) & (at[place] - at[place - 1] > hole * spacing))
+        if not missing.size or hole == 0:
+            break
         some = missing[np.unique(np.linspace(0, missing.size - 1, _SLOW).astype(int))]
-        recomputed = blank(some)
-        recomputed["outcome"] = sampler.outcomes(np.full(some.size, angle), some)
-        sampler.untried.difference_update((angle, each) for each in some.tolist())
-        samples = merged(samples, recomputed)
-        at = _spaced(samples, grid)
+        stokes = samples["stokes"][some]
+        samples["outcome"][some] = sampler.outcomes(np.full(some.size, angle), stokes)
+        sampler.untried.difference_update((angle, each) for each in stokes.tolist())
+        hole = _HOLE if (samples["outcome"][some] >= 0).any() else 0
     widest = int(np.argmax(np.diff(at)))
     low, high = float(np.exp(at[widest])), float(np.exp(at[widest + 1]))
     if high > low * math.exp(_HOLE * spacing):
-        inside = missing[(low < missing) & (missing < high)]
+        left = samples["stokes"][missing]
+        inside = left[(low < left) & (left < high)]
         untried = sampler.untried & {(angle, each) for each in inside.tolist()}
         tried = f" ({inside.size - len(untried)} of {inside.size} tried to the end)" if untried else ""
         reason = sampler.reason(angle, low, high)

@@ -7,7 +7,7 @@ two changes is found as soon as a sample lies in it.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, fields
 
 import numpy as np
@@ -38,6 +38,13 @@ class Brackets:
         """
         k = np.flatnonzero((line[1:] == line[:-1]) & (label[1:] != label[:-1]))
         return cls(line[k], place[k], place[k + 1], label[k], label[k + 1])
+
+    @classmethod
+    def joined(cls, parts: Sequence[Brackets]) -> Brackets:
+        """All brackets of several, sorted by line and place."""
+        columns = zip(*(vars(each).values() for each in parts), strict=True)
+        every = cls(*(np.concatenate(column) for column in columns))
+        return every.part(np.lexsort((every.low, every.line)))
 
     @property
     def size(self) -> int:
@@ -127,10 +134,7 @@ def enclose(
             narrower = narrower.part(~crowded[narrower.line] | np.append(np.diff(narrower.line) != 0, True))
         undecided = undecided[narrower.line]
         brackets = Brackets(brackets.line[narrower.line], narrower.low, narrower.high, narrower.before, narrower.after)
-    closed.append(brackets)
-    columns = zip(*(vars(each).values() for each in closed), strict=True)
-    enclosed = Brackets(*(np.concatenate(parts) for parts in columns))
-    return enclosed.part(np.lexsort((enclosed.low, enclosed.line)))
+    return Brackets.joined([*closed, brackets])
 
 
 @dataclass(frozen=True)
