@@ -43,7 +43,9 @@ class DimensionlessGroups:
         return any(self.groups.get(name, 0.0) != 0 for name in FIRST_RATES)
 
     def in_si(self, error: ComputationError) -> ComputationError:
-        """A `ComputationError` with dimensionless time and state, converted to SI units."""
+        """A `ComputationError` with dimensionless time and state, converted to SI units; one that is in SI as it is."""
+        if "normal velocity" in error.state:
+            return error
         state = dict(error.state)
         shown: dict[str, float] = {}
         if "gap" in state:
