@@ -107,7 +107,7 @@ def sections(piece: Piece, p: np.ndarray) -> Iterator[tuple[np.ndarray, float, f
         fastest = max(float(-eigenvalues.real.min()), 1e-300)
         duration = min((1 - part) * piece.duration, math.log(_AIM) / fastest)
         while duration > _SHORTEST * piece.duration:
-            amplification = _amplification(piece.flow, start, p, duration)
+            amplification = amplification_of(piece.flow, start, p, duration)
             if amplification <= MOST:
                 yield start, duration, amplification
                 break
@@ -136,7 +136,7 @@ def returning(flow: Flow, engine: str, tolerance: Tolerance) -> Plain:
         return Plain(integrator("returning", engine, dae, 0, 1, tolerance.options(engine)), engine)
 
 
-def _amplification(flow: Flow, start: np.ndarray, p: np.ndarray, duration: float) -> float:
+def amplification_of(flow: Flow, start: np.ndarray, p: np.ndarray, duration: float) -> float:
     """Norm of the inverse of a section's variational matrix, in units of the states' scales; inf if too large."""
     size = start.size
     x0 = np.concatenate([start, np.eye(size).ravel()])

@@ -137,10 +137,10 @@ def test_amplification_of_a_relaxing_spin() -> None:
     r = 4 * a + x
     decay = 8 * math.pi * mu * a**2 * math.log(2 * a / x) / m * (1 / r + 5 * r / (32 * a**2)) * n.time
     for exponent in (2.0, 6.0):
-        found = backward._amplification(flow, start, p, exponent / decay)
+        found = backward.amplification_of(flow, start, p, exponent / decay)
         # the norm is at least the spectral radius, and at most a few times it for so mild a non-normality
         assert math.exp(exponent) * 0.5 < found < 4 * math.exp(exponent)
-    assert all(backward._amplification(flow, start, p, t) > backward.MOST for t in (12 / decay, 1e3 / decay))
+    assert all(backward.amplification_of(flow, start, p, t) > backward.MOST for t in (12 / decay, 1e3 / decay))
 
 
 def test_the_slope_of_known_errors() -> None:
