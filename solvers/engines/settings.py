@@ -6,9 +6,9 @@ from ..scene.schema import Field, Range
 CASADI_ENGINES = ("cvodes", "rosenbrock")  # plugins of CasADi's `integrator`
 ENGINES = (*CASADI_ENGINES, "taylor")
 RTOL = 1e-9  # default
-# Most steps of one collision, about a second on one core. Beyond it a ComputationError says where the collision stands,
+# Most steps of one collision, about half a second on one core. Beyond it a ComputationError says where the collision stands,
 # or a status of the exported law that it is undecided.
-KERNEL_STEPS = 300_000
+KERNEL_STEPS = 1_000_000
 KERNEL_STEPS_IN_SPACE = KERNEL_STEPS // 3  # the same time
 ROSENBROCK, ROSENBROCK_IN_SPACE = 20, 30  # a step of CasADi's Rosenbrock, in steps of the planar kernel
 FEW = 100  # up to this many collisions, a second core does not pay

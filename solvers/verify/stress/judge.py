@@ -128,7 +128,7 @@ def _judged(case: Case, engines: dict[str, Run]) -> Verdict:
                 text = f"e_n and spins {reference.numbers} by {first}, {each.numbers} by {name}"
             else:
                 continue
-            issues.append(Issue(kind, (first, name), text, _change_nearby(case, engines, first, name)))
+            issues.append(Issue(kind, (first, name), text, change_nearby(case, engines, first, name)))
     for name, each in there.items():
         issues += _each(name, each, case)
     if first is not None and there[first].certified:
@@ -169,7 +169,7 @@ def _conditioning(run: Run, scene: Scene, here: Result) -> float:
     return largest
 
 
-def _change_nearby(case: Case, engines: dict[str, Run], first: str, name: str) -> str:
+def change_nearby(case: Case, engines: dict[str, Run], first: str, name: str) -> str:
     """Explanation of a disagreement: a change so close that an engine's error may cross it; else empty.
 
     A change of outcome, or a jump of e_n or of a spin. Each engine is run again at St and at St (1 +- SHARE RTOL).

@@ -3,7 +3,7 @@
 import math
 
 import pytest
-from wetdoublet.solvers import ComputationError, InputError, Scene, sensitivities
+from wetdoublet.solvers import ComputationError, Scene, sensitivities
 from wetdoublet.solvers.model.model import select_model
 
 from ...helpers.reference import collide
@@ -92,18 +92,3 @@ def test_no_derivative_at_the_switch_between_sliding_and_sticking() -> None:
         except ComputationError as error:
             refused += "switch between sliding and sticking contact" in str(error)
     assert refused == 1
-
-
-@pytest.mark.parametrize(
-    ("entries", "said"),
-    [
-        ({"particles.contact_tangential_restitution": 0.3}, "without particles.friction"),
-        ({"model.contact_friction": "all"}, "without particles.friction"),
-        ({"particles.friction": -0.1}, "out of range"),
-        ({"particles.friction": 0.1, "particles.contact_tangential_restitution": 1.5}, "out of range"),
-    ],
-)
-def test_entries_that_make_no_sense_are_refused(entries: dict[str, object], said: str) -> None:
-    """By name, with what is accepted."""
-    with pytest.raises(InputError, match=said):
-        Scene.load("granulation").with_entries(entries)

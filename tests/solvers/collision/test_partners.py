@@ -5,23 +5,12 @@ import math
 
 import pytest
 from scipy.integrate import trapezoid
-from wetdoublet.solvers import InputError, Scene, boundary
+from wetdoublet.solvers import Scene, boundary
 from wetdoublet.solvers.commands.cli import main
 
 from ...helpers.reference import collide
 
 pytestmark = pytest.mark.slow
-
-BRIDGE = {"bridge.law": "constant", "bridge.volume": 0.05}
-NO_CRITERIA = {"liquid.glass_transition_pressure": "1e6 GPa", "particles.roughness": 0.0}
-
-
-def scene_of(changes):
-    """Granulation without elastic constants, changed."""
-    given = {
-        name: value for name, value in Scene.load("granulation").given if "young" not in name and "poiss" not in name
-    }
-    return Scene("", tuple({**given, **BRIDGE, **NO_CRITERIA, **changes}.items()))
 
 
 def test_beside_a_wall():
@@ -41,31 +30,6 @@ def test_beside_a_wall():
     alone = boundary(wall, angle=0.0, stokes=(0.01, 1.0)).changes[0]
     assert [(c.before, c.after) for c in changes] == [("stick", "bounce")]
     assert changes[0].stokes == pytest.approx(alone[0].stokes, rel=1e-8)
-
-
-@pytest.mark.parametrize(
-    ("changes", "field", "says"),
-    [
-        ({"partner.radius": 1e-4, "partner.wall": True}, "partner.wall", "given together"),
-        ({"partner.mass": 1e-8, "partner.wall": True}, "partner.wall", "given together"),
-        ({"partner.radius": 1e-4}, "partner.mass", "missing"),
-        ({"partner.mass": 1e-8}, "partner.radius", "missing"),
-        ({"partner.radius": 1e-4, "partner.mass": 1e-8, "partner.density": 2500.0}, "partner.density", "together"),
-        ({"partner.radius": 1e3, "partner.mass": 1e-8}, "partner.radius", "wall = true"),
-        ({"partner.wall": False}, "partner.wall", "true"),
-        ({"partner.wal": True}, "partner.wal", "did you mean partner.wall"),
-        ({"partner.wall": True, "pendulum.length": "0.5 m"}, "partner.wall", "strings"),
-        ({"attraction.hamaker": -1e-19}, "attraction.hamaker", "out of range"),
-        ({"attraction.hamaker": 1e-19}, "particles.roughness", "without bounds"),
-        ({"bridge.law": "lambert", "bridge.rupture": "own"}, "bridge.rupture", "willett"),
-        ({"model.film": "constant-volume", "model.glass": "film-corrected"}, "model.glass", "rim"),
-    ],
-)
-def test_what_cannot_be(changes, field, says):
-    """Partners and laws that contradict each other, or leave something open, are refused by the name of the entry."""
-    with pytest.raises(InputError, match=says) as caught:
-        scene_of(changes)
-    assert caught.value.field == field
 
 
 def test_the_json_has_the_partners_spin_only_with_one(capsys):

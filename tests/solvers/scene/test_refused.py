@@ -87,6 +87,28 @@ PARTNER = {"partner.diameter": "320 um", "partner.density": "2 g/cm^3", "partner
         (COATED, {**PARTNER, "partner.diameter": "10 m"}, "partner.diameter", "too far from the sphere's"),
         (COATED, {"impact.speed": "1 m/s"}, "impact.relative_speed", "together with impact.speed"),
         (BASE, {"partner.radius": "150 um"}, "partner.mass", "or partner.density"),
+        (BASE, {"partner.mass": "10 ug"}, "partner.radius", "missing"),
+        (BASE, {"partner.radius": "150 um", "partner.wall": True}, "partner.wall", "given together"),
+        (BASE, {"partner.mass": "10 ug", "partner.wall": True}, "partner.wall", "given together"),
+        (
+            BASE, {"partner.radius": "0.1 mm", "partner.mass": "10 ug", "partner.density": "2.5 g/cm^3"},
+            "partner.density", "together",
+        ),
+        (BASE, {"partner.radius": "1 km", "partner.mass": "10 ug"}, "partner.radius", "wall = true"),
+        (BASE, {"partner.wall": True, "pendulum.length": "0.5 m"}, "partner.wall", "strings"),
+        (
+            BASE, {"attraction.hamaker": "1e-19 J", "particles.roughness": "0 um"},
+            "particles.roughness", "without bounds",
+        ),
+        (
+            {**BASE, **BRIDGE}, {"model.film": "constant-volume", "model.glass": "film-corrected"},
+            "model.glass", "rim",
+        ),
+        (
+            BASE, {"particles.contact_tangential_restitution": 0.3},
+            "particles.contact_tangential_restitution", "without particles.friction",
+        ),
+        (BASE, {"model.contact_friction": "all"}, "model.contact_friction", "without particles.friction"),
     ],
 )  # fmt: skip
 def test_entries_that_do_not_go_together(scene, changes, field, says):

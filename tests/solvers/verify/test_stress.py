@@ -90,8 +90,8 @@ def test_a_disagreement_at_a_graze_is_explained() -> None:
     changes = boundary(scene, stokes=(0.05, 0.5), rtol=1e-10).changes[0]
     (graze,) = [each.stokes for each in changes if each.after == "bounce"]
     engines = {"first": checking.fast, "second": checking.chained}
-    assert "a change of outcome lies within" in checking._change_nearby(_case(scene, graze), engines, "first", "second")
-    assert not checking._change_nearby(_case(scene, graze * 0.99), engines, "first", "second")
+    assert "a change of outcome lies within" in checking.change_nearby(_case(scene, graze), engines, "first", "second")
+    assert not checking.change_nearby(_case(scene, graze * 0.99), engines, "first", "second")
 
 
 def _case(scene: Scene, stokes: float) -> Case:

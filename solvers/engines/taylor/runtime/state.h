@@ -170,7 +170,7 @@ static void note_mode(queue *q, const lanes *l, int lane)
     row->resting = LANE(l->resting, lane) != 0;
     row->film = LANE(l->film, lane) != 0.0;
     row->shear = LANE(l->shear, lane) != 0.0;
-#if RUBS
+#if FRICTION
     row->sliding = (int32_t)LANE(l->sliding, lane);
 #if ROLLS
     row->rolling = LANE(l->rolling, lane) != 0.0;
