@@ -9,8 +9,9 @@ import numpy as np
 
 from ...generated.automaton import CLOSING, KINDS, LAST_ANSWER, OPENING, OUTCOMES
 from ..engines.casadi.sequence import EventSequence, sequence
+from ..engines.steps import Steps
 from ..engines.taylor.call import Impacts
-from ..engines.taylor.record import Recorded, Steps, run_recorded
+from ..engines.taylor.record import Recorded, run_recorded
 from ..engines.taylor.undecided import SEPARATES, undecided
 from ..errors import ComputationError
 from ..model.dimensionless import DimensionlessGroups

@@ -6,11 +6,10 @@ from ..scene.schema import Field, Range
 CASADI_ENGINES = ("cvodes", "rosenbrock")  # plugins of CasADi's `integrator`
 ENGINES = (*CASADI_ENGINES, "taylor")
 RTOL = 1e-9  # default
-# Most steps of one collision, about half a second on one core. Beyond it a ComputationError says where the collision stands,
-# or a status of the exported law that it is undecided.
-KERNEL_STEPS = 1_000_000
-KERNEL_STEPS_IN_SPACE = KERNEL_STEPS // 3  # the same time
-ROSENBROCK, ROSENBROCK_IN_SPACE = 20, 30  # a step of CasADi's Rosenbrock, in steps of the planar kernel
+# Most steps of one collision, about half a second on one core; in space a step takes longer. Beyond it a
+# ComputationError says where the collision stands, or a status of the exported law that it is undecided.
+KERNEL_STEPS, KERNEL_STEPS_IN_SPACE = 1_000_000, 300_000
+ROSENBROCK_STEPS, ROSENBROCK_STEPS_IN_SPACE = 15_000, 5_000  # most of one phase at the default tolerance
 FEW = 100  # up to this many collisions, a second core does not pay
 TOLERANCE = Field(
     "rtol", "a relative tolerance", "1e-9", Range("from 1e-13 to 1e-3", 1e-13, 1e-3, low_open=False, high_open=False)
@@ -23,7 +22,7 @@ def casadi_steps(rtol: float, space: bool = False) -> int:
 
     Below the default tolerance they are more in the ratio of the step lengths of Rosenbrock, of order 5.
     """
-    most = KERNEL_STEPS // (ROSENBROCK_IN_SPACE if space else ROSENBROCK)
+    most = ROSENBROCK_STEPS_IN_SPACE if space else ROSENBROCK_STEPS
     return round(most * max(1.0, float((RTOL / rtol) ** (1 / 5))))
 
 

@@ -41,7 +41,7 @@ if TYPE_CHECKING:
 
 COMPUTED = 30.0  # multiple of the limit: below it a measure that is no distance calls for one
 _SOON = 1000  # steps within which most separating collisions end
-_LONG = 10 * KERNEL_STEPS  # steps for creeping collisions (runtime/implicit.h)
+_LONG = 2 * KERNEL_STEPS  # steps for creeping collisions (runtime/implicit.h)
 _HINTED = 2  # decades by which the tolerance is smaller where the distance to a boundary is only known to be allowed
 _STRETCH = 4096  # collisions in a block for a thread
 STICK = "a stick: its restitution is 0, and nothing else of it is defined"

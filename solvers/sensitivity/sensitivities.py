@@ -6,7 +6,7 @@ from pathlib import Path as FilePath
 
 import numpy as np
 
-from ..engines.choice import casadi_gradient_engine, gradient_engine
+from ..engines.choice import gradient_engine
 from ..engines.settings import check_engine, check_rtol
 from ..errors import ComputationError, InputError
 from ..host.arguments import check_name
@@ -88,7 +88,7 @@ def sensitivities(
     odd = np.array([DIFFERENTIATED[name].odd for name in todo], dtype=bool)
     sideways = np.isin(names, SIDEWAYS)
     tilts = bool(todo and sideways.any() and odd.any()) and not n.oblique
-    plugin = casadi_gradient_engine(requested)
+    plugin = requested or "rosenbrock"
     if requested is None and method == "forward":
         plugin = gradient_engine(loaded, of, by_kernel.KNOWN, {n.oblique, n.oblique or tilts})
     query = Query(todo, method, rtol, near)
@@ -118,7 +118,7 @@ def _slopes(problem: Problem, query: Query, engine: str) -> tuple[Slopes, str]:
     """Derivatives by the parameters, SI, and the engine that computed them: Rosenbrock where the kernel cannot."""
     slopes = by_kernel.slopes(problem, query) if engine == "taylor" else None
     if slopes is None:
-        engine = casadi_gradient_engine() if engine == "taylor" else engine
+        engine = "rosenbrock" if engine == "taylor" else engine
         slopes = by_casadi.slopes(problem, query, engine)
     return Slopes(slopes.value, slopes.first / problem.units()), engine
 

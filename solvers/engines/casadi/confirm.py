@@ -10,7 +10,7 @@ import numpy as np
 from ...model.key import ModelKey
 from ...model.model import load
 from ...model.phases import Flow
-from ..taylor.record import Steps
+from ..steps import Steps
 from .integrators import IntegrationFailed, plain, tolerance_for
 from .replay import Stopped
 from .sequence import EventSequence

@@ -3,16 +3,7 @@
 import numpy as np
 import pytest
 from wetdoublet.solvers import InputError, Scene, boundary, collide_many, regime_map
-from wetdoublet.solvers.engines.settings import (
-    CASADI_STEPS,
-    CASADI_STEPS_IN_SPACE,
-    KERNEL_STEPS,
-    KERNEL_STEPS_IN_SPACE,
-    RTOL,
-    STEPS,
-    STEPS_IN_SPACE,
-    casadi_steps,
-)
+from wetdoublet.solvers.engines.settings import KERNEL_STEPS, KERNEL_STEPS_IN_SPACE
 from wetdoublet.solvers.export.law.kernels import SPACE, kernels
 
 from ...helpers.entries import CIRCLES
@@ -34,18 +25,8 @@ def test_what_is_left_of_sliding_keeps_its_sign_and_digits() -> None:
 def test_the_exported_law_has_the_same_budget() -> None:
     """Each kernel of the law is given the steps of the settings, fewer in space, where a step takes longer."""
     for own in kernels(Scene.load("granulation"), 1e-9):
-        steps = STEPS_IN_SPACE if own.prefix == SPACE else STEPS
+        steps = KERNEL_STEPS_IN_SPACE if own.prefix == SPACE else KERNEL_STEPS
         assert f"MOST_STEPS_TAKEN = {steps} " in own.generated_files["in_si.h"]
-
-
-def test_both_engines_share_the_budget() -> None:
-    """What the kernel may take, and CasADi after it, is together what CasADi alone may take."""
-    for space, alone, kernel, whole in (
-        (False, CASADI_STEPS, KERNEL_STEPS, STEPS),
-        (True, CASADI_STEPS_IN_SPACE, KERNEL_STEPS_IN_SPACE, STEPS_IN_SPACE),
-    ):
-        assert casadi_steps(RTOL, space) == alone
-        assert casadi_steps(RTOL, space, spent=KERNEL_STEPS) / alone + kernel / whole == 1
 
 
 @pytest.mark.parametrize("engine", ["taylor", "rosenbrock"])

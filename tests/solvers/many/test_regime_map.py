@@ -10,7 +10,7 @@ import pytest
 import xarray as xr
 from wetdoublet.solvers import Scene, collide_many, regime_map
 from wetdoublet.solvers.errors import ComputationError, InputError
-from wetdoublet.solvers.many import by_casadi
+from wetdoublet.solvers.many import alone
 from wetdoublet.solvers.many.plot_map import draw_map
 from wetdoublet.solvers.many.regime_map import write
 from wetdoublet.solvers.many.results import QUANTITIES
@@ -32,14 +32,14 @@ def data():
 @pytest.fixture
 def unlucky(monkeypatch):
     """Let the collisions of one Stokes number, 0.1, fail."""
-    real = by_casadi.locate
+    real = alone.integrated
 
-    def locate(model, groups, *rest):
-        if abs(groups["stokes"] - 0.1) < 1e-12:
+    def integrated(scene, n, *rest):
+        if abs(n.groups["stokes"] - 0.1) < 1e-12:
             raise ComputationError("no luck", advice="none")
-        return real(model, groups, *rest)
+        return real(scene, n, *rest)
 
-    monkeypatch.setattr(by_casadi, "locate", locate)
+    monkeypatch.setattr(alone, "integrated", integrated)
 
 
 def test_the_grid(data):

@@ -10,7 +10,7 @@ import xarray as xr
 from wetdoublet.solvers import Scene, collide, collide_pair
 from wetdoublet.solvers.errors import InputError
 from wetdoublet.solvers.host.compiler import compiler
-from wetdoublet.solvers.space.by_casadi import own_axes
+from wetdoublet.solvers.space.by_replay import own_axes
 from wetdoublet.solvers.space.ends import Ends, gains_energy
 from wetdoublet.solvers.space.pairs import Pairs, checked
 

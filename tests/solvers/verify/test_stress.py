@@ -11,7 +11,7 @@ import pytest
 from wetdoublet.solvers import Scene, boundary, collide, collide_many
 from wetdoublet.solvers.commands.cli import main
 from wetdoublet.solvers.commands.verify import command as verify
-from wetdoublet.solvers.engines.casadi.locate import CHATTERS
+from wetdoublet.solvers.engines.taylor.undecided import CHATTERS
 from wetdoublet.solvers.errors import ComputationError
 from wetdoublet.solvers.scene.schema import FILM_LAWS
 from wetdoublet.solvers.verify.stress import judge as checking
@@ -202,22 +202,6 @@ def test_a_weak_glass_just_after_first_touch(preset: str, glass: str) -> None:
     found = collide(scene, stokes=3.0, angle="50 deg", engine="rosenbrock")
     assert found.reversal == "glass"
     assert found.restitution == pytest.approx(located, rel=1e3 * RTOL)
-
-
-def test_a_collision_is_located_once_for_both_engines(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Its answer by the second engine is that of `collide`."""
-    located = []
-
-    class Counted(checking.EventLocator):
-        def run(self) -> Any:
-            located.append(self)
-            return super().run()
-
-    monkeypatch.setattr(checking, "EventLocator", Counted)
-    scene = Scene.load("granulation").with_impact(stokes=0.1002, angle="60 deg")
-    checking.chained(scene, RTOL, "rosenbrock")
-    assert checking.chained(scene, RTOL).restitution == collide(scene, rtol=RTOL, engine="cvodes").restitution
-    assert len(located) == 1
 
 
 def test_an_interrupt_keeps_what_is_judged(
