@@ -52,10 +52,10 @@ def recorded(
     ran = run_recorded(impact, n.oblique, rtol, ledger, trajectory, until=until)
     answer, words = ran.answers[0], words_of(scene)
     if answer["status"] > LAST_ANSWER:
-        happened = [words[kind] for kind in ran.events[0, : answer["events"]]["kind"].tolist()]
-        declared = next((word for word in reversed(happened) if word not in KINDS), "")
+        log = ran.events[0, : answer["events"]]
+        declared = next((word for word in (words[kind] for kind in log["kind"][::-1]) if word not in KINDS), "")
         states = load(select_model(scene, n.oblique, full=ledger, fold=True)).state
-        raise n.in_si(undecided(answer, tuple(states), declared))
+        raise n.in_si(undecided(answer, tuple(states), declared, bool(log["resting"][-1:].any())))
     if until is not None and answer["outcome"] > 0:
         raise ComputationError(f"a stick that is decided, not proved, {SEPARATES}", advice="leave out --until")
     return ran

@@ -32,7 +32,7 @@ SCENES: dict[str, Callable[[], Scene]] = {
     "tangential edge": lambda: hard("tangential force ends at two reduced radii"),
     "rolls": lambda: hard("rolls and slides at rest on strings"),
     "slides": lambda: hard("slides at rest and is released"),
-    "fell back": lambda: hard("below a separatrix"),
+    "fell back": lambda: hard("slide that begins with no slip"),
 }
 
 
