@@ -13,9 +13,10 @@ from ..engines.taylor.call import Impacts
 from ..engines.taylor.record import Recorded, Steps, run_recorded
 from ..model.dimensionless import DimensionlessGroups
 from ..model.model import load, select_model
+from ..results import TERMS
 from ..scene.scene import Scene
 from .assemble import assembled
-from .outcome import KERNEL_TERMS, Energy, absent_terms
+from .outcome import Energy, absent_terms
 from .result import Collision
 
 if TYPE_CHECKING:
@@ -91,7 +92,7 @@ def _row(rows: np.ndarray) -> dict[str, Any]:
 
 
 def _energy(scene: Scene, n: DimensionlessGroups, books: Mapping[str, float]) -> Energy:
-    terms = {name: books[field] * n.energy for name, field in KERNEL_TERMS.items()}
+    terms = {name: books[field] * n.energy for name, field in TERMS.items()}
     terms |= {"own_events": books["own_events"] * n.energy} if "own_events" in books else {}
     absent = absent_terms(scene) | (set() if n.oblique else {"dry_friction"})
     return Energy(**{"strings": 0.0} | {name: value for name, value in terms.items() if name not in absent})

@@ -16,13 +16,13 @@ from ..engines.settings import check_engine, check_rtol
 from ..errors import InputError
 from ..host.arguments import check_mapping, check_names
 from ..model.validity import NEEDS
+from ..results import MAPPED, VALIDITY
 from ..scene.held import HOLDS, held_quantity, held_text, impact_quantity, impact_value
 from ..scene.quantities import normal_speed
 from ..scene.scene import Scene
 from ..scene.schema import FIELDS, LEAST_ANGLE, MEETING, SPEEDS, SPINS, Field, unknown_entry
 from ..scene.user_model import Package, fields, unknown
 from ..scene.values import array, carries_unit
-from .results import MAPPED, VALIDITY
 
 T = TypeVar("T")
 

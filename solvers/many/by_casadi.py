@@ -15,8 +15,9 @@ from ..errors import WetDoubletError
 from ..model.dimensionless import nondimensionalise
 from ..model.model import Model
 from ..model.phases import Flow
+from ..results import FAILED, INTEGRATED, LEDGER, NONE, REVERSALS
 from .batch import Batch
-from .results import FAILED, INTEGRATED, LEDGER, NONE, REVERSALS, Block, empty
+from .results import Block, empty
 
 
 def run(request: Batch, machine_code: bool) -> Block:

@@ -7,10 +7,10 @@ from pathlib import Path as FilePath
 from typing import TYPE_CHECKING, Any
 
 from ..engines.settings import RTOL, check_engine, check_rtol
+from ..results import REQUESTED
 from ..scene.scene import Scene
 from .batch import check_outputs, checked_columns
 from .blocks import into_memory
-from .results import RESULTS
 from .scan import Scan, laid_out
 
 if TYPE_CHECKING:
@@ -67,7 +67,7 @@ def collide_many(
         >>> laws.restitution.shape
         (2,)
     """
-    names, rtol, engine = check_outputs(of, RESULTS), check_rtol(rtol), check_engine(engine)
+    names, rtol, engine = check_outputs(of, REQUESTED), check_rtol(rtol), check_engine(engine)
     impact = {"stokes": stokes, "speed": speed, "relative_speed": relative_speed, "angle": angle}
     loaded, arrays, held = checked_columns(scene, impact, vary, hold, most=None, texts=True)
     arguments = {**{f"impact.{name}": values for name, values in impact.items()}, **(vary or {})}

@@ -8,11 +8,12 @@ from ...generated import scaling
 from ..errors import WetDoubletError
 from ..model.dimensionless import generalised_centrifugal, nondimensionalise
 from ..model.validity import flags
+from ..results import FAILED, OF_IMPACT
 from ..scene.groups import si_values
 from ..scene.quantities import quantities
 from ..scene.schema import MEETING
 from .batch import Batch
-from .results import FAILED, OF_IMPACT, Block
+from .results import Block
 
 
 def varied_columns(request: Batch) -> dict[str, np.ndarray]:

@@ -14,11 +14,12 @@ from ..errors import InputError
 from ..host.compiler import compiler
 from ..host.cores import usable_cores
 from ..host.workers import in_workers
+from ..results import FAILED, VALIDITY
 from .batch import Batch
 from .by_casadi import run
 from .by_kernel import collide_by_kernel
 from .columns import impact_columns, validity
-from .results import FAILED, VALIDITY, Block, empty, fill
+from .results import Block, empty, fill
 
 _BLOCK = 50  # collisions in a block for a worker
 _SLOW_ALONE = 20  # as `FEW`, for collisions that the kernel did not complete; they take up to seconds each

@@ -18,6 +18,7 @@ from ..host import files
 from ..host.arguments import check_function
 from ..host.outputs import check_file
 from ..host.progress import Progress
+from ..results import BY_DEFAULT, IMPACT, VALIDITY, attributes
 from ..scene.groups import formulas
 from ..scene.ranges import MOST, MOST_STORED, most_collisions
 from ..scene.scene import Scene
@@ -26,8 +27,7 @@ from ..scene.user_model import Package
 from .batch import Batch, check_outputs, checked_columns
 from .blocks import check_scheduler, check_store, into_memory, into_store
 from .columns import quantities_and_impacts
-from .results import QUANTITIES, VALIDITY
-from .scan import LABELS, Scan
+from .scan import Scan
 
 if TYPE_CHECKING:
     import xarray
@@ -63,14 +63,14 @@ class Grid(Scan):
         coordinates: dict[str, Column] = {}
         for dim, (name, (_, axis)) in zip(dims, self.columns.items(), strict=True):
             unit = {"units": self.scene.fields[name].unit or "1", "long_name": name.replace(".", ", ", 1)}
-            coordinates[dim] = (dim,), axis, LABELS.get(dim, unit)
+            coordinates[dim] = (dim,), axis, attributes(dim) if dim in IMPACT else unit
         values = quantities_and_impacts(request)
         for name in ("speed", "stokes"):
             column = np.reshape(values[name], self.shape)
             if dims[1] == "relative_speed":
-                coordinates[name] = dims, column, LABELS[name]
+                coordinates[name] = dims, column, attributes(name)
             elif name != dims[1]:  # the same at every angle
-                coordinates[name] = dims[1:], column[0], LABELS[name]
+                coordinates[name] = dims[1:], column[0], attributes(name)
         if self.scene.bridge is not None:
             formula, arguments = formulas(self.scene)["centrifugal"]
             with np.errstate(all="ignore"):
@@ -91,7 +91,7 @@ def regime_map(
     hold: str | None = None,
     rtol: float = RTOL,
     engine: str | None = None,
-    of: Sequence[str] = (*QUANTITIES, VALIDITY),
+    of: Sequence[str] = (*BY_DEFAULT, VALIDITY),
     progress: Progress | None = None,
     client: Any = None,
     store: str | Path | None = None,

@@ -18,22 +18,17 @@ from ..errors import InputError
 from ..formatting.labelled import Column, labelled
 from ..host.pictures import register
 from ..model.validity import flag_attributes, warn
+from ..results import FAILED, REQUESTED, VALIDITY, attributes, outcome_attributes
 from ..scene.scene import Scene
 from ..scene.schema import MEETING
 from .batch import Batch, batch, check_any_possible, of_one_length
-from .results import FAILED, RESULTS, VALIDITY, Block, attributes, outcome_attributes
+from .results import Block
 
 if TYPE_CHECKING:
     import xarray
 
 Dims = tuple[Hashable, ...]
 Place = tuple[slice, ...]
-LABELS = {
-    "stokes": {"units": "1", "long_name": "Stokes number"},
-    "speed": {"units": "m/s", "long_name": "normal approach speed"},
-    "relative_speed": {"units": "m/s", "long_name": "magnitude of the relative velocity"},
-    "angle": {"units": "rad", "long_name": "impact angle"},
-}
 
 
 @dataclass
@@ -121,9 +116,7 @@ class Scan:
     def coordinates(self, request: Batch) -> dict[str, Column]:
         """Impacts and entries that vary, each over its own dimensions; `beside` excepted."""
         labels: dict[str, tuple[np.ndarray | None, Mapping[str, Any]]] = {
-            "stokes": (request.stokes, LABELS["stokes"]),
-            "speed": (request.speed, LABELS["speed"]),
-            "angle": (request.angle, LABELS["angle"]),
+            name: (getattr(request, name), attributes(name)) for name in ("stokes", "speed", "angle")
         }
         fields = self.scene.fields
         labels |= {name: (values, {"units": fields[name].unit or "1"}) for name, values in request.vary.items()}
@@ -248,7 +241,7 @@ def laid_out(
 def _check_dims(dims: Dims, dims_of: Mapping[str, Dims]) -> None:
     """InputError for a dimension with the name of a result, or of an argument that has other dimensions too."""
     for dim in dims:
-        if dim in RESULTS:
+        if dim in REQUESTED:
             raise InputError("dims", dim, "dimensions that are not named as a result", "is the name of a result")
     for name, column_dims in dims_of.items():
         label = name.removeprefix("impact.")

@@ -19,10 +19,10 @@ from ..errors import ComputationError, WetDoubletError
 from ..host.arguments import check_names
 from ..host.pictures import register
 from ..host.thread_caches import own_cache
-from ..many.results import FAILED, outcome_attributes
 from ..model.dimensionless import DimensionlessGroups, nondimensionalise
 from ..model.model import Model, load, select_model
 from ..model.validity import warn
+from ..results import FAILED, outcome_attributes
 from ..scene.scene import Scene
 from ..space.by_casadi import groups_of, own_axes
 from ..space.collide_pair import AXES, NUMBERS, VECTORS, check_scene, refusals
@@ -114,16 +114,12 @@ def pair_gradients(
     }
     first = 0
     for name, shape in RESULTS.items():
-        unit, what = NUMBERS[name] if name in NUMBERS else VECTORS[name][1:]
-        more = VECTORS[name][0] if name in VECTORS else ()
+        more, about = ((), NUMBERS[name]) if name in NUMBERS else VECTORS[name]
         part = slice(first, first := first + int(np.prod(shape)))
-        data[name] = (
-            (*dims, *more),
-            value[:, part].reshape((*pairs.shape, *shape)),
-            {"units": unit, "long_name": what},
-        )
+        data[name] = (*dims, *more), value[:, part].reshape((*pairs.shape, *shape)), about
         slopes = slope[:, part].reshape((*pairs.shape, *shape, len(request.parameters)))
-        data[f"d_{name}"] = ((*dims, *more, "parameter"), slopes, {"long_name": f"derivative of the {what}"})
+        meaning = {"long_name": f"derivative of the {about['long_name']}"}
+        data[f"d_{name}"] = (*dims, *more, "parameter"), slopes, meaning
     coordinates = {"axis": list(AXES), "parameter": list(request.parameters)}
     return xr.Dataset(data, coordinates, {"scene": loaded.to_toml(), "rtol": rtol, "engine": "rosenbrock"})
 

@@ -12,13 +12,13 @@ from ..engines.casadi.locate import EventLocator, EventSequence
 from ..errors import ComputationError
 from ..model.dimensionless import DimensionlessGroups, nondimensionalise
 from ..model.model import load, select_model, slip_restitution
+from ..results import DEFINITIONS
 from ..scene.quantities import normal_speed
 from ..scene.scene import Scene
 from . import boundary_distance as nearness
 from .directions import differentiated
 from .parameters import RELATIVE, SCALES, Kind, kind_of, parameter_map, references
 from .result import Near
-from .results import DIFFERENTIATED
 from .trajectory_expression import course_of, influential, trajectory_expression
 
 LOCATED = 1e-8  # tolerance of the event location; landings on the events correct the remaining error
@@ -111,7 +111,7 @@ class Problem:
                 phase=str(path.steps[-1].phase),
                 advice="try another --rtol, or the other --engine",
             ) from None
-        scaled = [DIFFERENTIATED[name].scale for name in of]
+        scaled = [DEFINITIONS[name].scale for name in of]
         which = [SCALES.index(name) if name else None for name in scaled]
         scale = np.array([1.0 if k is None else scales[k] for k in which])
         slope = np.array([np.zeros(ds.shape[1]) if k is None else ds[k] for k in which])

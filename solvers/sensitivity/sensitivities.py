@@ -11,13 +11,13 @@ from ..engines.choice import casadi_gradient_engine, gradient_engine
 from ..engines.settings import check_engine, check_rtol
 from ..errors import ComputationError, InputError
 from ..host.arguments import check_name
+from ..results import DEFINITIONS, SPENT, TANGENTS, check_differentiated
 from ..scene.held import held_quantity
 from ..scene.scene import Scene
 from . import by_kernel as kernel
 from .parameters import SIDEWAYS, check_wrt
 from .problem import Problem, Slopes
 from .result import Near, Sensitivities
-from .results import DIFFERENTIATED, SPENT, check_quantities, computed
 
 METHODS = ("forward", "adjoint")
 
@@ -69,7 +69,7 @@ def sensitivities(
         >>> found.gradient["restitution"]["bridge.surface_tension"] < 0
         True
     """
-    of, method = check_quantities(of), check_method(method)
+    of, method = check_differentiated(of), check_method(method)
     rtol, requested = check_rtol(rtol), check_engine(engine)
     if requested == "taylor" and method != "forward":
         raise InputError("method", method, "forward with engine taylor", "is not the kernel's")
@@ -79,13 +79,13 @@ def sensitivities(
     v0, angle_ = loaded.need_impact()
     problem = Problem.of(loaded, v0, angle_, names, held)
     path, near = problem.located(rtol)
-    todo = tuple(name for name in computed(of) if problem.defined(name, path))
-    odd = np.array([DIFFERENTIATED[name].odd for name in todo], dtype=bool)
+    todo = tuple(name for name in _computed(of) if problem.defined(name, path))
+    odd = np.array([DEFINITIONS[name].odd for name in todo], dtype=bool)
     sideways = np.isin(names, SIDEWAYS)
     tilts = bool(todo and sideways.any() and odd.any()) and not problem.n.oblique
     plugin, free = casadi_gradient_engine(requested), requested is None and method == "forward"
     if free:
-        plugin = gradient_engine(loaded, of, kernel.KNOWN, {problem.n.oblique, problem.n.oblique or tilts})
+        plugin = gradient_engine(loaded, of, TANGENTS, {problem.n.oblique, problem.n.oblique or tilts})
     run = _Run(todo, method, rtol, near, free)
     slopes, plugin = run.slopes(problem, path, plugin) if todo else (None, plugin)
     if tilts and slopes is not None:
@@ -134,6 +134,11 @@ class _Run:
                 if slopes is None:
                     raise
         return Slopes(slopes.value, slopes.first / problem.units()), plugin
+
+
+def _computed(of: Sequence[str]) -> tuple[str, ...]:
+    """The results to compute for these; the residual requires all terms of the ledger."""
+    return tuple(dict.fromkeys(part for name in of for part in _parts(name)))
 
 
 def _combined(

@@ -18,8 +18,8 @@ from ..model.key import ModelKey
 from ..model.model import Model, load
 from ..model.phases import Flow, Phase, WatchedEvents, extra_units
 from ..model.rebound import jump, rubs
+from ..results import DEFINITIONS
 from ..scene.contact import GAPS, contact_word
-from .results import DIFFERENTIATED
 
 # argument of the guards for the certificate's level, which is not used here
 _NO_LEVEL = 0.0
@@ -166,10 +166,10 @@ def ending(course: Course, plugin: str, tolerance: Tolerance) -> TrajectoryExpre
 
 def _extras(model: Model, of: tuple[str, ...]) -> tuple[str, ...]:
     """Names of the quadratures needed: the rotation where it is not a state, and terms of the energy ledger."""
-    wanted = [DIFFERENTIATED[name].extra for name in of]
+    wanted = [DEFINITIONS[name].term for name in of if DEFINITIONS[name].integral]
     turns = model.has("turning_rate") and not model.strings
     has = {*model.names("energy_rates"), *(("rotation",) if turns else ())}
-    return tuple(name for name in wanted if name is not None and name in has)
+    return tuple(name for name in wanted if name in has)
 
 
 def _at_the_end(model: Model, start: MX, y: MX, p: MX) -> dict[str, MX]:

@@ -18,7 +18,6 @@ from .layout import ANSWER, MOST_STEPS, NEARNESS, RESULTS, names, number
 from .orders import order_backward, order_for
 from .source import Variant
 
-COLUMNS = {"time": 5, "smallest_gap": 6, "turned": 7}  # after the outputs
 CHATTERS = 5  # boundary of a trajectory with resting contact
 DISTANCES = {  # boundaries whose measure is a distance reported by `sensitivities`
     6: (TIE, list(ENTRIES.values())[-1]),

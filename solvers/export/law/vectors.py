@@ -16,7 +16,8 @@ from ...errors import ComputationError
 from ...many.batch import Batch
 from ...many.by_kernel import block_of
 from ...many.collide_many import collide_many
-from ...many.results import NONE, REVERSALS, Block
+from ...many.results import Block
+from ...results import NONE, REVERSALS
 from ...scene.scene import Scene
 from ...space.collide_pair import collide_pair
 from ...space.pairs import Bodies
