@@ -20,7 +20,7 @@ from ..engines.taylor.call import Impacts, run_kernel
 from ..engines.taylor.layout import derivative_column, result
 from ..engines.taylor.tangent import run_tangent
 from ..errors import ComputationError
-from ..many.batch import Batch
+from ..many import impacts as many
 from ..many.by_kernel import admissible
 from ..many.compute import complete
 from ..many.results import Block, empty
@@ -200,13 +200,14 @@ class Experiment:
         """Columns of `collide_many` for impacts that the kernel hands over, by an engine that completes them."""
         impacts, rows = self.impacts(row, speed, angle), self.rows
         share = self._share(row)
-        vary = dict(zip(rows.names, rows.by_row(self.values)[:, share], strict=True))
-        vary |= {name: column[row] for name, column in rows.columns.items()}
+        columns = {"impact.speed": impacts.speed, "impact.angle": impacts.angle}
+        columns |= dict(zip(rows.names, rows.by_row(self.values)[:, share], strict=True))
+        columns |= {name: column[row] for name, column in rows.columns.items()}
         for name in SPINS:
             spin = impacts.others.get(name.replace("impact.", "impact_"))
-            if name in vary or (spin is not None and name in self.scene.entries):
-                vary[name] = np.asarray(spin)
-        request = Batch(self.scene, None, impacts.speed, impacts.angle, vary, self.rtol, "rosenbrock", names)
+            if name in columns or (spin is not None and name in self.scene.entries):
+                columns[name] = np.asarray(spin)
+        request = many.Impacts.listed(self.scene, columns, self.rtol, "rosenbrock", names)
         block = empty(request.size, names)
         complete(request, block)
         return block

@@ -15,7 +15,7 @@ from scipy.stats import norm, qmc
 from ...generated.automaton import OUTCOMES
 from ..errors import ComputationError, InputError
 from ..host.pictures import register
-from ..many.batch import checked_numbers
+from ..many.arguments import checked_numbers
 from ..many.collide_many import collide_many
 from ..results import attributes
 from ..scene.ranges import MOST

@@ -16,11 +16,11 @@ from ..model.dimensionless import nondimensionalise
 from ..model.model import Model
 from ..model.phases import Flow
 from ..results import FAILED, INTEGRATED, LEDGER, NONE, REVERSALS
-from .batch import Batch
+from .impacts import Impacts
 from .results import Block, empty
 
 
-def run(request: Batch, machine_code: bool) -> Block:
+def run(request: Impacts, machine_code: bool) -> Block:
     """Compute the collisions of a batch one after another."""
     block = empty(request.size, request.of)
     for k in range(request.size):
@@ -36,7 +36,7 @@ def run(request: Batch, machine_code: bool) -> Block:
     return block
 
 
-def _one(request: Batch, k: int, machine_code: bool) -> dict[str, Any]:
+def _one(request: Impacts, k: int, machine_code: bool) -> dict[str, Any]:
     """The results of one collision: by Rosenbrock those of its located events, unless more is to be kept."""
     scene, speed, angle = request.impact(k)
     n = nondimensionalise(scene, speed, angle)

@@ -9,7 +9,8 @@ from ...generated import scaling
 from ...generated.automaton import KINDS, LAST_ANSWER
 from ..collision.outcome import absent_terms, open_beyond
 from ..engines.settings import spent_by_kernel
-from ..engines.taylor.call import Impacts, run_kernel
+from ..engines.taylor import call
+from ..engines.taylor.call import run_kernel
 from ..engines.taylor.layout import result
 from ..engines.taylor.record import run_with_books
 from ..errors import ComputationError
@@ -20,8 +21,8 @@ from ..scene.entry_rules import FARTHEST
 from ..scene.groups import formulas, rate_scales, si_values
 from ..scene.quantities import NO_GLASS
 from ..scene.scene import Scene
-from .batch import Batch
 from .columns import varied_columns
+from .impacts import Impacts
 from .results import Block
 
 _STRETCH = 65536  # collisions in one call of the kernel, so that progress is reported and memory stays bounded
@@ -33,7 +34,7 @@ _NEAR = 1e-9  # relative distance to a limit of valid input below which the scen
 
 
 def collide_by_kernel(
-    request: Batch, which: np.ndarray, threads: int, finished: Callable[[np.ndarray, Block], None]
+    request: Impacts, which: np.ndarray, threads: int, finished: Callable[[np.ndarray, Block], None]
 ) -> tuple[np.ndarray, np.ndarray | None]:
     """Compute the collisions `which` of a batch; returns the indices of those that need another engine.
 
@@ -78,7 +79,7 @@ def collide_by_kernel(
     return np.concatenate(left), np.concatenate(spent)
 
 
-def impacts_of(request: Batch) -> tuple[Impacts, np.ndarray]:
+def impacts_of(request: Impacts) -> tuple[call.Impacts, np.ndarray]:
     """The impacts of a batch in SI, and a mask of their collisions; the others need the scene's own validation."""
     scene = request.scene
     values: dict[str, np.ndarray] = {}
@@ -93,7 +94,7 @@ def impacts_of(request: Batch) -> tuple[Impacts, np.ndarray]:
             sound, unit = np.full(request.size, _usual_scene(scene)), scene.stokes_per_speed
         speed = request.speed if request.speed is not None else np.asarray(request.stokes) / unit
         sound &= _usual(speed, _MOST)
-    impacts = Impacts(scene, speed, request.angle, values)
+    impacts = call.Impacts(scene, speed, request.angle, values)
     return impacts if sound.all() else impacts.part(np.flatnonzero(sound)), sound
 
 
@@ -132,7 +133,7 @@ def admissible(scene: Scene, values: Mapping[str, np.ndarray]) -> np.ndarray:
     return sound
 
 
-def block_of(request: Batch, answers: np.ndarray, impacts: Impacts, books: np.ndarray | None) -> Block:
+def block_of(request: Impacts, answers: np.ndarray, impacts: call.Impacts, books: np.ndarray | None) -> Block:
     """Kernel records as the requested columns of a result."""
     separated = answers["outcome"] > 0
     exists = {
@@ -164,7 +165,7 @@ def block_of(request: Batch, answers: np.ndarray, impacts: Impacts, books: np.nd
     return block
 
 
-def rates_of(scene: Scene, answers: np.ndarray, impacts: Impacts) -> Block:
+def rates_of(scene: Scene, answers: np.ndarray, impacts: call.Impacts) -> Block:
     """Spins and rotation rate at separation, rad/s; 0 head-on."""
     values = si_values(scene, None, None) | dict(impacts.others) | {"speed": impacts.speed, "angle": impacts.angle}
     unit = rate_scales(scene, values)
@@ -175,7 +176,7 @@ def rates_of(scene: Scene, answers: np.ndarray, impacts: Impacts) -> Block:
     return rates
 
 
-def _ledger(request: Batch, books: np.ndarray, impacts: Impacts) -> Block:
+def _ledger(request: Impacts, books: np.ndarray, impacts: call.Impacts) -> Block:
     """The ledger in J, and the drift of the angular momentum; NaN where the scene has no such term."""
     scene, others = request.scene, impacts.others
     unit = np.asarray(others.get("reduced_mass", scene.reduced_mass)) * impacts.speed**2

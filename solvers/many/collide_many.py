@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, Any
 from ..engines.settings import RTOL, check_engine, check_rtol
 from ..results import REQUESTED
 from ..scene.scene import Scene
-from .batch import check_outputs, checked_columns
+from .arguments import check_outputs, checked_columns
 from .blocks import into_memory
-from .scan import Scan, laid_out
+from .impacts import Impacts, laid_out
 
 if TYPE_CHECKING:
     import xarray
@@ -72,6 +72,4 @@ def collide_many(
     loaded, arrays, held = checked_columns(scene, impact, vary, hold, most=None, texts=True)
     arguments = {**{f"impact.{name}": values for name, values in impact.items()}, **(vary or {})}
     dims, shape, columns, beside = laid_out(arrays, arguments)
-    scan = Scan(loaded, dims, shape, columns, rtol, engine, names, held, beside)
-    scan.check()
-    return into_memory(scan)
+    return into_memory(Impacts(loaded, columns, dims, shape, rtol, engine, names, held, beside).checked())

@@ -15,10 +15,10 @@ from ..host.compiler import compiler
 from ..host.cores import usable_cores
 from ..host.workers import in_workers
 from ..results import FAILED, VALIDITY
-from .batch import Batch
 from .by_casadi import run
 from .by_kernel import collide_by_kernel
 from .columns import impact_columns, validity
+from .impacts import Impacts
 from .results import Block, empty, fill
 
 _BLOCK = 50  # collisions in a block for a worker
@@ -28,7 +28,7 @@ Finished = Callable[[np.ndarray, Block], None]
 
 
 def complete(
-    request: Batch,
+    request: Impacts,
     results: Block,
     which: np.ndarray | None = None,
     finished: Finished | None = None,
@@ -58,7 +58,7 @@ def complete(
         results[VALIDITY] = validity(request, results)
 
 
-def _compute(request: Batch, which: np.ndarray, finished: Finished, cores: int) -> None:
+def _compute(request: Impacts, which: np.ndarray, finished: Finished, cores: int) -> None:
     size, alone = _BLOCK, FEW
     if request.engine == "taylor":
         left, spent = collide_by_kernel(request, which, cores if which.size > FEW else 1, finished)

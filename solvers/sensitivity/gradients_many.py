@@ -21,7 +21,7 @@ from ..errors import WetDoubletError
 from ..formatting.labelled import Column, labelled
 from ..host.cores import usable_cores
 from ..host.pictures import register
-from ..many.batch import validated_batch
+from ..many.impacts import listed
 from ..model.validity import warn
 from ..results import DEFINITIONS, FAILED, TANGENTS, check_differentiated, outcome_attributes
 from ..scene.groups import sideways
@@ -142,7 +142,7 @@ def gradients_many(
         (2,)
     """
     names, by = check_differentiated(of), check_engine(engine)
-    batch = validated_batch(
+    batch = listed(
         scene, {"stokes": stokes, "speed": speed, "relative_speed": relative_speed, "angle": angle}, {}, rtol,
         "rosenbrock", (),
     )  # fmt: skip

@@ -13,7 +13,7 @@ from ..errors import InputError
 from ..host.arguments import check_function, check_mapping, check_name, check_whole
 from ..host.pictures import register
 from ..host.progress import Progress
-from ..many.batch import checked_numbers
+from ..many.arguments import checked_numbers
 from ..many.collide_many import collide_many
 from ..results import BY_DEFAULT, attributes
 from ..scene.held import held_quantity, impact_value

@@ -14,7 +14,7 @@ from wetdoublet.solvers.errors import ComputationError, InputError
 from wetdoublet.solvers.host.compiler import compiler
 from wetdoublet.solvers.host.remarks import silence_workers
 from wetdoublet.solvers.many import by_casadi, compute
-from wetdoublet.solvers.many.batch import validated_batch
+from wetdoublet.solvers.many.impacts import listed
 from wetdoublet.solvers.model.dimensionless import nondimensionalise
 from wetdoublet.solvers.results import BY_DEFAULT, REQUESTED, REVERSALS
 
@@ -243,7 +243,7 @@ def test_parallel_equals_serial(monkeypatch):
 def test_without_a_compiler(monkeypatch, capfd):
     """A machine without a C compiler gives the same results, and says once that it is slower; its workers do not."""
     stokes, angle = impacts("granulation", 8, 3)
-    request = validated_batch("granulation", {"stokes": stokes, "angle": angle}, {}, 1e-9, None, EVERYTHING)
+    request = listed("granulation", {"stokes": stokes, "angle": angle}, {}, 1e-9, None, EVERYTHING)
     fast = by_casadi.run(request, machine_code=True)
     monkeypatch.setenv("PATH", "")
     monkeypatch.delenv("CC", raising=False)
