@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Automaton sha256 bd2fe62f4e5cd6f70ace935610d549456aef73a59cf6257777687dcd01029afe
+# Automaton sha256 25e653dd14dd2315245e58f0c4d66a5b0165d1807848e1dc6cfca7cf6d3cd5a6
 """A collision as a hybrid automaton: events, their guards and effects, rules, words, outcomes."""
 
 from __future__ import annotations
@@ -103,6 +103,7 @@ class Status(IntEnum):
     RESTS_IN_FRICTION = 6  # resting contact with friction, whose modes this kernel does not integrate
     ESCAPED = 7  # a stick that is proved separates when it is followed on: a defect
     WITHIN_ROUNDING = 8  # the doublet separates at less than LEAST_PARTING, or by less than LEAST_MOMENTUM
+    UNDECLARED = 9  # a declared event creates kinetic energy that it does not declare
 
 
 LAST_ANSWER = Status.PROVED_AT_TOUCH

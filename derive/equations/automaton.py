@@ -337,7 +337,7 @@ class Status:
     """A status returned by the kernel. The position in STATUSES is its number.
 
     Arguments:
-        answers: the outcome is valid; else the caller computes the collision by other means. These statuses come first.
+        answers: the outcome is valid. These statuses come first.
     """
 
     name: str
@@ -355,6 +355,7 @@ STATUSES = (
     Status("RESTS_IN_FRICTION", "resting contact with friction, whose modes this kernel does not integrate"),
     Status("ESCAPED", "a stick that is proved separates when it is followed on: a defect"),
     Status("WITHIN_ROUNDING", "the doublet separates at less than LEAST_PARTING, or by less than LEAST_MOMENTUM"),
+    Status("UNDECLARED", "a declared event creates kinetic energy that it does not declare"),
 )
 
 

@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Automaton sha256 bd2fe62f4e5cd6f70ace935610d549456aef73a59cf6257777687dcd01029afe
+ * Automaton sha256 25e653dd14dd2315245e58f0c4d66a5b0165d1807848e1dc6cfca7cf6d3cd5a6
  *
  * Rebound criteria that are met at a gap. Included where `constants` is known. */
 

@@ -7,10 +7,12 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from ...generated.automaton import CLOSING, KINDS, LAST_ANSWER, OPENING, OUTCOMES, Status
-from ..engines.settings import KERNEL_STEPS, spent_by_kernel
+from ...generated.automaton import CLOSING, KINDS, LAST_ANSWER, OPENING, OUTCOMES
+from ..engines.casadi.sequence import EventSequence, sequence
 from ..engines.taylor.call import Impacts
 from ..engines.taylor.record import Recorded, Steps, run_recorded
+from ..engines.taylor.undecided import SEPARATES, undecided
+from ..errors import ComputationError
 from ..model.dimensionless import DimensionlessGroups
 from ..model.model import load, select_model
 from ..results import TERMS
@@ -25,16 +27,61 @@ if TYPE_CHECKING:
     from ..engines.casadi.trajectory import Stretch
 
 
-class Undecided(NamedTuple):
-    """Why the kernel has not decided a collision, and the steps that are then spent of those for all engines."""
-
-    reason: str
-    spent: int = 0
-
-
 def words_of(scene: Scene) -> tuple[str, ...]:
     """Words of events by the kernel's numbers: the library's, then those of declared events."""
     return KINDS if scene.package is None else (*KINDS, *scene.package.words)
+
+
+def recorded(
+    scene: Scene,
+    n: DimensionlessGroups,
+    rtol: float,
+    ledger: bool = False,
+    trajectory: bool = False,
+    until: float | None = None,
+) -> Recorded:
+    """One collision by the kernel, with its events.
+
+    Arguments:
+        until: time (x0/v0) to which a stick is followed on after it is decided.
+
+    Raises:
+        ComputationError: phase, time and state, in SI, if the outcome is not decided; or there is no kernel.
+    """
+    impact = Impacts(scene, np.array([n.speed]), np.array([n.angle]), {})
+    ran = run_recorded(impact, n.oblique, rtol, ledger, trajectory, until=until)
+    answer, words = ran.answers[0], words_of(scene)
+    if answer["status"] > LAST_ANSWER:
+        happened = [words[kind] for kind in ran.events[0, : answer["events"]]["kind"].tolist()]
+        declared = next((word for word in reversed(happened) if word not in KINDS), "")
+        states = load(select_model(scene, n.oblique, full=ledger, fold=True)).state
+        raise n.in_si(undecided(answer, tuple(states), declared))
+    if until is not None and answer["outcome"] > 0:
+        raise ComputationError(f"a stick that is decided, not proved, {SEPARATES}", advice="leave out --until")
+    return ran
+
+
+def followed(scene: Scene, n: DimensionlessGroups, rtol: float, until: float | None, **options: bool) -> Followed:
+    """One collision by the kernel; a stick is followed on up to a time (s) beyond its decision."""
+    ran = recorded(scene, n, rtol, **options)
+    decided = float(ran.answers["time"][0])
+    if until is None or ran.answers["outcome"][0] > 0 or not decided < until / n.time:
+        return Followed(ran, None)
+    return Followed(recorded(scene, n, rtol, **options, until=until / n.time), decided)
+
+
+class Followed(NamedTuple):
+    """A record, and the time (x0/v0) at which its stick was decided if it runs beyond that."""
+
+    record: Recorded
+    decided: float | None
+
+
+def sequence_of(scene: Scene, n: DimensionlessGroups, rtol: float, until: float | None = None) -> EventSequence:
+    """The phases and events of one collision, as the kernel finds them; `until` (s) as for `followed`."""
+    record, decided = followed(scene, n, rtol, until, ledger=True)
+    answer, model = record.answers[0], load(select_model(scene, n.oblique, full=True, fold=True))
+    return sequence(answer, record.events[0, : answer["events"]], words_of(scene), model, n.groups, decided)
 
 
 def collision(
@@ -43,28 +90,26 @@ def collision(
     rtol: float,
     ledger: bool = False,
     trajectory: bool = False,
-    budget: int = KERNEL_STEPS,
-) -> Collision | Undecided:
-    """The collision by one call of the kernel; the reason if the kernel cannot complete it or is not available.
+    until: float | None = None,
+) -> Collision:
+    """The collision by one call of the kernel.
 
     Arguments:
         ledger: include the energy ledger and the drift of angular momentum.
         trajectory: include the trajectory, sampled from the Taylor series of the steps.
+        until: time (s) to which a stick is followed on.
+
+    Raises:
+        ComputationError: as `recorded`; or the energy ledger is open, as the trajectory is then wrong.
     """
-    impacts = Impacts(scene, np.array([n.speed]), np.array([n.angle]), {})
-    recorded = run_recorded(impacts, n.oblique, rtol, ledger, trajectory, budget)
-    if recorded is None:
-        return Undecided("no Taylor kernel can be compiled for this scene here")  # a remark has said why
-    answer, books = _row(recorded.answers), None if recorded.ledger is None else _row(recorded.ledger)
-    steps = answer["steps"]
-    if answer["status"] > LAST_ANSWER:
-        status = Status(answer["status"]).name.lower().replace("_", " ")
-        return Undecided(f"the Taylor kernel gave up: {status}", spent_by_kernel(steps, answer["events"]))
+    record, decided = followed(scene, n, rtol, until, ledger=ledger, trajectory=trajectory)
+    answer, books = _row(record.answers), None if record.ledger is None else _row(record.ledger)
     energy = None if books is None else _energy(scene, n, books)
     separated = answer["outcome"] > 0
-    if energy is not None and separated and energy.is_open(rtol):
-        return Undecided("the Taylor kernel gave up: its energy ledger is open", steps)  # so the trajectory is wrong
+    if energy is not None and separated:
+        energy.check(rtol)
     names, words = load(select_model(scene, n.oblique, fold=True)).names("outputs"), words_of(scene)
+    log = record.events[0, : answer["events"]]
     return assembled(
         scene,
         n,
@@ -76,13 +121,14 @@ def collision(
         time=answer["time"],
         smallest_gap=answer["smallest_gap"],
         slip=answer["slip"],
-        events=[(words[int(kind)], time) for kind, time in recorded.events[0, : answer["events"]].tolist()],
+        events=[(words[kind], time) for kind, time in log[["kind", "time"]].tolist()],
         engine="taylor",
-        steps=steps,
+        steps=answer["steps"],
+        decided=decided,
         rtol=rtol,
         energy=energy,
         drift=None if books is None else _drift(scene, n, books),
-        trajectory=_trajectory(scene, n, rtol, recorded, ledger) if trajectory else None,
+        trajectory=_trajectory(scene, n, rtol, record, ledger) if trajectory else None,
     )
 
 

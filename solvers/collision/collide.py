@@ -4,13 +4,13 @@ from dataclasses import replace
 from pathlib import Path as FilePath
 
 from ...generated.automaton import STICK
-from ..engines.settings import UNTIL, Budget, casadi_steps, check_engine, check_rtol
+from ..engines.settings import UNTIL, check_engine, check_rtol
 from ..errors import ComputationError
 from ..host.arguments import check_flag
 from ..model.dimensionless import DimensionlessGroups, nondimensionalise
 from ..model.validity import warn
 from ..scene.scene import Scene
-from .by_kernel import Undecided, collision
+from .by_kernel import collision
 from .result import Collision
 
 
@@ -38,8 +38,8 @@ def collide(
         relative_speed: magnitude of the relative velocity, m/s or a string with its unit.
         angle: impact angle, rad or a string with its unit.
         rtol: relative tolerance of the integrators, 1e-13..1e-3.
-        engine: "taylor" (default), "rosenbrock" (also where taylor cannot answer: the result's
-            `engine_reason` says why) or "cvodes".
+        engine: "taylor" (default), or "cvodes" or "rosenbrock", which integrate the phases that taylor has found and
+            check its events.
         ledger: integrate the energy ledger and keep the spin as a state to see the drift of angular momentum.
         trajectory: keep the trajectory as an xarray Dataset.
         until: time after initial contact, s or a string with its unit. A stick is integrated up to this time, beyond
@@ -70,7 +70,7 @@ def collide(
     v0, theta0 = loaded.need_impact()
     dimensionless = nondimensionalise(loaded, v0, theta0)
     warn(loaded)
-    result = _integrated(loaded, dimensionless, rtol, requested, ledger, trajectory, last)
+    result = integrated(loaded, dimensionless, rtol, requested, ledger, trajectory, last)
     return _proved(result, loaded) if proof else result
 
 
@@ -87,27 +87,18 @@ def _proved(result: Collision, scene: Scene) -> Collision:
     return replace(result, proof=proof, certified=result.certified or proof.outcome == STICK)
 
 
-def _integrated(
-    loaded: Scene,
-    dimensionless: DimensionlessGroups,
+def integrated(
+    scene: Scene,
+    n: DimensionlessGroups,
     rtol: float,
-    requested: str | None,
+    engine: str | None,
     ledger: bool,
     trajectory: bool,
-    last: float | None,
+    until: float | None = None,
 ) -> Collision:
-    """The collision by the engine that is requested, or by the first that can."""
-    if requested not in (None, "taylor"):
-        from .by_casadi import by_casadi
+    """The collision by the kernel, or as an engine of CasADi replays it; `until` in s."""
+    if engine in (None, "taylor"):
+        return collision(scene, n, rtol, ledger, trajectory, until)
+    from .by_replay import by_replay
 
-        return by_casadi(loaded, dimensionless, rtol, requested, ledger, trajectory, until=last)
-    result = collision(loaded, dimensionless, rtol, ledger, trajectory)
-    if isinstance(result, Collision):
-        if last is None or result.outcome != STICK:
-            return result
-        result = Undecided("the Taylor kernel does not follow a stick beyond its proof")
-    from .by_casadi import by_casadi
-
-    budget = Budget(casadi_steps(rtol, spent=result.spent))
-    other = by_casadi(loaded, dimensionless, rtol, "rosenbrock", ledger, trajectory, until=last, budget=budget)
-    return replace(other, engine_reason=result.reason)
+    return by_replay(scene, n, rtol, engine, ledger, trajectory, until)

@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
+from ..errors import ComputationError
 from ..model.validity import NEEDS, sentences
 from ..results import OF_SEPARATION, UNITS
 from ..scene.origin import origin
@@ -57,9 +58,13 @@ class Energy:
         more = (self.attraction, self.dry_friction, self.own_events)
         return self.initial - self.final - spent - sum(each or 0.0 for each in more)
 
-    def is_open(self, rtol: float) -> bool:
-        """True if the residual exceeds what the tolerance explains, so that the trajectory must be wrong."""
-        return abs(self.residual) > open_beyond(rtol) * self.largest
+    def check(self, rtol: float) -> None:
+        """ComputationError if the residual exceeds what the tolerance explains: the trajectory must be wrong."""
+        if not abs(self.residual) <= open_beyond(rtol) * self.largest:
+            raise ComputationError(
+                f"the energy ledger is open by {abs(self.residual) / self.largest:.1e} of its largest term",
+                advice="try a smaller --rtol, or the other --engine; please report the scene",
+            )
 
     @property
     def largest(self) -> float:
@@ -97,7 +102,6 @@ class Outcome:
         certified: True if a certificate, or the enclosure from the initial data on, proves the stick.
         reversal: the first rebound criterion met, if any.
         rtol: relative tolerance that was asked for.
-        engine_reason: why the Taylor kernel did not answer; "" where it did, or another engine was requested.
         trajectory: Dataset over `time`, if requested.
         proof: what the enclosure of the collision proves, if requested.
     """
@@ -129,7 +133,6 @@ class Outcome:
     rtol: float
     generalised_centrifugal: float | None = None
     final_spin_partner: float | None = None
-    engine_reason: str = field(default="", compare=False)
     scene: Scene = field(repr=False, compare=False)
     trajectory: xarray.Dataset | None = field(default=None, repr=False, compare=False)
     proof: Proof | None = field(default=None, repr=False, compare=False)
@@ -174,8 +177,6 @@ class Outcome:
         result["energy"] = self.energy.to_dict() if self.energy else None
         result["angular_momentum_drift"] = self.angular_momentum_drift
         result |= {"engine": self.engine, "steps": self.steps, "rtol": self.rtol, "validity": list(self.validity)}
-        if self.engine_reason:
-            result["engine_reason"] = self.engine_reason
         if self.proof is not None:
             names = ("proved", "outcome", "restitution", "reason", "smallest_gap", "rebounds", "steps")
             result["proof"] = {name: value for name, value in self.proof.to_dict().items() if name in names}

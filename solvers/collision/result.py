@@ -60,7 +60,7 @@ class Collision(Outcome, Drawn):
         if self.energy is not None:
             end = f"{quantity(self.energy.final, 'J')} at the end; residual {self.energy.residual:.1e} J"
             rows.append(("energy", f"{quantity(self.energy.initial, 'J')} at contact", end))
-        engine = f"{self.engine}, {self.steps} steps" + (f" ({self.engine_reason})" if self.engine_reason else "")
+        engine = f"{self.engine}, {self.steps} steps"
         return view(
             name_of(self.scene),
             rows,

@@ -347,4 +347,4 @@ def _numerics(collision: Outcome) -> list[str]:
     elif collision.scene.pendulum is not None:
         lines = [_line("angular momentum", "-", "not conserved: the strings take from it")]
     lines.append(_line("engine", f"{collision.engine}, {collision.steps} steps"))
-    return [*lines, *([_line("", collision.engine_reason)] if collision.engine_reason else [])]
+    return lines

@@ -18,7 +18,6 @@ import signal
 import warnings
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager, suppress
-from dataclasses import replace
 from functools import partial
 from importlib import import_module
 from pathlib import Path
@@ -90,9 +89,8 @@ def blocks(shape: tuple[int, ...], engine: str) -> list[Place]:
 
 def _computed(part: Impacts, cores: int) -> Block:
     """Results of a block, computed here or by a worker."""
-    request = replace(part, partial=True)
-    results = empty(request.size, request.of)
-    complete(request, results, cores=cores)
+    results = empty(part.size, part.of)
+    complete(part, results, cores=cores)
     return results
 
 
@@ -112,7 +110,7 @@ def _computing(impacts: Impacts, client: Any, cut: Sequence[Place]) -> Iterator[
         yield arithmetic(), one_at_a_time
         return
     with connected(client) as cluster:
-        expected = _agreed(cluster, "taylor" in impacts.engines.values())
+        expected = _agreed(cluster, impacts.engine == "taylor")
         yield expected, lambda todo: _distributed(cluster, task, todo, expected)
 
 
@@ -139,7 +137,7 @@ def into_memory(
             order = impacts.order()
             complete(impacts, results, order[~done[order]], finished)
         else:
-            cut, flat = blocks(impacts.shape, impacts.answered_by), np.arange(impacts.size).reshape(impacts.shape)
+            cut, flat = blocks(impacts.shape, impacts.engine), np.arange(impacts.size).reshape(impacts.shape)
             with _computing(impacts, client, cut) as (_, computed):
                 for k, block in computed([k for k in range(len(cut)) if not done[flat[cut[k]]].all()]):
                     finished(flat[cut[k]].ravel(), block)
@@ -153,7 +151,7 @@ def into_store(impacts: Impacts, path: Path, client: Any = None, progress: Progr
         client: of a cluster; None for this process.
         progress: called with (collisions done, collisions in all) at the start and after every block.
     """
-    cut = blocks(impacts.shape, impacts.answered_by)
+    cut = blocks(impacts.shape, impacts.engine)
     sizes = [math.prod(one.stop - one.start for one in at) for at in cut]
     with _computing(impacts, client, cut) as (digits, computed):
         key = _digest({**impacts.identity(), "arithmetic": dict(digits)})

@@ -8,12 +8,10 @@ import numpy as np
 from ...generated import scaling
 from ...generated.automaton import KINDS, LAST_ANSWER
 from ..collision.outcome import absent_terms, open_beyond
-from ..engines.settings import spent_by_kernel
 from ..engines.taylor import call
 from ..engines.taylor.call import run_kernel
 from ..engines.taylor.layout import result
 from ..engines.taylor.record import run_with_books
-from ..errors import ComputationError
 from ..model.model import load, select_model
 from ..results import DEFINITIONS, LEDGER, NONE, RATES, REVERSALS, TERMS
 from ..scene.contact import AT_ANY_SPEED, gap_at_any_speed, never_touching
@@ -35,15 +33,13 @@ _NEAR = 1e-9  # relative distance to a limit of valid input below which the scen
 
 def collide_by_kernel(
     request: Impacts, which: np.ndarray, threads: int, finished: Callable[[np.ndarray, Block], None]
-) -> tuple[np.ndarray, np.ndarray | None]:
-    """Compute the collisions `which` of a batch; returns the indices of those that need another engine.
-
-    With them the steps that each has spent; None without a kernel.
+) -> np.ndarray:
+    """Compute the collisions `which` of a batch; returns the indices of those that it does not complete.
 
     Arguments:
         finished: called with the indices and results of every finished block.
     """
-    left, spent = [which[:0]], [np.zeros(0, int)]
+    left = [which[:0]]
     ledger = any(name in LEDGER for name in request.of)
     jumps = min((DEFINITIONS[name].jumps for name in request.of if name in DEFINITIONS), default=2)
     for first in range(0, which.size, _STRETCH):
@@ -54,11 +50,6 @@ def collide_by_kernel(
             answers, books = run_with_books(impacts, request.rtol, threads)
         else:
             answers, books = run_kernel(impacts, request.rtol, "rotation" in request.of, threads, jumps=jumps), None
-        if answers is None:
-            if request.partial:  # other parts may have been computed by the kernel
-                advice = 'look at what the compiler reports, or choose another engine, as "rosenbrock"'
-                raise ComputationError("the kernel of this request cannot be compiled here", advice=advice)
-            return which, None
         kept = answers["status"] <= LAST_ANSWER
         if books is not None:  # where the ledger is open the trajectory is wrong
             kept &= _closed(answers, books, request.rtol)
@@ -71,12 +62,7 @@ def collide_by_kernel(
             part[done], block_of(request, answers[kept], impacts.part(kept), None if books is None else books[kept])
         )
         left.append(part[~done])
-        steps = np.zeros(part.size, int)
-        steps[np.flatnonzero(sound)[~kept]] = [
-            spent_by_kernel(*row) for row in answers[["steps", "events"]][~kept].tolist()
-        ]
-        spent.append(steps[~done])
-    return np.concatenate(left), np.concatenate(spent)
+    return np.concatenate(left)
 
 
 def impacts_of(request: Impacts) -> tuple[call.Impacts, np.ndarray]:

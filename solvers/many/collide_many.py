@@ -67,9 +67,11 @@ def collide_many(
         >>> laws.restitution.shape
         (2,)
     """
-    names, rtol, engine = check_outputs(of, REQUESTED), check_rtol(rtol), check_engine(engine)
+    names, rtol, engine = check_outputs(of, REQUESTED), check_rtol(rtol), check_engine(engine) or "taylor"
     impact = {"stokes": stokes, "speed": speed, "relative_speed": relative_speed, "angle": angle}
     loaded, arrays, held = checked_columns(scene, impact, vary, hold, most=None, texts=True)
     arguments = {**{f"impact.{name}": values for name, values in impact.items()}, **(vary or {})}
     dims, shape, columns, beside = laid_out(arrays, arguments)
-    return into_memory(Impacts(loaded, columns, dims, shape, rtol, engine, names, held, beside).checked())
+    impacts = Impacts(loaded, columns, dims, shape, rtol, engine, names, held, beside)
+    impacts.check()
+    return into_memory(impacts)

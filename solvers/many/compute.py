@@ -1,28 +1,26 @@
 """A batch of collisions on the cores of this machine.
 
-The Taylor kernel computes them in blocks; those that it does not complete, and those of other engines, go in blocks to
-worker processes. A collision that fails is marked with its reason and the rest go on.
+The Taylor kernel computes them in blocks; those of other engines, and those that it does not complete, whose reason is
+then found, go in blocks to worker processes. A collision that fails is marked and the rest go on.
 """
 
 from collections.abc import Callable
-from dataclasses import replace
 
 import numpy as np
 
 from ..engines.settings import FEW
 from ..errors import InputError
-from ..host.compiler import compiler
 from ..host.cores import usable_cores
 from ..host.workers import in_workers
 from ..results import FAILED, VALIDITY
-from .by_casadi import run
+from .alone import run
 from .by_kernel import collide_by_kernel
 from .columns import impact_columns, validity
 from .impacts import Impacts
 from .results import Block, empty, fill
 
 _BLOCK = 50  # collisions in a block for a worker
-_SLOW_ALONE = 20  # as `FEW`, for collisions that the kernel did not complete; they take up to seconds each
+_SLOW = 20  # as `FEW`, for collisions that the kernel did not complete; they take up to seconds each
 
 Finished = Callable[[np.ndarray, Block], None]
 
@@ -59,26 +57,17 @@ def complete(
 
 
 def _compute(request: Impacts, which: np.ndarray, finished: Finished, cores: int) -> None:
-    size, alone = _BLOCK, FEW
+    size, few = _BLOCK, FEW
     if request.engine == "taylor":
-        left, spent = collide_by_kernel(request, which, cores if which.size > FEW else 1, finished)
-        if spent is not None and left.size:
-            steps = np.zeros(request.size, int)
-            steps[left] = spent
-            request = replace(request, spent=steps)
+        left = collide_by_kernel(request, which, cores if which.size > FEW else 1, finished)
         if 0 < left.size < which.size:
-            size, alone = max(1, min(_BLOCK, left.size // (4 * cores))), _SLOW_ALONE
+            size, few = max(1, min(_BLOCK, left.size // (4 * cores))), _SLOW
         which = left
     blocks = [which[k : k + size] for k in range(0, which.size, size)]
     cores = min(len(blocks), cores)
-    many = which.size > FEW
-    if which.size <= alone or cores == 1:
+    if which.size <= few or cores == 1:
         for block in blocks:
-            finished(block, run(request.part(block), many))
+            finished(block, run(request.part(block)))
         return
-    if request.engine != "cvodes":
-        compiler()  # a missing compiler is reported here and not by a worker
-    if many:
-        run(request.part(blocks[0][:1]), True)  # compile once, before the workers need it
-    for block, result in in_workers(cores, run, ((block, (request.part(block), many)) for block in blocks)):
+    for block, result in in_workers(cores, run, ((block, (request.part(block),)) for block in blocks)):
         finished(block, result)

@@ -5,16 +5,15 @@ from __future__ import annotations
 import hashlib
 import math
 from collections.abc import Hashable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache, partial
 from importlib.metadata import version
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Self
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ...generated import scaling
-from ..engines.choice import collision_engine
 from ..engines.settings import check_engine, check_rtol
 from ..errors import InputError
 from ..formatting.labelled import Column, labelled
@@ -42,12 +41,8 @@ class Impacts:
 
     Arguments:
         columns: dotted name of an entry -> its dimensions, and its checked values along these: SI, or names of choices.
-        engine: that computes the collisions; None before `checked`: the best of each scene.
         held: which quantity of the scene's impact all collisions share, in words.
         beside: further coordinates, of DataArrays among the arguments.
-        engines: the engine for each combination of choices.
-        partial: the kernel may have computed other parts of the same request.
-        spent: steps that the kernel has spent on each collision; None: none.
     """
 
     scene: Scene
@@ -55,17 +50,14 @@ class Impacts:
     dims: Dims
     shape: tuple[int, ...]
     rtol: float
-    engine: str | None
+    engine: str
     of: tuple[str, ...] = ()
     held: str = ""
     beside: xarray.Dataset | None = None
-    engines: Mapping[tuple[str, ...], str] = field(default_factory=dict)
-    partial: bool = False
-    spent: np.ndarray | None = None
 
     @classmethod
     def listed(
-        cls, scene: Scene, columns: Mapping[str, np.ndarray], rtol: float, engine: str | None, of: tuple[str, ...] = ()
+        cls, scene: Scene, columns: Mapping[str, np.ndarray], rtol: float, engine: str, of: tuple[str, ...] = ()
     ) -> Impacts:
         """Impacts in one dimension, from columns of one length."""
         size = next(iter(columns.values())).size
@@ -75,11 +67,6 @@ class Impacts:
     @property
     def size(self) -> int:
         return math.prod(self.shape)
-
-    @property
-    def answered_by(self) -> str:
-        """The engines that compute the collisions, as text."""
-        return ", ".join(dict.fromkeys(self.engines.values())) or self.engine or "rosenbrock"
 
     def order(self) -> np.ndarray:
         return np.arange(self.size)
@@ -141,8 +128,7 @@ class Impacts:
     def part(self, which: np.ndarray) -> Impacts:
         """These impacts alone, in one dimension."""
         columns = {name: (LISTED, np.asarray(self._flat(name))[which]) for name in self.columns}
-        spent = None if self.spent is None else self.spent[which]
-        return replace(self, columns=columns, dims=LISTED, shape=which.shape, beside=None, spent=spent)
+        return replace(self, columns=columns, dims=LISTED, shape=which.shape, beside=None)
 
     def block(self, at: Place) -> Impacts:
         """A block of the impacts, with their dimensions."""
@@ -164,39 +150,36 @@ class Impacts:
             else:
                 part = self.part(which)
                 numbers = {name: column for name, column in part.columns.items() if name not in self.texts}
-                yield which, replace(part, scene=scene, columns=numbers, engine=self.engines.get(row, self.engine))
+                yield which, replace(part, scene=scene, columns=numbers)
 
     def check_possible(self) -> None:
         """InputError if the varied entries make every collision impossible; single ones are marked later."""
         if self.vary and self.size:
             first_accepted(partial(self.scene_of, k) for k in range(self.size))
 
-    def checked(self) -> Self:
-        """The impacts with their engines; InputError if the entries that vary make every scene impossible.
+    def check(self) -> None:
+        """Raise InputError if the entries that vary make every scene impossible.
 
         Warnings about scenes are given here, not by the processes that compute them.
         """
         if not set(self.columns) - {*MEETING}:  # one scene
             warn(self.scene)
-            engine = collision_engine(self.scene, self.engine)
-            return replace(self, engine=engine, engines={(): engine})
+            return
         varied = {dim for name, (dims, _) in self.columns.items() if name not in MEETING for dim in dims}
         lengths = zip(self.dims, self.shape, strict=True)
         scenes = self.block(tuple(slice(0, size if dim in varied else min(size, 1)) for dim, size in lengths))
-        errors, engines = [], {}
-        for where, part in scenes.by_text() if scenes.texts else ((np.arange(1), scenes),):
+        errors, possible = [], False
+        for _, part in scenes.by_text() if scenes.texts else ((np.arange(1), scenes),):
             try:
                 if isinstance(part, InputError):
                     raise part
                 part.check_possible()
-                choices = tuple(str(values[where[0]]) for values in scenes.texts.values())
-                engines[choices] = collision_engine(part.scene, self.engine)
+                possible = True
                 warn(part.scene)
             except InputError as error:
                 errors.append(error)
-        if errors and not engines:
+        if errors and not possible:
             raise errors[0]
-        return replace(self, engine=engines.get((), "rosenbrock"), engines=engines)
 
     def coordinates(self) -> dict[str, Column]:
         """Impacts and entries that vary, each over its own dimensions; `beside` excepted."""
@@ -218,7 +201,7 @@ class Impacts:
         attrs = {
             "scene": self.scene.to_toml(),
             "rtol": self.rtol,
-            "engine": self.answered_by,
+            "engine": self.engine,
             "held": self.held,
             "model": self.scene.package and self.scene.package.text,
         }
@@ -261,7 +244,7 @@ class Impacts:
             "columns": columns,
             "shape": self.shape,
             "rtol": self.rtol,
-            "engine": self.answered_by,
+            "engine": self.engine,
             "of": sorted(set(self.of)),
             **software(),
             "model": self.scene.package and self.scene.package.digest,
@@ -288,7 +271,7 @@ def listed(
     """
     names = check_outputs(of)
     loaded, columns, _ = checked_columns(scene, impact, vary)
-    chosen = collision_engine(loaded, check_engine(engine))
+    chosen = check_engine(engine) or "taylor"
     impacts = Impacts.listed(loaded, of_one_length(columns), check_rtol(rtol), chosen, names)
     impacts.check_possible()
     return impacts

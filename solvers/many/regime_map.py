@@ -141,11 +141,12 @@ def regime_map(
     beside = None if resume is None else check_file(resume, "resume", replaced=True)
     loaded, arrays, held = checked_columns(scene, impact, vary, hold)
     axes = _axes(arrays, MOST if file is None else MOST_STORED)
-    rtol, engine, names = check_rtol(rtol), check_engine(engine), check_outputs(of)
+    rtol, engine, names = check_rtol(rtol), check_engine(engine) or "taylor", check_outputs(of)
     dims = tuple(name.partition(".")[2] if name in MEETING else name for name in axes)
     columns = {name: ((dim,), axis) for dim, (name, axis) in zip(dims, axes.items(), strict=True)}
     shape = tuple(axis.size for axis in axes.values())
-    grid = Grid(loaded, columns, dims, shape, rtol, engine, names, held).checked()
+    grid = Grid(loaded, columns, dims, shape, rtol, engine, names, held)
+    grid.check()
     if file is not None:
         return into_store(grid, file, client, progress)
     return into_memory(grid, client, progress, beside)

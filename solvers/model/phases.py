@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
-from casadi import SX, Function, cross, densify, fabs, fmax, fmin, horzcat, if_else, jtimes, logic_and, vertcat
+from casadi import SX, Function, cross, densify, fabs, fmin, horzcat, if_else, jtimes, vertcat
 
 from ...generated.automaton import CLOSING, EVENTS, VOID_WITHOUT
 from ...generated.automaton import Event as Row
@@ -182,18 +182,15 @@ class WatchedEvents:
 
     Arguments:
         tangential_edge: the edge of the tangential force is within the range of gaps and differs from the film's.
-        certificate: watch for a certificate of a stick: "energy" below a level, or "pendulum" by a margin.
     """
 
     tangential_edge: bool = False
-    certificate: str | None = None
 
 
-def event_table(flow: Flow, watch: WatchedEvents, motion: SX, level: SX) -> tuple[Event, ...]:
+def event_table(flow: Flow, watch: WatchedEvents, motion: SX) -> tuple[Event, ...]:
     """The events of a region, for either direction of motion (`motion` is CLOSING or OPENING).
 
-    The order is the precedence among coincident events. `level` is the energy below which a stick is proved, or
-    the relative margin by which the pendulum certificate must hold.
+    The order is the precedence among coincident events.
     """
     model, region = flow.model, flow.region
     guards = model("events", region=region.flags if model.friction else None)
@@ -216,10 +213,6 @@ def event_table(flow: Flow, watch: WatchedEvents, motion: SX, level: SX) -> tupl
     ]
     if not region.resting:
         table += [Event(name, side * model.kinks[name], True) for name, side in zip(model.kinks, region.sides)]
-    if watch.certificate == "energy":
-        table.append(Event("certified", mechanical_energy(flow) - level))
-    elif watch.certificate == "pendulum":
-        table.append(Event("certified", _pendulum_margin(model, level)))
     return tuple(table)
 
 
@@ -248,23 +241,3 @@ def kinks_along(flow: Flow) -> Function:
     parts, guards = expressions(flow), vertcat(*flow.model.kinks.values())
     rates = jtimes(guards, parts.variables, parts.rates)
     return Function("kinks", [parts.variables, flow.model.parameters], [horzcat(guards, rates)])
-
-
-def _pendulum_margin(model: Model, margin: SX) -> SX:
-    """The largest of the pendulum certificate's margins where all forces but that of the film point inward.
-
-    Negative where it holds by the relative `margin`; not negative if a margin is NaN, which fmax would ignore. The
-    impulse of a rotation is not differentiable, so an event that is watched does not allow for it.
-    """
-    margins, error = model("pendulum_margins"), margin * fmax(model.groups["stokes"], 1)
-    outward, pull = margins["outward"], margins["pull"]
-    parts = [margins["film"] + error, margins["recoil"] + error, outward - pull + margin * (outward + pull)]
-    worst = fmax(fmax(*parts[:2]), parts[2])
-    return if_else(logic_and(logic_and(parts[0] < 0, parts[1] < 0), parts[2] < 0), worst, fmax(worst, 0))
-
-
-def mechanical_energy(flow: Flow) -> SX:
-    """Kinetic energy, work against attractions so far and, head-on, the strings' potential, over m v0^2."""
-    model, extras = flow.model, expressions(flow).extras
-    energy = sum(model(model.escape).values(), SX(0))
-    return sum((extras[work] for work in model.works if work in extras), energy)

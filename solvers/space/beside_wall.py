@@ -8,21 +8,22 @@ Energies are quadratic in both vectors: for a ledger two more collisions, of whi
 coefficients.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
 from ...generated.automaton import LAST_ANSWER, OUTCOMES
-from ..engines.casadi.locate import locate
-from ..engines.settings import KERNEL_STEPS, Budget
+from ..collision.by_kernel import sequence_of
+from ..engines.casadi.replay import replayed
 from ..engines.taylor.call import Impacts, run_kernel
 from ..engines.taylor.record import run_with_books
+from ..engines.taylor.undecided import undecided
 from ..errors import ComputationError, WetDoubletError
 from ..model.dimensionless import nondimensionalise
 from ..model.model import load, select_model
-from ..model.phases import extra_units
-from .books import TERMS, TRANSVERSE, extras_of, is_open, of_casadi, of_kernel
+from .books import OPEN, TERMS, TRANSVERSE, extras_of, is_open, of_casadi, of_kernel
 from .ends import FAILED, Ends
 from .pairs import Pairs, dot, length
 
@@ -36,7 +37,6 @@ class Planar:
     outcome: np.ndarray
     certified: np.ndarray
     reason: np.ndarray
-    left: np.ndarray
     time: np.ndarray
     gap: np.ndarray
     opening: np.ndarray
@@ -45,63 +45,56 @@ class Planar:
     energy: np.ndarray
 
 
-def planar_by_kernel(impacts: Impacts, rtol: float, threads: int, ledger: bool) -> Planar | None:
-    """Planar collisions by the kernel; None if none is available. They share its steps."""
-    budget = KERNEL_STEPS // (4 if ledger else 2)
+def planar_by_kernel(impacts: Impacts, rtol: float, threads: int, ledger: bool) -> Planar:
+    """Planar collisions by the kernel."""
     if ledger:
-        answers, books = run_with_books(impacts, rtol, threads, budget)
+        answers, books = run_with_books(impacts, rtol, threads)
     else:
-        answers, books = run_kernel(impacts, rtol, False, threads, budget), None
-    if answers is None:
-        return None
+        answers, books = run_kernel(impacts, rtol, False, threads), None
     terms = np.full((answers.size, len(TERMS)), np.nan) if books is None else of_kernel(books)
-    reason = np.full(answers.size, "", object)
     opening, slide, _, roll = answers["shown"].T[:4]
-    left = answers["status"] > LAST_ANSWER
-    certified = answers["certified"] != 0
-    return Planar(
-        answers["outcome"], certified, reason, left, answers["time"], answers["final_gap"], opening, slide, roll, terms
-    )
+    outcome, certified = answers["outcome"].astype(int), answers["certified"] != 0
+    reason = np.full(answers.size, "", object)
+    states = tuple(load(select_model(impacts.scene, True, full=ledger)).state)
+    for k in np.flatnonzero(answers["status"] > LAST_ANSWER):
+        n = nondimensionalise(impacts.scene, float(impacts.speed[k]), float(impacts.angle[k]))
+        outcome[k], reason[k] = FAILED, str(n.in_si(undecided(answers[k], states)))
+    return Planar(outcome, certified, reason, answers["time"], answers["final_gap"], opening, slide, roll, terms)
 
 
-def planar_by_casadi(impacts: Impacts, rtol: float, ledger: bool, budgets: Sequence[Budget]) -> Planar:
-    """Planar collisions by Rosenbrock, one after the other.
-
-    Arguments:
-        budgets: of each row, for all planar collisions that it takes.
-    """
+def planar_by_replay(impacts: Impacts, plugin: str, rtol: float, ledger: bool) -> Planar:
+    """Planar collisions by Rosenbrock or CVODES, one after the other."""
     size = impacts.speed.size
     time, gap, opening, slide, roll = (np.full(size, np.nan) for _ in range(5))
     outcome, reason = np.full(size, FAILED), np.full(size, "", object)
     terms = np.full((size, len(TERMS)), np.nan)
-    result = Planar(outcome, np.zeros(size, bool), reason, np.zeros(size, bool), time, gap, opening, slide, roll, terms)
+    result = Planar(outcome, np.zeros(size, bool), reason, time, gap, opening, slide, roll, terms)
     for k in range(size):
         scene = impacts.scene.with_entries({"impact.spin": float(impacts.others["impact_spin"][k])})
         try:
             n = nondimensionalise(scene, float(impacts.speed[k]), float(impacts.angle[k]))
+            model = load(select_model(scene, True, full=ledger))
+            extras = extras_of(model) if ledger else ()
             try:
-                model = load(select_model(scene, True, full=ledger))
-                path = locate(model, n.groups, rtol, extras_of(model) if ledger else (), budget=budgets[k])
+                path, replay = replayed(partial(sequence_of, scene, n), model.choice, extras, plugin, rtol)
             except ComputationError as error:
                 raise n.in_si(error) from None
         except WetDoubletError as error:
             result.reason[k] = str(error)
             continue
-        shown = path.model.values("outputs", path.y, path.p)
+        p = model.group_values(n.groups)
+        shown = model.values("outputs", replay.y, p)
         outcome[k], result.certified[k] = OUTCOMES.index(path.outcome), path.certified
-        time[k], gap[k], opening[k] = path.time, float(path.y[0]), shown["restitution"]
+        time[k], gap[k], opening[k] = replay.time, float(replay.y[0]), shown["restitution"]
         slide[k], roll[k] = shown["tangential_restitution"], shown["final_spin"]
         if ledger:
-            units = extra_units(model, path.extras, path.p)
-            taken = dict(zip(path.extras, path.y[len(model.state) :] * units, strict=True))
-            terms[k] = of_casadi(model, path.p, path.y, taken, path.dry_loss)
+            taken = {name: replay.extra(name) for name in extras}
+            terms[k] = of_casadi(model, p, replay.y, taken, replay.dry_loss)
     return result
 
 
-def beside_wall(
-    pairs: Pairs, planar: Callable[[Impacts], Planar | None], rtol: float, ledger: bool = False
-) -> tuple[Ends, np.ndarray] | None:
-    """Ends of collisions with a wall, and a mask of those left to another engine; None if `planar` has no engine.
+def beside_wall(pairs: Pairs, planar: Callable[[Impacts], Planar], rtol: float, ledger: bool = False) -> Ends:
+    """Ends of collisions with a wall; one that is not decided has the outcome FAILED and its reason.
 
     Arguments:
         planar: computes planar collisions.
@@ -109,14 +102,12 @@ def beside_wall(
     radius = float(pairs.scene.material["reduced_radius"])
     speed = -pairs.opening
 
-    def collided(angle: float, spinning: float) -> Planar | None:
+    def collided(angle: float, spinning: float) -> Planar:
         spin = {"impact_spin": spinning * speed / radius}
         return planar(Impacts(pairs.scene, speed, np.full(pairs.size, angle), spin))
 
     cases = ((_SLIDES, 0.0), (_SLIDES, 1.0), (0.0, 1.0), (_SLIDES, -1.0))[: 4 if ledger else 2]
-    parts = [part for case in cases if (part := collided(*case))]
-    if len(parts) < len(cases):
-        return None
+    parts = [collided(*case) for case in cases]
     slides, both = parts[:2]
     # sliding is that of the sphere along the wall; rolling turns it about normal x sliding
     sliding = -pairs.sliding
@@ -142,11 +133,11 @@ def beside_wall(
     first, last = length(sliding - rolling), length(later[0] - later[1])
     with np.errstate(all="ignore"):
         ends.slip[:] = np.where((first > 0) & (ends.outcome > 0), last / first, np.nan)
-    left = np.any([part.left for part in parts], axis=0)
     if ledger:
         ends.energy[:] = _energies(pairs, sliding, rolling, [part.energy for part in parts])
-        left |= is_open(ends.energy, ends.outcome > 0, rtol)
-    return ends, left
+        wrong = is_open(ends.energy, ends.outcome > 0, rtol)
+        ends.outcome[wrong], ends.reason[wrong] = FAILED, OPEN
+    return ends
 
 
 def _energies(pairs: Pairs, sliding: np.ndarray, rolling: np.ndarray, planar: list[np.ndarray]) -> np.ndarray:

@@ -5,14 +5,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...generated.automaton import LAST_ANSWER, TURNLESS, Status
-from ..engines.casadi.locate import CHATTERS
 from ..engines.taylor.call import Impacts, run_kernel
 from ..engines.taylor.in_space import run_in_space
 from ..engines.taylor.record import run_with_books
-from ..errors import ComputationError
+from ..engines.taylor.undecided import undecided
+from ..model.dimensionless import nondimensionalise
 from ..model.model import load, select_model
 from ..scene.groups import rate_scales, si_values
-from .books import is_open, of_kernel
+from .books import OPEN, is_open, of_kernel
 from .ends import FAILED, Ends
 from .pairs import Bodies, Pairs, dot, length, spin_energy, without_spins
 
@@ -51,9 +51,9 @@ def planes(pairs: Pairs) -> Planes:
     return Planes(planar, axis, along[:, 0], along[:, 1:])
 
 
-def by_kernel(pairs: Pairs, rtol: float, threads: int, ledger: bool = False) -> tuple[Ends, np.ndarray] | None:
-    """Ends of the pairs, and a mask of those that need another engine; None if no kernel is available."""
-    ends, left = Ends.blank(pairs.size), np.zeros(pairs.size, bool)
+def by_kernel(pairs: Pairs, rtol: float, threads: int, ledger: bool = False) -> Ends:
+    """Ends of the pairs; one that is not decided has the outcome FAILED and its reason."""
+    ends = Ends.blank(pairs.size)
     motion = planes(pairs)
     for planar in (True, False):
         which = np.flatnonzero(motion.planar == planar)
@@ -61,27 +61,27 @@ def by_kernel(pairs: Pairs, rtol: float, threads: int, ledger: bool = False) -> 
             continue
         part = pairs.part(which), _part(motion, which)
         found = _in_planes(*part, rtol, threads, ledger) if planar else _in_space(part[0], rtol, threads, ledger)
-        if found is None:
-            return None
-        ends.put(which, found[0])
-        left[which] = found[1]
+        ends.put(which, found)
     if ledger:  # where it is open the trajectory is wrong
-        left |= is_open(ends.energy, ends.outcome > 0, rtol)
-    return ends, left
+        wrong = is_open(ends.energy, ends.outcome > 0, rtol)
+        ends.outcome[wrong], ends.reason[wrong] = FAILED, OPEN
+    return ends
 
 
 def _part(motion: Planes, which: np.ndarray) -> Planes:
     return Planes(motion.planar[which], motion.axis[which], motion.turning[which], motion.spins[which])
 
 
-def _in_space(pairs: Pairs, rtol: float, threads: int, ledger: bool) -> tuple[Ends, np.ndarray] | None:
+def vectors_of(pairs: Pairs) -> dict[str, np.ndarray]:
+    """Initial vectors by the names of the kernel in space, SI."""
     vectors = {"initial_normal": pairs.normal, "impact_turning": pairs.turning}
-    vectors |= {name: pairs.spins[:, k] for k, name in enumerate(_SPINS)}
-    ran = run_in_space(pairs.scene, vectors, -pairs.opening, rtol, threads, ledger)
-    if ran is None:
-        return None
-    answers, books = ran
-    ends, left = _of_answers(pairs, answers, books)
+    return vectors | {name: pairs.spins[:, k] for k, name in enumerate(_SPINS)}
+
+
+def _in_space(pairs: Pairs, rtol: float, threads: int, ledger: bool) -> Ends:
+    answers, books = run_in_space(pairs.scene, vectors_of(pairs), -pairs.opening, rtol, threads, ledger)
+    states = load(select_model(pairs.scene, True, full=ledger, space=True)).state
+    ends = _of_answers(pairs, answers, books, tuple(states))
     known = answers["status"] == Status.DECIDED
     names = load(select_model(pairs.scene, True, space=True)).names("outputs")
     place = {name: k for k, name in enumerate(names)}
@@ -97,7 +97,7 @@ def _in_space(pairs: Pairs, rtol: float, threads: int, ledger: bool) -> tuple[En
     for k, name in enumerate(("final_spin", "final_spin_partner")):
         ends.spins[known, k] = (vector(name) * rate[:, None])[known]
     ends.opening[known] = (-pairs.opening * answers["shown"][:, place["restitution"]])[known]
-    return ends, left
+    return ends
 
 
 def scales(pairs: Pairs) -> np.ndarray:
@@ -117,7 +117,7 @@ def scales(pairs: Pairs) -> np.ndarray:
     return np.asarray(scale).reshape(-1)
 
 
-def _in_planes(pairs: Pairs, motion: Planes, rtol: float, threads: int, ledger: bool) -> tuple[Ends, np.ndarray] | None:
+def _in_planes(pairs: Pairs, motion: Planes, rtol: float, threads: int, ledger: bool) -> Ends:
     """By the planar kernel; what rounding leaves of the spins out of the plane stays as it is."""
     same = pairs.scene.partner is None and bool(np.all(motion.spins[:, 0] == motion.spins[:, 1]))
     scene = without_spins(pairs.scene, own_spins=not same)
@@ -131,9 +131,8 @@ def _in_planes(pairs: Pairs, motion: Planes, rtol: float, threads: int, ledger: 
         answers, books = run_with_books(impacts, rtol, threads)
     else:
         answers, books = run_kernel(impacts, rtol, True, threads), None
-    if answers is None:
-        return None
-    ends, left = _of_answers(pairs, answers, books)
+    states = load(select_model(scene, not bool(pairs.head_on.all()), full=ledger)).state
+    ends = _of_answers(pairs, answers, books, tuple(states))
     known = answers["status"] == Status.DECIDED
     axis = sense[:, None] * motion.axis
     quantities = dict(si_values(scene, None, None)) | others | {"speed": impacts.speed, "angle": angle}
@@ -152,26 +151,12 @@ def _in_planes(pairs: Pairs, motion: Planes, rtol: float, threads: int, ledger: 
     ends.energy[:, :2] += spin_energy(pairs, rest)[:, None]
     for k, name in enumerate(("final_spin", "final_spin_partner")):
         ends.spins[:, k] = moved[name][:, None] * axis + rest[:, k]
-    return ends, left
+    return ends
 
 
-def _rebounding(answer: np.void, thickness: float, speed: float) -> str:
-    """The reason why a doublet that chatters until its budget is spent is not decided."""
-    gap, velocity = float(answer["final_gap"]) * thickness, float(answer["shown"][0]) * speed
-    error = ComputationError(
-        f"{answer['steps']} steps with {answer['events']} events have not decided the outcome",
-        phase="opening" if velocity > 0 else "closing",
-        time=float(answer["time"]) * thickness / speed,
-        state={"gap": gap, "normal velocity": velocity},
-        advice=f"{CHATTERS}: try another impact",
-    )
-    return str(error)
-
-
-def _of_answers(pairs: Pairs, answers: np.ndarray, books: np.ndarray | None) -> tuple[Ends, np.ndarray]:
-    """Ends from the answers of any structure, and a mask of the collisions left to another engine."""
+def _of_answers(pairs: Pairs, answers: np.ndarray, books: np.ndarray | None, states: tuple[str, ...]) -> Ends:
+    """Ends from the answers of any structure, whose model has these states."""
     ends = Ends.blank(pairs.size)
-    left = answers["status"] > LAST_ANSWER
     touch = answers["status"] == Status.PROVED_AT_TOUCH
     thickness = float(pairs.scene.material["film_thickness"])
     ends.outcome[:] = answers["outcome"]
@@ -179,9 +164,9 @@ def _of_answers(pairs: Pairs, answers: np.ndarray, books: np.ndarray | None) -> 
     ends.time[:] = np.where(touch, 0.0, answers["time"] * thickness / -pairs.opening)
     ends.gap[:] = answers["final_gap"] * thickness
     ends.slip[:] = np.where(answers["outcome"] > 0, answers["slip"], np.nan)
-    for k in np.flatnonzero(answers["status"] == Status.CHATTER):  # other engines need more time for a rebound
-        ends.reason[k], left[k] = _rebounding(answers[k], thickness, -float(pairs.opening[k])), False
-        ends.outcome[k] = FAILED
+    for k in np.flatnonzero(answers["status"] > LAST_ANSWER):
+        n = nondimensionalise(without_spins(pairs.scene), -float(pairs.opening[k]), 0.0)
+        ends.outcome[k], ends.reason[k] = FAILED, str(n.in_si(undecided(answers[k], states)))
     if books is not None:
         ends.energy[:] = of_kernel(books) * (float(pairs.scene.material["reduced_mass"]) * pairs.opening**2)[:, None]
-    return ends, left
+    return ends

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..engines.choice import collision_engine
-from ..engines.settings import FEW, KERNEL_STEPS, RTOL, Budget, casadi_steps, check_engine, check_rtol
+from ..engines.settings import FEW, RTOL, check_engine, check_rtol
+from ..engines.taylor.call import Impacts
 from ..errors import InputError
 from ..host.arguments import check_flag
 from ..host.cores import usable_cores
@@ -17,10 +17,10 @@ from ..model.validity import sentences_of_many, warn
 from ..results import attributes, outcome_attributes
 from ..scene.groups import si_values
 from ..scene.scene import Scene
-from .beside_wall import beside_wall, planar_by_casadi, planar_by_kernel
-from .books import GREW, OPEN, named
-from .by_casadi import pairs_by_casadi
+from .beside_wall import Planar, beside_wall, planar_by_kernel, planar_by_replay
+from .books import GREW, named
 from .by_kernel import by_kernel
+from .by_replay import pairs_by_replay
 from .ends import FAILED, Ends, Motions, after, after_wall, gains_energy
 from .pairs import Bodies, Pairs, checked, dot, length
 
@@ -73,7 +73,7 @@ def collide_pair(
         velocities: (..., 2, 3), m/s. Beside a wall (..., 1, 3), or (..., 2, 3) with the wall's velocity.
         spins: (..., 2, 3), angular velocities in rad/s. Beside a wall (..., 1, 3). Velocities too may carry units.
         rtol: relative tolerance, 1e-13..1e-3.
-        engine: "taylor" (default), "rosenbrock" (also where there is no C compiler) or "cvodes".
+        engine: "taylor" (default), or "rosenbrock" or "cvodes", which integrate the phases that taylor has found.
         ledger: also the energy ledger, which takes longer.
 
     Leading shapes are broadcast against each other. Vectors are in the laboratory's axes.
@@ -117,7 +117,7 @@ def collide_pair(
     chosen = asked or ""
     if sound.any():
         warn(loaded)
-        chosen = collision_engine(loaded, asked)
+        chosen = asked or "taylor"
         which = np.flatnonzero(sound)
         ends.put(which, _ends(pairs.part(which), chosen, rtol, ledger))
     until = ends.put_at_contact(pairs)
@@ -178,32 +178,19 @@ def refusals(pairs: Pairs) -> dict[int, str]:
 
 def _ends(pairs: Pairs, engine: str, rtol: float, ledger: bool) -> Ends:
     """Ends of pairs that approach."""
-    if engine != "taylor":
-        return _by_casadi(pairs, engine, rtol, ledger)
     threads = usable_cores() if pairs.size > FEW else 1
     if pairs.scene.wall:
-        made = beside_wall(pairs, lambda those: planar_by_kernel(those, rtol, threads, ledger), rtol, ledger)
-    else:
-        made = by_kernel(pairs, rtol, threads, ledger)
-    if made is None:
-        return _by_casadi(pairs, "rosenbrock", rtol, ledger)
-    ends, left = made
-    left |= gains_energy(pairs, ends, rtol)
-    if left.any():
-        which = np.flatnonzero(left)
-        ends.put(which, _by_casadi(pairs.part(which), "rosenbrock", rtol, ledger, KERNEL_STEPS))
-    return ends
 
+        def planar(impacts: Impacts) -> Planar:
+            if engine == "taylor":
+                return planar_by_kernel(impacts, rtol, threads, ledger)
+            return planar_by_replay(impacts, engine, rtol, ledger)
 
-def _by_casadi(pairs: Pairs, engine: str, rtol: float, ledger: bool, spent: int = 0) -> Ends:
-    if pairs.scene.wall:
-        budgets = [Budget(casadi_steps(rtol, spent=spent)) for _ in range(pairs.size)]
-        made = beside_wall(pairs, lambda those: planar_by_casadi(those, rtol, ledger, budgets), rtol, ledger)
-        assert made is not None
-        ends, is_open = made
-        ends.outcome[is_open], ends.reason[is_open] = FAILED, OPEN
+        ends = beside_wall(pairs, planar, rtol, ledger)
+    elif engine == "taylor":
+        ends = by_kernel(pairs, rtol, threads, ledger)
     else:
-        ends = pairs_by_casadi(pairs, engine, rtol, ledger, spent)
+        ends = pairs_by_replay(pairs, engine, rtol, ledger)
     grown = gains_energy(pairs, ends, rtol)
     ends.outcome[grown], ends.reason[grown] = FAILED, GREW
     return ends

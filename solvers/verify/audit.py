@@ -2,18 +2,15 @@
 
 import math
 import time
-from collections.abc import Iterator
-from contextlib import suppress
-from dataclasses import replace
+from collections.abc import Callable, Iterator
 
 import numpy as np
 
-from ..certificates import NoCertificate
-from ..engines.casadi.locate import EventLocator, EventSequence, PhaseRun
+from ..collision.by_kernel import recorded
+from ..engines.taylor.record import Recorded
+from ..engines.taylor.undecided import SEPARATES
 from ..errors import ComputationError, WetDoubletError
 from ..model.dimensionless import nondimensionalise
-from ..model.model import load, select_model
-from ..model.phases import Phase
 from ..scene.scene import Scene
 from .report import Finding
 from .sample import WHOLE, place, stokes_of
@@ -23,43 +20,22 @@ DECADES = (-1.5, 1.5)  # relative to the scene's Stokes number
 STEEPEST = 85.0  # deg
 LONG = 1e4  # x0/v0; time of integration beyond the certified end
 _RTOL = 1e-8
-_PHASES = 300  # most phases of a trajectory that chatters
-_WORTH = 100  # impacts from which integrators compiled to C pay, in a first run as well
 SECONDS = 6.0  # s of CPU time; remaining impacts are counted but not integrated
 
 
-class _Chatters(Exception):
-    """The trajectory has more phases than are worth following."""
-
-
-class WithoutCertificate(EventLocator):
-    """A locator without certificates: a trajectory ends at a final event or at a given time."""
-
-    def on(self, until: float) -> EventSequence:
-        """Integrate until time `until` (x0/v0); the path is `separated` if the doublet escaped before."""
-        self.proof, self.watch, self.deadline = NoCertificate(), replace(self.watch, certificate=None), until
-        with suppress(_Chatters):
-            self._follow()
-        return self.path
-
-    def _next(self, step: PhaseRun, phase: Phase | None = None) -> None:
-        super()._next(step, phase)
-        if len(self.path.steps) > _PHASES:
-            raise _Chatters
+Run = Callable[..., Recorded]
+"""A scene, its groups, a tolerance and `until`: a collision by the kernel."""
 
 
 def stick_audit(
-    scene: Scene,
-    angles: tuple[float, ...] | None = None,
-    impacts: int = WHOLE.audited,
-    locator: type[EventLocator] = EventLocator,
+    scene: Scene, angles: tuple[float, ...] | None = None, impacts: int = WHOLE.audited, run: Run = recorded
 ) -> Iterator[Finding]:
     """Finding of the audit on a sample of impacts: counts, and the check that no certified stick escapes.
 
     Arguments:
         angles: angles of the sample, rad; None for 0 to STEEPEST degrees.
         impacts: number of impacts; a quarter of it if angles are given.
-        locator: locator whose certificate is audited.
+        run: what computes a collision.
     """
     draw, begun = np.random.default_rng(_SEED), time.process_time()
     count = impacts if angles is None else impacts // 4
@@ -74,24 +50,20 @@ def stick_audit(
         integrated += 1
         try:
             n = nondimensionalise(scene, scene.speed_of(stokes), angle)
-            start = load(select_model(scene, n.oblique)), n.groups, _RTOL
-            path = locator(*start, machine_code=count >= _WORTH).run()
+            answer = run(scene, n, _RTOL).answers[0]
         except WetDoubletError:
-            continue  # the scene has no certificate
-        sticks += path.outcome == "stick"
-        within_a_phase = bool(path.steps) and path.steps[-1].event is None
-        if path.outcome != "stick" or not (path.certified or within_a_phase):
+            continue  # failures are reported with the sample
+        if answer["outcome"] > 0:
             continue
-        proved, settled = proved + path.certified, settled + (not path.certified)
-        further = WithoutCertificate(*start, machine_code=count >= _WORTH)
+        certified, end = bool(answer["certified"]), float(answer["time"])
+        sticks, proved, settled = sticks + 1, proved + certified, settled + (not certified)
         try:
-            on = further.on(path.time + LONG)
+            on = run(scene, n, _RTOL, until=end + LONG).answers[0]
         except ComputationError as failure:
-            unfinished.append(f"{place(stokes, angle)}: {failure.message}")
+            kind = escaped if SEPARATES in failure.message else unfinished
+            kind.append(f"{place(stokes, angle)}, decided at {end:.3g} x0/v0: {failure.message}")
             continue
-        if on.separated:
-            escaped.append(f"{place(stokes, angle)}, certified at {path.time:.3g}, apart at {on.time:.3g} x0/v0")
-        cut += bool(on.steps) and on.steps[-1].event in ("half_turn", "unwinding") and on.time < further.deadline
+        cut += on["time"] < end + LONG
     tried = proved + settled
     statement = (
         f"every stick that is certified, of {integrated} seeded impacts (St over {DECADES[1] - DECADES[0]:.0f} "

@@ -3,14 +3,12 @@
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from functools import partial
 from itertools import pairwise
 
 import numpy as np
 import xarray
 
 from ..collision.collide import collide
-from ..engines.choice import collision_engine
 from ..many.collide_many import collide_many
 from ..results import FAILED
 from ..scene.scene import Scene
@@ -32,20 +30,16 @@ _SHARP = 2e-5  # final relative width of a bracket; ends are shown with three di
 def grid(scene: Scene, extent: Extent = WHOLE) -> xarray.Dataset:
     """The budget over the relevant angles and Stokes numbers of a scene, by the kernel where it supports the scene."""
     stokes = stokes_of(scene) * np.logspace(*_DECADES, extent.grid_points)
-    return budgeted(scene, stokes.tolist(), np.radians(extent.grid_angles).tolist(), _RTOL, _fast(scene))
-
-
-def _fast(scene: Scene) -> Collide:
-    return partial(collide, engine=collision_engine(scene))
+    return budgeted(scene, stokes.tolist(), np.radians(extent.grid_angles).tolist(), _RTOL, collide)
 
 
 def beside_cvodes(scene: Scene, data: xarray.Dataset, fast: Collide | None = None) -> Iterator[Finding]:
     """Finding on the engine of a budget's grid: a sample of its points beside CVODES.
 
     Arguments:
-        fast: function that computes a collision of the grid; None for the one that `grid` takes.
+        fast: function that computes a collision of the grid; None for `collide`.
     """
-    fast = fast or _fast(scene)
+    fast = fast or collide
     done = [(float(data["stokes"][k]), float(data["angle"][j])) for j, k in np.argwhere(data["outcome"].values >= 0)]
     picked = np.unique(np.linspace(0, len(done) - 1, min(_BESIDE, len(done))).round().astype(int))
     pairs = []
@@ -157,7 +151,7 @@ def above_one(scene: Scene, angles: Sequence[float], stokes: np.ndarray, rtol: f
         failed = data["outcome"].values == FAILED
         return np.where(failed, 0.0, data["restitution"].values), failed
 
-    steps = (stokes.size - 1) * (_FINER if collision_engine(scene) == "taylor" else 1)
+    steps = (stokes.size - 1) * _FINER
     scan = np.exp(np.interp(np.linspace(0, stokes.size - 1, steps + 1), np.arange(stokes.size), np.log(stokes)))
     scan[0], scan[-1] = stokes[0], stokes[-1]
     e_n, failed = restitution(np.asarray(angles), scan[None, :])

@@ -11,7 +11,6 @@ import numpy as np
 
 from ..collision.collide import collide
 from ..collision.result import Collision
-from ..engines.choice import available_engines
 from ..errors import ComputationError
 from ..host.environment import one_core
 from ..host.progress import Progress
@@ -164,7 +163,7 @@ def work_precision(
     Raises:
         ComputationError: no reference could be computed.
     """
-    engines = list(available_engines(scene))
+    engines = list(ENGINES)
     total = len(engines) * len(tolerances) + 1
     impacts, sample = _drawn(scene, batch)
     progress(0, total)

@@ -22,7 +22,7 @@ from typing import Any
 
 import numpy as np
 from wetdoublet.solvers import Scene
-from wetdoublet.solvers.engines.settings import STEPS
+from wetdoublet.solvers.engines.settings import KERNEL_STEPS
 from wetdoublet.solvers.engines.taylor.build import kernel
 from wetdoublet.solvers.engines.taylor.call import Impacts, bind_kernel, run_kernel
 from wetdoublet.solvers.engines.taylor.layout import ANSWER
@@ -74,7 +74,7 @@ def same_kernel(scene: Scene, rows: np.ndarray) -> Callable[[], np.ndarray]:
     others = {"impact_spin": rows["spin"].copy(), "impact_partner_spin": rows["partner_spin"].copy()}
     given, run = (
         Impacts(own.scene, rows["speed"].copy(), rows["angle"].copy(), others),
-        bind_kernel(library, RTOL, STEPS),
+        bind_kernel(library, RTOL, KERNEL_STEPS),
     )
 
     def call() -> np.ndarray:

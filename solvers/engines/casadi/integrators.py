@@ -1,4 +1,4 @@
-"""CasADi integrators of a flow: one over a given duration, and one that stops at the first event.
+"""CasADi integrators of a flow over a given duration, and the landing on an event at its end.
 
 Built once and cached; time is scaled so that every call runs over [0, 1] and the duration is a parameter.
 """
@@ -13,18 +13,17 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-from casadi import SX, Function, fabs, if_else, integrator, jacobian, jtimes, vertcat
+from casadi import SX, Function, integrator, jacobian, jtimes, vertcat
 
 from ...host.buffered import Buffered
 from ...host.captured_stderr import captured_stderr
 from ...host.interrupts import check
 from ...host.thread_caches import own_cache
-from ...model.phases import Flow, WatchedEvents, event_table, expressions, mechanical_energy
-from ..settings import STEPS, casadi_steps
+from ...model.phases import Flow, WatchedEvents, event_table, expressions
+from ..settings import KERNEL_STEPS, casadi_steps
 
 _EXPECTED = "Event support is experimental"
 _LOOSER = 1e3  # factor from a tolerance that an integrator cannot meet to the next one
-_FLAT = 1e-12  # of a function per x0/v0: a smaller slope is rounding, whose changes of sign are no minima, at rest
 
 
 class IntegrationFailed(Exception):
@@ -77,7 +76,7 @@ class Tolerance:
 
     relative: float
     absolute: float
-    steps: int = STEPS
+    steps: int = KERNEL_STEPS
 
     def loosened(self, rtol: float) -> Tolerance | None:
         """A looser tolerance after one tightened for a grazing start fails; None if this is `rtol` already.
@@ -117,7 +116,9 @@ def tolerance_for(rtol: float, plugin: str, groups: Mapping[str, float]) -> Tole
     strings, the doublet is opened by a force of tan^2(theta0) x0/a in v0^2/x0, which must exceed the absolute
     tolerance. Tolerances are rounded to whole decades, so that integrators can be shared.
     """
-    steps = STEPS if plugin == "cvodes" else casadi_steps(rtol)  # by the requested tolerance, not by a tightened one
+    steps = (
+        KERNEL_STEPS if plugin == "cvodes" else casadi_steps(rtol)
+    )  # by the requested tolerance, not by a tightened one
     centrifugal = groups["obliquity"] ** 2 * groups["aspect"] / 16
     absolute = 1e-3
     if "capillary" not in groups and "weight" not in groups and 0 < centrifugal < 1e-6:
@@ -159,120 +160,6 @@ def plain(flow: Flow, plugin: str, tolerance: Tolerance, grid: tuple[float, ...]
         )
 
 
-@dataclass(frozen=True)
-class EventHit:
-    """A stop of a locating integrator: event name (None: no event), time and state.
-
-    `dipped` is true if the event's function had already been negative before: its first zero is then earlier.
-    """
-
-    event: str | None
-    time: float
-    y: np.ndarray
-    dipped: bool
-
-
-@dataclass(frozen=True)
-class Locator:
-    """Integrator of a flow to its first event, or to the end of the duration."""
-
-    function: Function
-    events: tuple[str, ...]
-    dips: tuple[int, ...]
-    values: Function  # event functions (y, parameters)
-    energy: Function
-
-    def __call__(self, y: np.ndarray, p: np.ndarray, duration: float, motion: int, level: float) -> EventHit:
-        parameters = np.concatenate([p, [duration, motion, level]])
-        riders = np.zeros(3 + len(self.dips))  # clock, active, number, minima passed
-        riders[1] = 1.0
-        result = _call(self.function, x0=np.concatenate([y, riders]), p=parameters).ravel()
-        after, (time, _, number) = result[: y.size], result[y.size : y.size + 3]
-        which = round(number) - 1
-        if which < 0:
-            return EventHit(None, duration, after, False)
-        dipped = which >= len(self.events)
-        index = self.dips[which - len(self.events)] if dipped else which
-        return EventHit(self.events[index], float(time), after, dipped)
-
-    @property
-    def steps(self) -> int:
-        """Number of steps in the last call; 0 for compiled integrators."""
-        return _buffered(self.function).steps
-
-    def value(self, event: str, y: np.ndarray, p: np.ndarray, motion: int, level: float) -> float:
-        """The value of an event's function in a state."""
-        column = self.values(y, np.concatenate([p, [1.0, motion, level]]))
-        return float(column[self.events.index(event)])
-
-
-@own_cache(256)
-def locator(flow: Flow, watch: WatchedEvents, tolerance: Tolerance, machine_code: bool = False) -> Locator:
-    """A Rosenbrock integrator that freezes at the first event.
-
-    Clock, freeze flag and event number are additional states. CasADi checks signs at the ends of steps only, so a
-    function that may become negative and positive again also stops the flow at its own minimum; the stop counts only if
-    the function is negative there.
-
-    Arguments:
-        machine_code: compile it to C, which pays off beyond some hundred collisions.
-    """
-    parts, model = expressions(flow), flow.model
-    duration, motion, level = SX.sym("duration"), SX.sym("motion"), SX.sym("level")
-    table = event_table(flow, watch, motion, level)
-    minima = [k for k, event in enumerate(table) if event.dips]
-    falling = [event.function for event in table]
-    clock, active, number = SX.sym("clock"), SX.sym("active"), SX.sym("number")
-    # A minimum above zero is passed once per call: where a function varies slowly, its slope is dominated by rounding
-    # and would stop the flow repeatedly.
-    passed = SX.sym("passed", len(minima))
-    slopes = [-jtimes(table[k].function, parts.variables, parts.rates) for k in minima]
-    if flow.region.resting:  # functions may stay as they are
-        slopes = [slope + _FLAT * fabs(table[k].function) for k, slope in zip(minima, slopes, strict=True)]
-    turning = [if_else(passed[position] > 0, 1, slope) for position, slope in enumerate(slopes)]
-    variables = vertcat(parts.variables, clock, active, number, passed)
-    parameters = vertcat(model.parameters, duration, motion, level)
-    index, time = SX.sym("index"), SX.sym("time")
-    holds = SX(1)
-    for position, event_index in enumerate(minima):
-        holds = if_else(index == len(table) + position, table[event_index].function < 0, holds)
-    passing = [if_else(index == len(table) + position, 1, passed[position]) for position in range(len(minima))]
-    after = vertcat(parts.variables, clock, active * (1 - holds), if_else(holds, index + 1, number), *passing)
-    none = SX(0, 1)
-    transition = Function(
-        "transition",
-        [index, time, variables, none, parameters, none],
-        [after, none],
-        ["index", "t", "x", "z", "p", "u"],
-        ["post_x", "post_z"],
-    )
-    dae = {
-        "x": variables,
-        "p": parameters,
-        "ode": vertcat(active * duration * parts.rates, active * duration, SX.zeros(2 + len(minima))),
-        "zero": vertcat(*falling, *turning),
-    }
-    options = tolerance.options("rosenbrock", model.space) | {
-        "transition": transition,
-        "event_tol": 1e-14,
-        "max_event_iter": 40,
-        "max_events": 10_000,
-    }
-    with quiet():
-        function = integrator("locate", "rosenbrock", dae, 0, 1, options)
-    if machine_code:
-        from ...host.compiled import compiled
-
-        function = compiled(function)
-    return Locator(
-        function,
-        tuple(event.name for event in table),
-        tuple(minima),
-        Function("events", [parts.variables, parameters], [vertcat(*falling)]),
-        Function("energy", [parts.variables, model.parameters], [mechanical_energy(flow)]),
-    )
-
-
 @own_cache(512)
 def landing(flow: Flow, watch: WatchedEvents, event: str) -> Function:
     """One second-order Taylor step of a flow onto an event's surface: (y, parameters) -> (y*, dt, g(y*)).
@@ -281,13 +168,13 @@ def landing(flow: Flow, watch: WatchedEvents, event: str) -> Function:
     derivative is the saltation; with the second-order terms its error is the square of the step.
     """
     parts, model = expressions(flow), flow.model
-    motion, level = SX.sym("motion"), SX.sym("level")
-    table = {each.name: each.function for each in event_table(flow, watch, motion, level)}
+    motion = SX.sym("motion")
+    table = {row.name: row.function for row in event_table(flow, watch, motion)}
     y, rates, g = parts.variables, parts.rates, table[event]
     first = jtimes(g, y, rates)
     second = jtimes(first, y, rates)
     dt = -g / first - second * g**2 / (2 * first**3)
     landed = y + rates * dt + jacobian(rates, y) @ rates * dt**2 / 2
-    parameters = vertcat(model.parameters, motion, level)
+    parameters = vertcat(model.parameters, motion)
     on = Function("g", [y, parameters], [g])
     return Function("land", [y, parameters], [landed, dt, on(landed, parameters)])

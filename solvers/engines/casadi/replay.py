@@ -1,44 +1,53 @@
-"""Integration of located phases with the chosen engine: smooth flows over known durations, each landed on its event.
+"""Replay of the phases that the kernel has found, by CVODES or Rosenbrock: smooth flows, each landed on its event.
 
-The sequence of phases and events is given. The engine's own solution meets each event at a slightly different time,
-which the landing step corrects, so that events and their derivatives are those of the engine.
+The engine's own solution meets each event at a slightly different time, which the landing step corrects, so that events
+and their derivatives are those of the engine. All events that could end a phase are watched along the way.
 """
 
-from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
 
 import numpy as np
 from casadi import SX, Function, jtimes, vertcat
 
+from ....generated.automaton import LOOSEST, is_parted, is_too_weak
+from ...errors import ComputationError
 from ...host.thread_caches import own_cache
 from ...model.key import ModelKey
-from ...model.phases import Flow, WatchedEvents, event_table, expressions, extra_units
+from ...model.model import Model, load
+from ...model.phases import Flow, Phase, WatchedEvents, event_table, expressions, extra_units, kinks_along
 from ...model.rebound import rebounded
-from ..settings import CVODES, Budget
-from .integrators import IntegrationFailed, Tolerance, landing, plain
-from .locate import EventSequence, PhaseRun, own_loss
+from .integrators import IntegrationFailed, Tolerance, landing, plain, tolerance_for
+from .sequence import EventSequence, PhaseRun
+from .watch import POINTS, first_crossing
 
 _LANDED = 1e-4  # largest Taylor step, relative to the phase, for landing without another integration
 _MISSES = 1e-13  # largest value of an event's function after the step, relative to its scale
 _RISES = 1e-9  # in its scale per duration: slope above which the function rises at the landing
 _TRIES = 8
+_MOVED, _MOVED_LEAST = 1e-4, 1e-9  # of a phase, and in x0/v0: how far an event may lie from where the record has it
 _ROUNDING = 1e-15  # noise of a gap or velocity of order 1, for times and event functions
+_ON_KINK = 1e-11  # of a guard: below it the side is that towards which it changes
+_REST = 10.0  # factor in the height of a rebound within which two engines may differ on whether it comes to rest
+TIGHTEST = 1e-13  # relative tolerance at which a phase is tried last
 
 
 class Stopped(Exception):
     """Failure of the engine in a phase: reason, phase, time (x0/v0) and state.
 
-    `missed`: the solution does not meet the located event; a tighter tolerance may help.
+    `missed`: the solution does not agree with the record; a tighter tolerance may help.
     """
 
-    def __init__(self, why: str, step: PhaseRun, time: float, y: np.ndarray, missed: bool = False) -> None:
-        super().__init__(why, step, time, y, missed)
-        self.why, self.step, self.time, self.y, self.missed = why, step, time, y, missed
+    def __init__(self, why: str, phase: Phase, time: float, y: np.ndarray, missed: bool = False) -> None:
+        super().__init__(why, phase, time, y, missed)
+        self.why, self.phase, self.time, self.y, self.missed = why, phase, time, y, missed
 
 
 @dataclass(frozen=True)
 class Piece:
-    """An integrated phase: name, flow, initial state, start time and duration (x0/v0)."""
+    """An integrated phase, or its part on one side of a kink: name, flow, initial state, start and duration (x0/v0)."""
 
     name: str
     flow: Flow
@@ -70,127 +79,229 @@ class Replay:
         return float(self.units[position]) * (float(self.y[len(self.y) - len(self.extras) + position]) - self.offset)
 
 
-def replay(
-    path: EventSequence, plugin: str, tolerance: Tolerance, kind: Flow, start: np.ndarray, budget: Budget | None = None
-) -> Replay:
-    """Integrate the event sequence `path` with an integrator plugin; Stopped if the engine fails or misses an event.
+def replayed(
+    found: Callable[[float], EventSequence], choice: ModelKey, extras: tuple[str, ...], plugin: str, rtol: float
+) -> tuple[EventSequence, Replay]:
+    """A sequence of events and its replay by a plugin.
+
+    The tolerances of both are tightened while they miss each other: while the error exceeds the distance to a boundary.
+    One that was tightened for a grazing start is loosened where the engine cannot meet it.
 
     Arguments:
-        kind: the model and its extras (flags of film and shear are taken from the sequence).
-        start: state at initial contact.
-        budget: of its steps; None for those of the tolerance.
+        found: the sequence at a relative tolerance.
+        choice: the model that is integrated, with the quadratures `extras`.
+
+    Raises:
+        ComputationError: phase, time (x0/v0) and state at which the replay stopped.
     """
-    model = kind.model
-    known = dict(zip(path.model.groups, path.p, strict=True))
-    p = model.group_values(known)
-    start = np.concatenate([start, np.full(len(kind.extras), tolerance.offset)])
-    replayed = Replay(start, kind.extras, extra_units(model, kind.extras, p), tolerance.offset)
-    size = len(model.state)
-    budget = budget or Budget(tolerance.steps)
-    for step in path.steps:
-        flow = Flow(kind.choice, step.phase.region, kind.extras)
-        if step.duration > 0:
-            before = replayed.y
-            given = flow, plugin, tolerance, budget, path.watch, step, replayed, p
-            duration, replayed.y = _integrate_onto_event(*given)
-            replayed.pieces.append(Piece(str(step.phase), flow, before, replayed.time, duration))
-            replayed.time += duration
-        replayed.events += [(kind, replayed.time) for kind in step.kinds]
-        replayed.smallest_gap = min(replayed.smallest_gap, float(replayed.y[0]))
-        if step.rebounds:
-            jump = rebounded(model, step.kinds[0], replayed.y, p, step.holds)
-            replayed.dry_loss += jump.dry
-            replayed.friction_loss += jump.friction
-            replayed.y = np.concatenate([jump.after, replayed.y[size:]])
-        if step.holds:  # chatter dissipates what remains of the rebound's energy
-            replayed.dry_loss += float(replayed.y[1]) ** 2 / 2
-            replayed.y[1] = 0.0
-        if step.own:
-            jumped = np.array([*model.values(f"jump_{step.own}", replayed.y, p).values(), *replayed.y[size:]])
-            replayed.own_loss += own_loss(model, replayed.y, jumped, p)
-            replayed.y = jumped
-    return replayed
-
-
-def as_located(path: EventSequence, choice: ModelKey) -> Replay:
-    """The located trajectory itself with its extras: its own solution, which meets its events by construction."""
-    start = path.model.start(path.p)
-    begun = np.concatenate([start, np.zeros(len(path.extras))])
-    units = extra_units(path.model, path.extras, path.p)
-    replayed = Replay(path.y, path.extras, units, smallest_gap=path.smallest_gap, dry_loss=path.dry_loss)
-    replayed.friction_loss = path.friction_loss
-    replayed.own_loss = path.own_loss
-    for step, end in zip(path.steps, path.ends, strict=True):
-        if step.duration > 0:
-            flow = Flow(choice, step.phase.region, path.extras)
-            replayed.pieces.append(Piece(str(step.phase), flow, begun, replayed.time, step.duration))
-            replayed.time += step.duration
-        replayed.events += [(kind, replayed.time) for kind in step.kinds]
-        begun = end
-    return replayed
-
-
-def _integrate_onto_event(
-    flow: Flow,
-    plugin: str,
-    tolerance: Tolerance,
-    budget: Budget,
-    watch: WatchedEvents,
-    step: PhaseRun,
-    replayed: Replay,
-    p: np.ndarray,
-) -> tuple[float, np.ndarray]:
-    """Duration and final state of one phase, on the event's surface."""
-    cost = CVODES if plugin == "cvodes" else 1
-
-    def integrate(duration: float) -> np.ndarray:
-        if budget.is_spent:
-            raise Stopped(f"has not finished in {budget.most} steps", step, replayed.time, replayed.y)
-        most = min(tolerance.steps, int(budget.call / cost))
-        engine = plain(flow, plugin, replace(tolerance, steps=most))
+    used, looser, path = rtol, None, found(rtol)
+    while True:
+        tolerance = looser or tolerance_for(used, plugin, path.groups)
         try:
-            return engine(replayed.y, p, duration)
-        except IntegrationFailed as failure:
-            raise Stopped(f"gave up ({failure})", step, replayed.time, replayed.y) from None
-        finally:
-            replayed.steps += engine.steps
-            budget.spend((engine.steps or most) * cost)  # CVODES says nothing of those after which it fails
+            return path, _Run(path, choice, extras, plugin, tolerance, used).run()
+        except Stopped as stopped:
+            looser = None if stopped.missed else tolerance.loosened(used)
+            if looser is not None:
+                continue
+            if stopped.missed and used > TIGHTEST:
+                used = max(used * 1e-2, TIGHTEST)
+                path = found(used)
+                continue
+            other = "--engine rosenbrock" if plugin == "cvodes" else "the default engine, or another impact"
+            raise ComputationError(
+                f"{plugin} {stopped.why}",
+                phase=str(stopped.phase),
+                time=stopped.time,
+                state=dict(zip(load(choice).state, map(float, stopped.y), strict=False)),
+                advice=f"try {other}",
+            ) from None
 
-    y = integrate(step.duration)
-    if step.event is None:
-        return step.duration, y
-    watched = WatchedEvents(tangential_edge=watch.tangential_edge)
-    land = landing(flow, watched, step.event)
-    motion = float(step.phase.motion)
-    parameters = np.append(p, [motion, 0.0])
-    duration = step.duration
-    size = next((each.scale for each in flow.model.events if each.name == step.event), "")  # of a kink: 1
-    scale = float(p[list(flow.model.groups).index(size)]) if size else 1.0
-    nearer = np.inf
-    for _ in range(_TRIES):
-        landed, dt, miss = (np.asarray(part.full()).ravel() for part in land(y, parameters))
-        shift = float(dt[0])
-        if not np.isfinite(shift) or duration + shift <= 0 or abs(shift) > step.duration:
-            break
-        landed_close = abs(shift) <= max(_LANDED * duration, _ROUNDING)
-        if landed_close and abs(float(miss[0])) <= max(_MISSES * scale, _ROUNDING):
-            if float(_slope(flow, watched, step.event)(landed, parameters)) > _RISES * scale / duration:
-                break  # the event was found in the backward direction: the engine's own event is earlier
-            return duration + shift, landed
-        if abs(shift) > nearer / 2:
-            break  # beside a saddle every step is amplified, and the iteration oscillates
-        nearer = abs(shift)
-        duration += shift
-        y = integrate(duration)
-    missed = f"does not meet the event {step.event}: the collision lies within its error of a boundary"
-    raise Stopped(missed, step, replayed.time + duration, y, missed=True)
+
+class _Run:
+    """One replay of a sequence at one tolerance."""
+
+    def __init__(
+        self,
+        path: EventSequence,
+        choice: ModelKey,
+        extras: tuple[str, ...],
+        plugin: str,
+        tolerance: Tolerance,
+        rtol: float,
+    ) -> None:
+        self.path, self.choice, self.extras = path, choice, extras
+        self.plugin, self.tolerance, self.rtol = plugin, tolerance, rtol
+        self.model: Model = load(choice)
+        self.p = self.model.group_values(path.groups)
+        start = np.concatenate([self.model.start(self.p), np.full(len(extras), tolerance.offset)])
+        self.at = Replay(start, extras, extra_units(self.model, extras, self.p), tolerance.offset)
+
+    def run(self) -> Replay:
+        """The whole replay; Stopped if the engine fails, or its solution does not agree with the record."""
+        for step in self.path.steps:
+            if step.duration > 0:
+                self._integrate(step)
+            self.at.events += [(kind, self.at.time) for kind in step.kinds]
+            self.at.smallest_gap = min(self.at.smallest_gap, float(self.at.y[0]))
+            self._jump(step)
+        return self.at
+
+    def _integrate(self, step: PhaseRun) -> None:
+        """A phase: onto its event, by way of the kinks of its laws."""
+        left, phase = step.duration, step.phase
+        while True:
+            phase = self._sided(phase)
+            flow = Flow(self.choice, phase.region, self.extras)
+            solution = _Solution(self, flow, phase)
+            duration, y, states = (left, *solution.end(left)) if step.event is None else solution.onto(step.event, left)
+            crossing = solution.crossing(duration, states, step.event)
+            if crossing is not None and crossing.event in self.model.kinks:
+                duration, y, _ = solution.onto(crossing.event, crossing.part * duration)
+                self._record(phase, flow, duration, y)
+                left -= duration
+                continue
+            if crossing is not None:
+                time = self.at.time + crossing.part * duration
+                raise Stopped(
+                    f"passes the event {crossing.event} inside a phase, by {-crossing.value:.1e} of its size, where "
+                    "the record has none",
+                    phase, time, y, missed=True,
+                )  # fmt: skip
+            self._record(phase, flow, duration, y)
+            return
+
+    def _record(self, phase: Phase, flow: Flow, duration: float, y: np.ndarray) -> None:
+        self.at.pieces.append(Piece(str(phase), flow, self.at.y, self.at.time, duration))
+        self.at.time += duration
+        self.at.y = y
+
+    def _sided(self, phase: Phase) -> Phase:
+        """The phase on the side of every kink on which its state is; on a kink, that towards which it moves."""
+        model = self.model
+        if not model.kinks:
+            return phase
+        sides = phase.sides or (1,) * len(model.kinks)
+        for _ in range(2):
+            phase = phase.with_(sides=sides)
+            flow = Flow(self.choice, phase.region, self.extras)
+            guards, rates = kinks_along(flow)(self.at.y, self.p).full().T
+            sides = tuple(np.where(np.where(abs(guards) > _ON_KINK, guards, rates) < 0, -1, 1).tolist())
+        if sides != phase.sides and not phase.resting:
+            where = ", ".join(name for name, one, other in zip(model.kinks, sides, phase.sides) if one != other)
+            raise Stopped(
+                f"stays on a step of a law's force ({where}); write the step as a steep slope, as tanh(u/u0)",
+                phase,
+                self.at.time,
+                self.at.y,
+            )
+        return phase
+
+    def _jump(self, step: PhaseRun) -> None:
+        """What happens at the end of a phase."""
+        at, model, size = self.at, self.model, len(self.model.state)
+        if step.rebounds:
+            jump = rebounded(model, step.kinds[0], at.y, self.p, step.holds)
+            at.dry_loss += jump.dry
+            at.friction_loss += jump.friction
+            self._check_rest(step, jump.after)
+            at.y = np.concatenate([jump.after, at.y[size:]])
+        if step.holds:  # chatter dissipates what remains of the rebound's energy
+            at.dry_loss += float(at.y[1]) ** 2 / 2
+            at.y[1] = 0.0
+        if step.own:
+            jumped = np.array([*model.values(f"jump_{step.own}", at.y, self.p).values(), *at.y[size:]])
+            before, after = (model.values("energies", y, self.p)["kinetic"] for y in (at.y, jumped))
+            at.own_loss += before - after
+            at.y = jumped
+
+    def _check_rest(self, step: PhaseRun, after: np.ndarray) -> None:
+        """Stopped if the record has a rest where the rebound opens the gap, or none where it is too weak."""
+        gap, velocity = float(after[0]), float(after[1])
+        rupture = self.path.groups["rupture_gap"] if self.model.bridge else 1.0
+        inward = self.model.values("inward_force", after, self.p)["inward_force"]
+        rtol = min(self.rtol, LOOSEST)
+        is_weak = [is_too_weak(inward, velocity, rtol * share, gap) for share in (1 / _REST, _REST)]
+        if not is_parted(gap, rupture) and step.holds not in is_weak:
+            what = (
+                "opens the gap, and the record has a rest"
+                if step.holds
+                else "does not open the gap, and the record has no rest"
+            )
+            raise Stopped(f"has a rebound that {what}", step.phase, self.at.time, after, missed=True)
+
+
+@dataclass
+class _Solution:
+    """The engine's solution from the present state of a replay on."""
+
+    run: _Run
+    flow: Flow
+    phase: Phase
+
+    def end(self, duration: float) -> tuple[np.ndarray, np.ndarray]:
+        """The state after a duration, and those at `POINTS` of it."""
+        states = self.states(duration, POINTS)
+        return states[:, -1], states
+
+    def states(self, duration: float, parts: np.ndarray) -> np.ndarray:
+        """States at parts of a duration, as columns."""
+        at = self.run.at
+        grid = tuple(parts[parts > 0].tolist())
+        engine = plain(self.flow, self.run.plugin, self.run.tolerance, grid)
+        try:
+            states = engine(at.y, self.run.p, duration).reshape(at.y.size, len(grid))
+        except IntegrationFailed as failure:
+            raise Stopped(f"gave up ({failure})", self.phase, at.time, at.y) from None
+        finally:
+            at.steps += engine.steps
+        return np.column_stack([at.y, states]) if parts[0] == 0 else states
+
+    def crossing(self, duration: float, states: np.ndarray, landed: str | None):
+        """The first event inside the phase, if there is one."""
+        watched = self.run.path.watch
+        parameters = np.append(self.run.p, float(self.phase.motion))
+        return first_crossing(
+            self.flow, watched, parameters, duration, states, lambda parts: self.states(duration, parts),
+            self.run.tolerance.relative, landed,
+        )  # fmt: skip
+
+    def onto(self, event: str, expected: float) -> tuple[float, np.ndarray, np.ndarray]:
+        """Duration and state on an event's surface, and the states at `POINTS` up to nearly there."""
+        run = self.run
+        land = landing(self.flow, run.path.watch, event)
+        parameters = np.append(run.p, float(self.phase.motion))
+        scale, duration, nearer = self._scale(event), expected, np.inf
+        y, states = self.end(duration)
+        for _ in range(_TRIES):
+            landed, dt, miss = (np.asarray(part.full()).ravel() for part in land(y, parameters))
+            shift = float(dt[0])
+            if not np.isfinite(shift) or duration + shift <= 0 or abs(shift) > expected:
+                break
+            landed_close = abs(shift) <= max(_LANDED * duration, _ROUNDING)
+            if landed_close and abs(float(miss[0])) <= max(_MISSES * scale, _ROUNDING):
+                if float(_slope(self.flow, run.path.watch, event)(landed, parameters)) > _RISES * scale / duration:
+                    break  # the event was found in the backward direction: the engine's own event is earlier
+                if abs(duration + shift - expected) > max(_MOVED * expected, _MOVED_LEAST):
+                    break
+                return duration + shift, landed, states
+            if abs(shift) > nearer / 2:
+                break  # beside a saddle every step is amplified, and the iteration oscillates
+            nearer = abs(shift)
+            duration += shift
+            y, states = self.end(duration)
+        missed = f"does not meet the event {event} where the record has it: it may lie within its error of a boundary"
+        raise Stopped(missed, self.phase, run.at.time + duration, y, missed=True)
+
+    def _scale(self, event: str) -> float:
+        """The size of an event's function: a group, or 1."""
+        group = next((row.scale for row in self.flow.model.events if row.name == event), "")
+        return float(self.run.p[list(self.flow.model.groups).index(group)]) if group else 1.0
 
 
 @own_cache(512)
 def _slope(flow: Flow, watch: WatchedEvents, event: str) -> Function:
     """Rate of change of an event's function along the flow."""
-    parts = expressions(flow)
-    motion, level = SX.sym("motion"), SX.sym("level")
-    table = {each.name: each.function for each in event_table(flow, watch, motion, level)}
+    parts, motion = expressions(flow), SX.sym("motion")
+    table = {row.name: row.function for row in event_table(flow, watch, motion)}
     rate = jtimes(table[event], parts.variables, parts.rates)
-    return Function("slope", [parts.variables, vertcat(flow.model.parameters, motion, level)], [rate])
+    return Function("slope", [parts.variables, vertcat(flow.model.parameters, motion)], [rate])

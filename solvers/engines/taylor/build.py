@@ -6,10 +6,11 @@ import time
 from collections.abc import Callable, Collection
 from functools import cache
 
+from ...errors import ComputationError
 from ...host.compiler import CannotCompile, compiler, key, stop
 from ...host.compiler import library as compiled
 from ...host.cores import usable_cores
-from ...host.remarks import say_after, say_once
+from ...host.remarks import say_after
 from ...host.thread_caches import once
 from ...host.user_cache import found, has, kept, loaded
 from ...model.model import select_model
@@ -20,6 +21,7 @@ from .headers import headers, tangents
 from .orders import order_for
 from .shipped import is_shipped, shipped
 from .source import Variant, emitted_headers, flags, source, stem
+from .undecided import no_kernel
 
 _PATIENCE = 1.0  # s that a compilation may last before a remark
 
@@ -63,28 +65,29 @@ def _entry(variant: Variant, text: str, flags: tuple[str, ...]) -> str:
 
 
 @once
-def kernel(variant: Variant) -> ctypes.CDLL | None:
-    """The loaded kernel of a variant; None for an unsupported model, without a compiler, or if compilation fails."""
+def kernel(variant: Variant) -> ctypes.CDLL:
+    """The loaded kernel of a variant.
+
+    Raises:
+        ComputationError: it is not shipped, and there is no compiler or compilation fails.
+    """
     content = shipped(variant) or _compiled(variant)
-    if content is None:
-        return None
     try:
         library = loaded(content, ctypes.CDLL)
     except OSError as error:
-        say_once(f"the Taylor kernel cannot be loaded ({error}): other engines answer")
-        return None
+        raise no_kernel(f"cannot be loaded ({error})") from None
     library.collide.restype = ctypes.c_char_p
     library.collide.argtypes = [ctypes.c_void_p]
     return library
 
 
-def _compiled(variant: Variant) -> bytes | None:
-    """The library of a variant, compiled if it is not in the cache; None, with a remark, if that cannot be done."""
+def _compiled(variant: Variant) -> bytes:
+    """The library of a variant, compiled if it is not in the cache."""
     tool = compiler()
     with say_after(_PATIENCE, "a kernel for this kind of scene is compiled, once; this takes some seconds"):
         emitted = None if tool is None else emitted_headers(variant)
         if emitted is None:
-            return None
+            raise no_kernel()
         text, flagged = source(variant, emitted), flags(variant, here()[0])
         try:
             return kept(_entry(variant, text, flagged), lambda: compiled(text, flagged))
@@ -93,8 +96,7 @@ def _compiled(variant: Variant) -> bytes | None:
             what = (
                 "the C emitted for the Taylor kernel is wrong" if ours else f"{tool} cannot compile the Taylor kernel"
             )
-            say_once(f"{what} ({error}): {'please report the model; ' * ours}other engines answer")
-            return None
+            raise ComputationError(f"{what} ({error})", advice="please report the model" * ours) from None
 
 
 def compile_all(
@@ -115,8 +117,11 @@ def compile_all(
     def compiled_here(variant: Variant) -> float | None:
         threads.append(threading.get_ident())
         start = time.perf_counter()
-        made = kernel(variant) is not None
-        return time.perf_counter() - start if made else None
+        try:
+            kernel(variant)
+        except ComputationError:
+            return None
+        return time.perf_counter() - start
 
     took: dict[Variant, float | None] = {}
     with ThreadPoolExecutor(usable_cores()) as pool:  # threads suffice, since compilers are separate processes

@@ -64,8 +64,8 @@ def variant_for_many(scene: Scene, oblique: bool, rtol: float, rotation: bool, f
 
 def run_kernel(
     impacts: Impacts, rtol: float, rotation: bool = False, threads: int = 1, budget: int = KERNEL_STEPS, jumps: int = 0
-) -> np.ndarray | None:
-    """An array of ANSWER, one per collision; None if no kernel is available.
+) -> np.ndarray:
+    """An array of ANSWER, one per collision.
 
     Arguments:
         rotation: also compute the angle through which the line of centres turns.
@@ -78,8 +78,6 @@ def run_kernel(
         if which.size == 0:
             continue
         library = kernel(variant_for_many(impacts.scene, oblique, rtol, rotation, fold=not impacts.others))
-        if library is None:
-            return None
         run, whole = bind_kernel(library, rtol, budget, jumps), which.size == answers.size  # no copy in this case
 
         def chunk(first: int, run: RunKernel = run, which: np.ndarray = which, whole: bool = whole) -> None:

@@ -30,7 +30,10 @@ _ANSWER = [
 ]
 ANSWER = np.dtype(_ANSWER, align=True)
 ANSWER_IN_SPACE = np.dtype([("shown", "f8", SHOWN_IN_SPACE), *_ANSWER[1:]], align=True)
-HAPPENING = np.dtype([("kind", "f8"), ("time", "f8")], align=True)
+MODE = ("closing", "resting", "film", "shear", "sliding", "rolling")
+HAPPENING = np.dtype(
+    [("kind", "i4"), *((name, "i4") for name in MODE), ("time", "f8")], align=True
+)  # the mode after it
 _TERMS = "initial final lifted normal tangential capillary attraction dry friction"
 # then the angular momentum over its initial value
 LEDGER = np.dtype([(name, "f8") for name in (*_TERMS.split(), "momentum")], align=True)
@@ -45,6 +48,7 @@ TASK = np.dtype(
         ("requested", "i8"),  # groups by which derivatives are computed, as bits
         ("steps", "i8"),  # returned: number of steps of all trajectories, including those without room
         ("rtol", "f8"),
+        ("until", "f8"),  # time (x0/v0) to which a kernel with a limit follows a stick
         ("nearest", "f8"),  # least measure of nearness to a boundary at which the adjoint takes derivatives
         ("quantities", BUFFER),  # one BUFFER for each of `quantity_names`: `count` doubles in SI, or a single one
         ("answers", BUFFER),  # of ANSWER

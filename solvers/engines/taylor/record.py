@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -88,8 +88,9 @@ def run_recorded(
     peaks: bool = False,
     events: bool = True,
     room: tuple[int, int] = _ROOM,
-) -> Recorded | None:
-    """Trajectories of impacts, all oblique or all head-on, with the angle turned; None if no kernel is available.
+    until: float | None = None,
+) -> Recorded:
+    """Trajectories of impacts, all oblique or all head-on, with the angle turned.
 
     Arguments:
         ledger: also the energy ledger; the spin is then a state of its own.
@@ -101,11 +102,11 @@ def run_recorded(
         peaks: also the largest margin of the glass criterion; only with a trajectory.
         room: events and steps of a collision that there is room for; where that is not enough, all are integrated
             again.
+        until: time (x0/v0) to which a single collision is followed, a stick beyond its proof.
     """
     wanted = variant_to_record(impacts.scene, oblique, rtol, ledger, trajectory, fold)
+    wanted = wanted if until is None else replace(wanted, limit=True, lanes=1)
     library = kernel(wanted)
-    if library is None:
-        return None
     size, keep = impacts.angle.size, keep and trajectory
     margins = np.full(size, -np.inf) if peaks else None
     log_room, step_room = room[0] * events, room[1] * size
@@ -115,6 +116,7 @@ def run_recorded(
         rows = np.empty(step_room, step_row(library)) if keep else None  # the kernel counts the rows that it fills
         one = task(library, impacts, rtol, budget, answers)
         one.number("purpose", purpose)
+        one.number("until", until or 0.0)
         if events:
             one.buffer("log", log)
         one.buffer("books", books)
@@ -133,18 +135,17 @@ def run_recorded(
 
 def run_with_books(
     impacts: Impacts, rtol: float, threads: int, budget: int = KERNEL_STEPS
-) -> tuple[np.ndarray | None, np.ndarray | None]:
-    """Answers and ledgers of impacts, oblique or head-on; None for both if there is no kernel here."""
+) -> tuple[np.ndarray, np.ndarray]:
+    """Answers and ledgers of impacts, oblique or head-on."""
     answers, books = np.zeros(impacts.angle.size, ANSWER), np.zeros(impacts.angle.size, LEDGER)
-    turns, fold, done = impacts.oblique, not impacts.others, []
+    turns, fold = impacts.oblique, not impacts.others
     for oblique, which in ((True, np.flatnonzero(turns)), (False, np.flatnonzero(~turns))):
 
         def chunk(first: int, oblique: bool = oblique, which: np.ndarray = which) -> None:
             part = which[first : first + CHUNK]
             recorded = run_recorded(impacts.part(part), oblique, rtol, True, budget=budget, events=False, fold=fold)
-            done.append(recorded is not None)
-            if recorded is not None and recorded.ledger is not None:
-                answers[part], books[part] = recorded.answers, recorded.ledger
+            assert recorded.ledger is not None  # as requested
+            answers[part], books[part] = recorded.answers, recorded.ledger
 
         in_chunks(which.size, chunk, threads)
-    return (answers, books) if all(done) else (None, None)
+    return answers, books

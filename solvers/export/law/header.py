@@ -3,7 +3,7 @@
 from collections.abc import Iterable, Sequence
 
 from ....generated.automaton import CRITERIA, KINDS, OUTCOMES
-from ...engines.settings import STEPS
+from ...engines.settings import KERNEL_STEPS
 from ...scene.scene import Scene
 from .comments import comment
 from .contact import contact_header
@@ -76,7 +76,8 @@ def header(
         "",
         *comment(
             "One collision. `rtol` is the relative tolerance of the integration, 1e-13 to 1e-3; at most 1e-6 is used. "
-            f"`budget` is the largest number of steps; 0 is {STEPS}. Beyond it the status is LAW_UNDECIDED_NO_BUDGET. "
+            f"`budget` is the largest number of steps; 0 is {KERNEL_STEPS}. Beyond it the status is "
+            "LAW_UNDECIDED_NO_BUDGET. "
             "Returns found->status. Reentrant: nothing is allocated, and no data is shared between calls."
         ),
         "int law_collide(",

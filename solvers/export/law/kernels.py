@@ -4,7 +4,7 @@ import re
 from dataclasses import dataclass, replace
 from functools import cached_property
 
-from ...engines.settings import STEPS, STEPS_IN_SPACE
+from ...engines.settings import KERNEL_STEPS, KERNEL_STEPS_IN_SPACE
 from ...engines.taylor.call import variant
 from ...engines.taylor.headers import headers
 from ...engines.taylor.in_space import variant_in_space
@@ -88,7 +88,7 @@ class Kernel:
                 '#include "state.h"',
                 "",
                 "/* Step limit of a collision, or of one call where a collision may be resumed. */",
-                f"enum {{ MOST_STEPS_TAKEN = {STEPS_IN_SPACE if self.prefix == SPACE else STEPS} }};",
+                f"enum {{ MOST_STEPS_TAKEN = {KERNEL_STEPS_IN_SPACE if self.prefix == SPACE else KERNEL_STEPS} }};",
                 "",
                 *lines,
             ]

@@ -1,6 +1,6 @@
 """Collisions in space as part of an exported law: what its header says of them, and its C files."""
 
-from ...engines.settings import STEPS, STEPS_IN_SPACE
+from ...engines.settings import KERNEL_STEPS, KERNEL_STEPS_IN_SPACE
 from ...scene.scene import Scene
 from .comments import comment
 from .kernels import only_in_a_plane
@@ -124,7 +124,11 @@ def declarations(scene: Scene) -> list[str]:
         *_structure("law_pair_after", AFTER),
         *comment(
             "One pair, with `rtol` and `budget` as in law_collide; a budget of 0 is "
-            + (f"{STEPS} for each of two planar collisions" if scene.wall else f"{STEPS_IN_SPACE}, in a plane {STEPS}")
+            + (
+                f"{KERNEL_STEPS} for each of two planar collisions"
+                if scene.wall
+                else f"{KERNEL_STEPS_IN_SPACE}, in a plane {KERNEL_STEPS}"
+            )
             + ". Returns after->status."
         ),
         "int law_collide_pair(",

@@ -6,18 +6,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ....generated.automaton import KINDS, LAST_ANSWER
-from ...collision.collide import collide
-from ...engines.settings import STEPS
+from ....generated.automaton import LAST_ANSWER
+from ...engines.settings import KERNEL_STEPS
 from ...engines.taylor.build import kernel
 from ...engines.taylor.call import Impacts, bind_kernel
 from ...engines.taylor.layout import ANSWER
 from ...errors import ComputationError
 from ...many import impacts as many
 from ...many.by_kernel import block_of
-from ...many.collide_many import collide_many
 from ...many.results import Block
-from ...results import NONE, REVERSALS
 from ...scene.scene import Scene
 from ...space.collide_pair import collide_pair
 from ...space.pairs import Bodies
@@ -129,14 +126,12 @@ def _impacts(scene: Scene) -> list[dict[str, np.ndarray]]:
 def _computed(of_law: Kernel, impacts: dict[str, np.ndarray]) -> list[Vector]:
     """The vectors of candidates whose results are the same at a tighter tolerance."""
     library, answers = kernel(of_law.variant), list[Block]()
-    if library is None:
-        impacts = {name: values[: values.size // _FEWER] for name, values in impacts.items()}
     spins = {name: values for name, values in impacts.items() if name.endswith("spin")}
     if of_law.scene.wall:
         del spins["impact_partner_spin"]
     candidates = Impacts(of_law.scene, impacts["speed"], impacts["angle"], spins)
     for rtol in (RTOL, _TIGHTER * RTOL):
-        block = _by_casadi(candidates, rtol) if library is None else _by_kernel(library, candidates, rtol)
+        block = _by_kernel(library, candidates, rtol)
         partner, spin = block["final_spin_partner"], block["final_spin"]
         block["final_spin_partner"] = np.where(np.isnan(partner), spin, partner)
         if of_law.prefix == HEAD_ON:
@@ -152,35 +147,12 @@ def _computed(of_law: Kernel, impacts: dict[str, np.ndarray]) -> list[Vector]:
 
 def _by_kernel(library: ctypes.CDLL, impacts: Impacts, rtol: float) -> Block:
     answers, scene = np.zeros(impacts.speed.size, ANSWER), impacts.scene
-    bind_kernel(library, rtol, STEPS)(impacts, answers)
+    bind_kernel(library, rtol, KERNEL_STEPS)(impacts, answers)
     columns = {"impact.speed": impacts.speed, "impact.angle": impacts.angle}
     block = block_of(many.Impacts.listed(scene, columns, rtol, "taylor", _RESULTS), answers, impacts, None)
     separated = answers["outcome"] > 0
     block["final_gap"] = np.where(separated, answers["final_gap"] * scene.liquid.film_thickness, np.nan)
     return block | {"rebound": answers["reversal"], "answered": answers["status"] <= LAST_ANSWER}
-
-
-def _by_casadi(impacts: Impacts, rtol: float) -> Block:
-    """The same without a compiler."""
-    scene, varied = impacts.scene, {}
-    if scene.pendulum is None:
-        varied = {name.replace("_", ".", 1): values for name, values in impacts.others.items()}
-    of = (*(name for name in _RESULTS if name != "final_gap"), "reversal")
-    found = collide_many(
-        scene, speed=impacts.speed, angle=impacts.angle, vary=varied, rtol=rtol, engine="rosenbrock", of=of
-    )
-    block = {str(name): found[name].values for name in found.data_vars}
-    block["final_gap"] = np.where(block["outcome"] > 0, scene.rupture_gap, np.nan)
-    if scene.package is not None and scene.package.events:  # one of these may separate the doublet earlier
-        for k in np.flatnonzero(block["outcome"] > 0):
-            entries = {name: float(values[k]) for name, values in varied.items()}
-            speed, angle = float(impacts.speed[k]), float(impacts.angle[k])
-            one = scene.with_entries(entries) if entries else scene
-            path = collide(one, speed=speed, angle=angle, rtol=rtol, engine="rosenbrock", trajectory=True).trajectory
-            assert path is not None
-            block["final_gap"][k] = path.gap[-1]
-    criteria = np.array([*(KINDS.index(word) for word in REVERSALS), NONE])
-    return block | {"rebound": criteria[block["reversal"]], "answered": block["outcome"] >= 0}
 
 
 def pair_table(scene: Scene, rtol: float, tolerance: float) -> list[str]:

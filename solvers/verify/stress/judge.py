@@ -5,21 +5,19 @@ import re
 import warnings
 from collections.abc import Callable
 from dataclasses import replace
-from functools import cache
 
 from ....generated.automaton import OUTCOMES
-from ...collision.by_casadi import by_casadi
-from ...engines.casadi.locate import CHATTERS, EventLocator, EventSequence
+from ...collision.by_kernel import recorded
+from ...collision.by_replay import by_replay
 from ...engines.taylor.call import variant_for_many
 from ...engines.taylor.source import Variant
+from ...engines.taylor.undecided import CHATTERS, SEPARATES
 from ...errors import ComputationError, ModelWarning
 from ...many.collide_many import collide_many
 from ...model.dimensionless import DimensionlessGroups, nondimensionalise
-from ...model.key import ModelKey
-from ...model.model import Model, load, select_model
 from ...model.validity import remarks
 from ...scene.scene import Scene
-from ..audit import LONG, WithoutCertificate
+from ..audit import LONG
 from .lines import judge_lines
 from .verdict import FAST, RTOL, Case, Issue, Result, Verdict, physical_reason
 
@@ -29,30 +27,6 @@ OPEN = 1e-5  # largest residual, relative to the ledger's largest term
 DRIFT = 1e-6  # largest relative drift of the angular momentum
 _STEP = 1e-6  # relative step in St for the conditioning
 _PARTICULAR = re.compile(r" = .* is (?=above|below)| \(.*")  # value and source of a remark
-
-
-@cache
-def _located(
-    choice: ModelKey, groups: tuple[tuple[str, float], ...], rtol: float, extras: tuple[str, ...]
-) -> tuple[EventLocator, ComputationError | None]:
-    """A trajectory of the case, located once for the engines and the audit that use it, or why it could not be."""
-    locator = EventLocator(load(choice), dict(groups), rtol, extras)
-    try:
-        locator.run()
-    except ComputationError as error:
-        return locator, error
-    return locator, None
-
-
-def _locator(model: Model, groups: dict[str, float], rtol: float, extras: tuple[str, ...] = ()) -> EventLocator:
-    locator, failure = _located(model.choice, tuple(groups.items()), rtol, extras)
-    if failure is not None:
-        raise failure
-    return locator
-
-
-def _find(model: Model, groups: dict[str, float], rtol: float, extras: tuple[str, ...], **_: object) -> EventSequence:
-    return _locator(model, groups, rtol, extras).path
 
 
 def _dimensionless(scene: Scene) -> DimensionlessGroups:
@@ -95,7 +69,7 @@ def fast_kernel(scene: Scene) -> Variant:
 
 def chained(scene: Scene, rtol: float, plugin: str = "cvodes") -> Result:
     """Result as by `collide` with its ledger."""
-    one = by_casadi(scene, _dimensionless(scene), rtol, plugin, True, False, _find)
+    one = by_replay(scene, _dimensionless(scene), rtol, plugin, True, False)
     more: dict[str, float] = {}
     if one.energy is not None:
         terms = one.energy.to_dict()
@@ -120,7 +94,6 @@ def judge(case: Case, engines: dict[str, Run] | None = None) -> Verdict:
     Arguments:
         engines: engines by name, the one under test first; `runs()` if None.
     """
-    _located.cache_clear()
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", ModelWarning)  # counted, and reported once for all cases
         verdict = judge_lines(case) if case.angles else _judged(case, runs() if engines is None else engines)
@@ -132,7 +105,7 @@ def _judged(case: Case, engines: dict[str, Run]) -> Verdict:
     for name, run in engines.items():
         results[name] = _result(run, case.scene, RTOL)
         if CHATTERS in results[name].failure:
-            break  # the others share the rules of the event location and would chatter too
+            break  # nothing is recorded that others could follow
     issues: list[Issue] = [
         Issue("failure", (name,), each.failure, _physical(each.failure, name, case))
         for name, each in results.items()
@@ -159,7 +132,7 @@ def _judged(case: Case, engines: dict[str, Run]) -> Verdict:
     for name, each in there.items():
         issues += _each(name, each, case)
     if first is not None and there[first].certified:
-        issues += _audited(case, engines, first)
+        issues += _audited(case, first)
     return Verdict(case, results, tuple(issues), error, slope)
 
 
@@ -230,20 +203,17 @@ def _each(name: str, each: Result, case: Case) -> list[Issue]:
     return issues
 
 
-def _audited(case: Case, engines: dict[str, Run], first: str) -> list[Issue]:
+def _audited(case: Case, first: str) -> list[Issue]:
     """Issues of a certified stick that separates without its certificate.
 
     A trajectory that is not certified has another outcome, which its error near a boundary may explain.
     """
-    n = _dimensionless(case.scene)
     try:
-        model = load(select_model(case.scene, n.oblique, fold=True))
-        path = _locator(model, n.groups, RTOL).path
-        if proved := path.certified:
-            path = WithoutCertificate(model, n.groups, RTOL).on(path.time + LONG)
-    except ComputationError:
-        return []  # it continued until the integrator failed
-    if not path.separated:
+        ended = recorded(case.scene, _dimensionless(case.scene), RTOL).answers["time"][0]
+        recorded(case.scene, _dimensionless(case.scene), RTOL, until=float(ended) + LONG)
+    except ComputationError as error:
+        if SEPARATES not in str(error):
+            return []  # it continued until the kernel gave up
+    else:
         return []
-    text = f"certified by {first}, but continued it ends as {path.outcome}"
-    return [Issue("certificate", (first,), text, "" if proved else _change_nearby(case, engines, first, first))]
+    return [Issue("certificate", (first,), f"certified by {first}, but continued it separates", "")]

@@ -14,7 +14,7 @@ from .verdict import FAST, RTOL, Case, Issue, Result, Verdict, physical_reason
 SPAN = (2e-3, 30.0)  # range of the Stokes number
 SAMPLES = 700  # samples of a line
 _ASIDE = 3e-6  # relative distance from a change at which outcomes are compared
-_BY_ROSENBROCK, _SOME = 10, 24  # every so many scenes, at so many Stokes numbers of a line
+_BY_ROSENBROCK, _SOME = 10, 24  # every so many scenes a replay of collisions, at so many Stokes numbers of a line
 
 
 def judge_lines(case: Case) -> Verdict:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from ...engines.casadi.locate import CHATTERS, CREEPS, RESTS, REVERSED, ROUNDED
+from ...engines.taylor.undecided import CHATTERS, CREEPS, RESTS, REVERSED, ROUNDED
 from ...scene.scene import Scene
 
 RTOL = 1e-9

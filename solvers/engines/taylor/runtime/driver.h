@@ -111,12 +111,16 @@ static void end_sticks(queue *q, lanes *l, fixed *f)
 /* The effects of the events of lanes. */
 static void act_on(queue *q, lanes *l, fixed *f, mask happens, mask event)
 {
-    EACH_OF(lane, bits(happens))
+    EACH_OF(lane, bits(happens)) {
+        mask index = l->index;
 #if WITH_TRAJECTORY
         act_for_purpose(q, l, f, lane, (int)LANE(event, lane));
 #else
         act(q, l, f, lane, (int)LANE(event, lane));
 #endif
+        if (LANE(l->alive, lane) && LANE(l->index, lane) == LANE(index, lane))
+            note_mode(q, l, lane);
+    }
 }
 
 /* The series of the states about the start of a step. */
@@ -304,8 +308,14 @@ static void run(queue *q)
         mask falls = l.alive & (first.time <= 1.0);
         h = choose(falls, h*first.time, h);
 #if WITH_LIMIT
-        if (reached(q, &l, &f, (vec (*)[TERMS])&e.s, h))
+        double since = until_limit(q, &l, h);
+        if (since >= 0.0) {
+#if WITH_TRAJECTORY
+            keep_steps(q, &l, (vec (*)[TERMS])&e.s, splat(since));
+#endif
+            leave_within(q, &l, &f, (vec (*)[TERMS])&e.s, since);
             return;
+        }
 #endif
         keep_step(q, &e, &l, &f, h, creeps, falls, first.event);
         mask lost = take_step(&e, &l, h, creeps, bits(falls) ? sum_at(e.s.gap, h) : first.gap);

@@ -6,6 +6,7 @@
 #include "chain_to_si.h"
 #include "driver.h"
 #include "layout.h"
+#include "limit.h"
 #include "model.h"
 #include "state.h"
 #include "step_record.h"
@@ -56,7 +57,7 @@ const int proved_by_energy = 0;
 #endif
 
 /* Integrates `count` collisions, with derivatives by the quantities if the kernel has them; output buffers must be
- * zeroed.
+ * zeroed. A kernel with a limit follows one collision, a stick as well, up to `until`.
  *
  * Returns null, or the reason why nothing was done.
  */
@@ -89,7 +90,20 @@ const char *collide(task *t)
     q.gradients = t->gradients.at;
     q.near = t->near.at;
 #endif
-#if BACKWARD
+#if WITH_LIMIT
+    struct interrupted contact;
+    memset(&contact, 0, sizeof contact);
+    contact.limit = t->until;
+    q.contact = &contact;
+#if WITH_LEDGER
+    q.books = &contact.book;
+#endif
+    run(&q);
+    answer_at_limit(&contact, q.answers);
+#if WITH_LEDGER
+    *(ledger *)t->books.at = contact.book;
+#endif
+#elif BACKWARD
     if (!there_and_back(&q))
         return "no memory for its tape";
 #else

@@ -90,19 +90,36 @@ static void end_of(queue *q, const lanes *l, const fixed *f, int lane, answer *a
     }
 }
 
-/* Leaves the collision if its time is reached within a step; true if it is. */
-static int reached(queue *q, lanes *l, const fixed *f, vec (*a)[TERMS], vec h)
+/* The part of a step after which the collision is left, as its time lies within; negative if it does not. */
+static double until_limit(const queue *q, const lanes *l, vec h)
 {
     if (!q->contact)
-        return 0;
+        return -1.0;
     int lane = first_of(bits(l->alive));
     double since = q->contact->limit - LANE(l->time, lane);
-    if (!(since < LANE(h, lane)))
-        return 0;
+    return since < LANE(h, lane) ? fmax(since, 0.0) : -1.0;
+}
+
+/* Leaves the collision within a step. */
+static void leave_within(queue *q, lanes *l, const fixed *f, vec (*a)[TERMS], double since)
+{
+    int lane = first_of(bits(l->alive));
     vec y[STATES];
     states_at((const vec (*)[TERMS])a, splat(since), y);
     leave(q, l, f, lane, y, q->contact->limit);
     LANE(l->alive, lane) = 0;
-    return 1;
+}
+
+/* The answer of a collision that was followed to its limit: a stick, with the state reached. */
+static void answer_at_limit(const struct interrupted *h, answer *a)
+{
+    int32_t events = a->events;
+    if (h->over)
+        return;
+    *a = h->now;
+    a->events = events;
+    a->status = DECIDED;
+    a->outcome = STICK;
+    a->certified = h->certified;
 }
 #endif

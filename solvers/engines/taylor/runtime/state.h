@@ -159,6 +159,25 @@ static void note(queue *q, long index, int kind, double time)
     a->events++;
 }
 
+/* The mode of a lane, beside the event noted last: that which follows it. */
+static void note_mode(queue *q, const lanes *l, int lane)
+{
+    const answer *a = &q->answers[LANE(l->index, lane)];
+    if (a->events < 1 || a->events > q->log_room)
+        return;
+    happening *row = q->log + LANE(l->index, lane)*q->log_room + a->events - 1;
+    row->closing = LANE(l->closing, lane) != 0;
+    row->resting = LANE(l->resting, lane) != 0;
+    row->film = LANE(l->film, lane) != 0.0;
+    row->shear = LANE(l->shear, lane) != 0.0;
+#if RUBS
+    row->sliding = (int32_t)LANE(l->sliding, lane);
+#if ROLLS
+    row->rolling = LANE(l->rolling, lane) != 0.0;
+#endif
+#endif
+}
+
 /* Lanes in which a certificate excludes separation from the present state. */
 static mask proved_underway(const lanes *l, const fixed *f, double tolerance)
 {

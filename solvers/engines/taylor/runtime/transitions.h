@@ -149,14 +149,17 @@ static void rebounds(queue *q, lanes *l, fixed *f, int lane, int kind)
 #elif RUBS
         LANE(l->sliding, lane) = 1.0;
 #endif
+        note_mode(q, l, lane);
         if (!TURNS || (!STRINGS && LANE(l->shear, lane) == 0.0)) /* the reaction never vanishes (derive/checks/friction.py) */
             sticks_for_good(q, l, f, lane, 1);
-    } else
+    } else {
         opens(l, f, lane);
+        note_mode(q, l, lane);
+    }
 }
 
 #if OWN_EVENTS
-/* The jump of a declared event; false if it creates energy that it does not declare, where other engines say so. */
+/* The jump of a declared event; false if it creates energy that it does not declare. */
 static int own_event_jumps(queue *q, lanes *l, fixed *f, int lane, int event)
 {
     vec after[STATES], released;
@@ -167,7 +170,7 @@ static int own_event_jumps(queue *q, lanes *l, fixed *f, int lane, int event)
     own_jump(&f->c, l->y, which, after, &released);
     double before = in_lane(stored_energy(&f->c, l->y), lane), left = in_lane(stored_energy(&f->c, after), lane);
     if (!(left - before <= LANE(released, lane) + SAFETY*q->rtol*before)) {
-        finish(q, l, f, lane, NOT_FINITE, STICK, 0);
+        finish(q, l, f, lane, left == left ? UNDECLARED : NOT_FINITE, STICK, 0);
         return 0;
     }
 #if WITH_LEDGER

@@ -1,4 +1,4 @@
-"""One pair in space by Rosenbrock or CVODES, in axes that go with the pair.
+"""One pair in space by Rosenbrock or CVODES, in axes that go with the pair: the phases that the kernel has found.
 
 CasADi's integrators measure errors by component, so the axes must not be the laboratory's: the first is the line of
 centres, the second the fastest direction across it. A rotation of the whole pair then changes rounding only.
@@ -6,45 +6,49 @@ During the integration they turn about the angular momentum as a rigid doublet w
 """
 
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
 from ...generated import scaling
-from ...generated.automaton import LEAST_SLIP, OUTCOMES, TURNLESS
-from ..engines.casadi.integrators import tolerance_for
-from ..engines.casadi.locate import EventLocator, EventSequence
-from ..engines.casadi.replay import Replay, Stopped, as_located, replay
-from ..engines.settings import Budget, casadi_steps
+from ...generated.automaton import KINDS, LAST_ANSWER, LEAST_SLIP, OUTCOMES, TURNLESS
+from ..collision.by_kernel import sequence_of
+from ..engines.casadi.replay import Replay, replayed
+from ..engines.casadi.sequence import EventSequence, sequence
+from ..engines.taylor.in_space import recorded_in_space
+from ..engines.taylor.undecided import undecided
 from ..errors import ComputationError, WetDoubletError
 from ..model.dimensionless import DimensionlessGroups, nondimensionalise
-from ..model.key import ModelKey
 from ..model.model import Model, load, select_model
-from ..model.phases import Flow, Region
 from ..scene.groups import si_values
 from .books import OPEN, extras_of, is_open, of_casadi
+from .by_kernel import vectors_of
 from .ends import FAILED, Ends
 from .pairs import Bodies, Pairs, length, spin_energy, without_spins
 
 AXES = "xyz"
 EXTRAS = ("rotation",)
 _LEAST = 1e-300  # in place of zero where it divides
-_TIGHTEST = 1e-13  # relative tolerance down to which a missed event is sought again
 
 
-def pairs_by_casadi(pairs: Pairs, plugin: str, rtol: float, ledger: bool = False, spent: int = 0) -> Ends:
-    """Ends of pairs integrated one after the other; a failed pair has the outcome FAILED and its reason.
-
-    Arguments:
-        spent: steps of the planar kernel that a pair has taken.
-    """
+def pairs_by_replay(pairs: Pairs, plugin: str, rtol: float, ledger: bool = False) -> Ends:
+    """Ends of pairs integrated one after the other; a failed pair has the outcome FAILED and its reason."""
     ends = Ends.blank(pairs.size)
     for k in range(pairs.size):
-        budget = Budget(casadi_steps(rtol, True, spent))
         try:
-            ends.put(np.array([k]), _one(pairs.part(np.array([k])), plugin, rtol, ledger, budget))
+            ends.put(np.array([k]), _end(pairs.part(np.array([k])), plugin, rtol, ledger))
         except WetDoubletError as error:
             ends.outcome[k], ends.reason[k] = FAILED, str(error)
     return ends
+
+
+def sequence_in_space(pair: Pairs, n: DimensionlessGroups, rtol: float) -> EventSequence:
+    """The phases and events of one pair that turns, as the kernel finds them in the laboratory's axes."""
+    model = load(select_model(pair.scene, True, space=True))
+    answer, log = recorded_in_space(pair.scene, vectors_of(pair), -pair.opening, rtol)
+    if answer["status"] > LAST_ANSWER:
+        raise n.in_si(undecided(answer, tuple(model.state)))
+    return sequence(answer, log, KINDS, model, n.groups)
 
 
 def own_axes(pair: Pairs) -> np.ndarray:
@@ -93,25 +97,26 @@ def groups_of(pair: Pairs, axes: np.ndarray) -> DimensionlessGroups:
     return replace(n, groups={**n.groups, **groups, **normal, **first}, rate=rate)
 
 
-def _one(pair: Pairs, plugin: str, rtol: float, ledger: bool, budget: Budget) -> Ends:
+def _end(pair: Pairs, plugin: str, rtol: float, ledger: bool) -> Ends:
     turns, axes = not pair.head_on[0], own_axes(pair)
     n = groups_of(pair, axes) if turns else nondimensionalise(without_spins(pair.scene), -float(pair.opening[0]), 0.0)
-    small, whole = (select_model(pair.scene, turns, full=full, space=turns) for full in (False, ledger))
-    model, turned = load(whole), EXTRAS if turns else ()
-    extras = turned + (extras_of(model) if ledger else ())
+    found = partial(sequence_in_space, pair, n) if turns else partial(sequence_of, without_spins(pair.scene), n)
+    choice = select_model(pair.scene, turns, full=ledger, space=turns)
+    model = load(choice)
+    extras = (EXTRAS if turns else ()) + (extras_of(model) if ledger else ())
     try:
-        path, replayed = _integrated(model, extras, small, turned, n, plugin, rtol, budget)
+        path, replay = replayed(found, choice, extras, plugin, rtol)
     except ComputationError as error:
         raise n.in_si(error) from None
-    p, y = model.group_values(n.groups), replayed.y
+    p, y = model.group_values(n.groups), replay.y
     shown = model.values("outputs", y, p)
     ends = Ends.blank(1)
     ends.outcome[0], ends.certified[0] = OUTCOMES.index(path.outcome), path.certified
-    ends.time[0], ends.gap[0] = replayed.time * n.time, float(y[0]) * n.length
+    ends.time[0], ends.gap[0] = replay.time * n.time, float(y[0]) * n.length
     ends.opening[0] = shown["restitution"] * n.speed
     ends.normal[:], ends.turning[:], ends.spins[:] = pair.normal, 0.0, pair.spins
     if turns:
-        axes = _turned_back(model, replayed, p) @ axes
+        axes = _turned_back(model, replay, p) @ axes
         names = ("final_normal", "final_rotation_rate", "final_spin", "final_spin_partner")
         vectors = [np.array([shown[f"{name}_{axis}"] for axis in AXES]) @ axes for name in names]
         ends.normal[0], ends.turning[0], ends.spins[0] = vectors[0], vectors[1] * n.rate, np.array(vectors[2:]) * n.rate
@@ -120,7 +125,7 @@ def _one(pair: Pairs, plugin: str, rtol: float, ledger: bool, budget: Budget) ->
         ends.slip[0] = last / first if first > LEAST_SLIP else np.nan
     if ledger:
         ends.energy[0] = n.energy * of_casadi(
-            model, p, y, {name: replayed.extra(name) for name in extras}, replayed.dry_loss, replayed.friction_loss
+            model, p, y, {name: replay.extra(name) for name in extras}, replay.dry_loss, replay.friction_loss
         )
         ends.energy[:, :2] += 0.0 if turns else spin_energy(pair, pair.spins)[0]
         if is_open(ends.energy, ends.outcome > 0, rtol)[0]:
@@ -128,50 +133,14 @@ def _one(pair: Pairs, plugin: str, rtol: float, ledger: bool, budget: Budget) ->
     return ends
 
 
-def _turned_back(model: Model, replayed: Replay, p: np.ndarray) -> np.ndarray:
+def _turned_back(model: Model, replay: Replay, p: np.ndarray) -> np.ndarray:
     """The axes at the end of the integration, as rows, in components along those at its start (`model.phases`)."""
-    parts = model.values("precession", replayed.y, p)
+    parts = model.values("precession", replay.y, p)
     momentum = np.array([parts[f"momentum_{axis}"] for axis in AXES])
-    angle = float(np.sqrt(momentum @ momentum)) * replayed.extra(EXTRAS[0])
+    angle = float(np.sqrt(momentum @ momentum)) * replay.extra(EXTRAS[0])
     if angle == 0.0:
         return np.eye(3)
     line = momentum / np.sqrt(momentum @ momentum)
     along = np.outer(line, line)
     turned = along + np.cos(angle) * (np.eye(3) - along) + np.sin(angle) * np.cross(line, np.eye(3)).T
     return np.asarray(turned.T)
-
-
-def _integrated(
-    model: Model,
-    extras: tuple[str, ...],
-    small: ModelKey,
-    turned: tuple[str, ...],
-    n: DimensionlessGroups,
-    plugin: str,
-    rtol: float,
-    budget: Budget,
-) -> tuple[EventSequence, Replay]:
-    """The located events and the trajectory; the tolerance is tightened where the engine misses an event.
-
-    Arguments:
-        small: the reduced form of `model`, by which CVODES' events are located.
-        turned: what of the extras its last state needs.
-    """
-    tolerance = rtol
-    while plugin != "rosenbrock":
-        flow = Flow(model.choice, Region(1, 1, False), extras)
-        start = model.start(model.group_values(n.groups))
-        try:
-            path = EventLocator(load(small), n.groups, tolerance, turned, budget=budget).run()
-            return path, replay(path, plugin, tolerance_for(tolerance, plugin, n.groups), flow, start, budget)
-        except ComputationError:
-            if tolerance == rtol:
-                raise
-            break
-        except Stopped as failure:
-            if not (failure.missed and tolerance > _TIGHTEST):
-                break
-            tolerance = max(tolerance * 1e-2, _TIGHTEST)
-    again = budget if plugin == "rosenbrock" else Budget(budget.most)
-    path = EventLocator(model, n.groups, rtol, extras, budget=again).run()
-    return path, as_located(path, model.choice)

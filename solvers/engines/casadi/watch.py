@@ -1,0 +1,137 @@
+"""Every event that a phase could end on, watched along an engine's own solution of the phase."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from casadi import SX, Function, densify, jtimes, vertcat
+
+from ...host.thread_caches import own_cache
+from ...model.phases import Flow, WatchedEvents, event_table, expressions
+
+# Parts of a phase at which its events are looked at, denser towards its ends, where the fast transients are.
+_EVENLY = np.linspace(0, 1, 33)
+POINTS = _EVENLY**3 * (10 - 15 * _EVENLY + 6 * _EVENLY**2)
+_FINER, _LOOKS = 34, 3  # points within an interval that may hold a minimum, and how often it is narrowed down
+_LOW = 0.2  # of the largest value in the phase: minima below are looked at
+_ERRORS = 1e2  # tolerances of the engine by which a guard may be negative
+_SHORT = 1e-15  # in x0/v0: a phase no longer than the rounding of a gap
+
+Solution = Callable[[np.ndarray], np.ndarray]
+"""Parts of a phase's duration, increasing, from 0 to 1 -> states as columns."""
+
+
+@dataclass(frozen=True)
+class Crossing:
+    """An event whose guard is negative inside a phase: name, part of the duration, and the guard over its size."""
+
+    event: str
+    part: float
+    value: float
+
+
+@own_cache(512)
+def _guards(flow: Flow, watch: WatchedEvents) -> tuple[Function, tuple[str, ...]]:
+    """Function (states, groups and motion) -> guards and their rates, and the names of their events."""
+    parts, motion = expressions(flow), SX.sym("motion")
+    table = event_table(flow, watch, motion)
+    values = vertcat(*(event.function for event in table)) if table else SX(0, 1)
+    rates = jtimes(values, parts.variables, parts.rates) if table else SX(0, 1)
+    inputs = [parts.variables, vertcat(flow.model.parameters, motion)]
+    return Function("guards", inputs, [densify(values), densify(rates)]), tuple(event.name for event in table)
+
+
+def first_crossing(
+    flow: Flow,
+    watch: WatchedEvents,
+    parameters: np.ndarray,
+    duration: float,
+    states: np.ndarray,
+    solution: Solution,
+    rtol: float,
+    landed: str | None,
+) -> Crossing | None:
+    """The first event that happens inside a phase, by more than the engine's error; None if the phase is as recorded.
+
+    Guards are looked at in `POINTS`, and in the minima between these, which their slopes show: each is narrowed down,
+    so that a graze is seen at a millionth of the guard's size.
+
+    Arguments:
+        parameters: groups, then the direction of motion.
+        states: the solution at `POINTS`, as columns.
+        solution: the same at any increasing parts.
+        rtol: tolerance of the engine.
+        landed: the event that ends the phase; None if nothing does, so that guards count at its end as well.
+    """
+    function, names = _guards(flow, watch)
+    if not names or duration <= _SHORT:
+        return None
+    values, rates = (result.full() for result in function(states, parameters))
+    rates *= duration
+    crossings = []
+    for k, name in enumerate(names):
+        size = max(float(np.abs(values[k]).max()), _unit(name))
+        limit = -_ERRORS * rtol * size
+        inner = slice(1, None if landed is None else -1)
+        below = np.flatnonzero(values[k][inner] < limit)
+        if below.size:
+            at = 1 + int(below[0])
+            crossings.append(Crossing(name, _root(POINTS, values[k], at), float(values[k][at]) / size))
+            continue
+        for at in _low_minima(POINTS, values[k], rates[k], _LOW * size):
+
+            def looked(parts: np.ndarray, k: int = k) -> tuple[np.ndarray, np.ndarray]:
+                found, slopes = (result.full() for result in function(solution(parts), parameters))
+                return found[k], slopes[k] * duration
+
+            dip = _narrowed(looked, POINTS[at], POINTS[at + 1], limit)
+            if dip is not None:
+                crossings.append(Crossing(name, dip[0], dip[1] / size))
+                break
+    return min(crossings, key=lambda crossing: crossing.part, default=None)
+
+
+def _unit(name: str) -> float:
+    """The size of a guard that is a gap or a velocity; others have that of their largest value."""
+    return 1.0 if name in ("turning", "film_edge", "tangential_edge", "contact", "rupture") else 0.0
+
+
+def _root(parts: np.ndarray, values: np.ndarray, after: int) -> float:
+    """The part at which a guard vanishes on the line through the points around it."""
+    before, low, high = parts[after - 1], values[after], values[after - 1]
+    return float(before + (parts[after] - before) * (high / (high - low) if high > 0 else 0.0))
+
+
+def _low_minima(parts: np.ndarray, values: np.ndarray, rates: np.ndarray, low: float) -> np.ndarray:
+    """Intervals in which the cubic through values and slopes has a minimum below `low`."""
+    dips = np.flatnonzero((rates[:-1] < 0) & (rates[1:] > 0))
+    step = np.diff(parts)[dips]
+    first, last = values[dips], values[dips + 1]
+    slope, end = rates[dips] * step, rates[dips + 1] * step
+    cubic, square = 2 * (first - last) + slope + end, 3 * (last - first) - 2 * slope - end
+    root = np.sqrt(np.maximum(square**2 - 3 * cubic * slope, 0.0))
+    with np.errstate(all="ignore"):
+        at = np.where(np.abs(cubic) > 1e-14 * np.abs(square), (root - square) / (3 * cubic), -slope / (2 * square))
+    at = np.clip(np.nan_to_num(at, nan=0.5), 0.0, 1.0)
+    least = ((cubic * at + square) * at + slope) * at + first
+    return dips[least < low]
+
+
+def _narrowed(
+    looked: Callable[[np.ndarray], tuple[np.ndarray, np.ndarray]], start: float, end: float, limit: float
+) -> tuple[float, float] | None:
+    """Place and value of a minimum below the limit within an interval; None if there is none."""
+    for _ in range(_LOOKS):
+        parts = np.linspace(start, end, _FINER)
+        values, rates = looked(parts)
+        at = 1 + int(np.argmin(values[1:-1]))
+        if values[at] < limit:
+            return float(parts[at]), float(values[at])
+        turning = np.flatnonzero((rates[:-1] < 0) & (rates[1:] > 0))
+        if not turning.size:
+            return None
+        nearest = turning[np.argmin(values[turning])]
+        start, end = float(parts[nearest]), float(parts[nearest + 1])
+    return None
