@@ -52,9 +52,9 @@ def by_replay(
     found = partial(sequence_of, scene, n, until=until)
     try:
         path, replay = replayed(found, choice, quadratures(model, ledger), plugin, rtol)
-    except ComputationError as error:
+    except Stopped as stopped:
         if not _confirmed(scene, n, rtol, plugin, until):
-            raise n.in_si(error) from None
+            raise n.in_si(stopped.error(plugin, model)) from None
         return collision(scene, n, rtol, ledger, trajectory, until)
     energy = _energy(model, replay, p, n) if ledger else None
     if energy is not None and path.separated:

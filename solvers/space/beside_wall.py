@@ -16,11 +16,11 @@ import numpy as np
 
 from ...generated.automaton import LAST_ANSWER, OUTCOMES
 from ..collision.by_kernel import sequence_of
-from ..engines.casadi.replay import replayed
+from ..engines.casadi.replay import Stopped, replayed
 from ..engines.taylor.call import Impacts, run_kernel
 from ..engines.taylor.record import run_with_books
 from ..engines.taylor.undecided import undecided
-from ..errors import ComputationError, WetDoubletError
+from ..errors import WetDoubletError
 from ..model.dimensionless import nondimensionalise
 from ..model.model import load, select_model
 from .books import OPEN, TERMS, TRANSVERSE, extras_of, is_open, of_casadi, of_kernel
@@ -77,8 +77,8 @@ def planar_by_replay(impacts: Impacts, plugin: str, rtol: float, ledger: bool) -
             extras = extras_of(model) if ledger else ()
             try:
                 path, replay = replayed(partial(sequence_of, scene, n), model.choice, extras, plugin, rtol)
-            except ComputationError as error:
-                raise n.in_si(error) from None
+            except Stopped as stopped:
+                raise n.in_si(stopped.error(plugin, model)) from None
         except WetDoubletError as error:
             result.reason[k] = str(error)
             continue

@@ -13,7 +13,7 @@ import numpy as np
 from ...generated import scaling
 from ...generated.automaton import KINDS, LAST_ANSWER, LEAST_SLIP, OUTCOMES, TURNLESS
 from ..collision.by_kernel import sequence_of
-from ..engines.casadi.replay import Replay, replayed
+from ..engines.casadi.replay import Replay, Stopped, replayed
 from ..engines.casadi.sequence import EventSequence, sequence
 from ..engines.taylor.in_space import recorded_in_space
 from ..engines.taylor.undecided import undecided
@@ -106,8 +106,8 @@ def _end(pair: Pairs, plugin: str, rtol: float, ledger: bool) -> Ends:
     extras = (EXTRAS if turns else ()) + (extras_of(model) if ledger else ())
     try:
         path, replay = replayed(found, choice, extras, plugin, rtol)
-    except ComputationError as error:
-        raise n.in_si(error) from None
+    except Stopped as stopped:
+        raise n.in_si(stopped.error(plugin, model)) from None
     p, y = model.group_values(n.groups), replay.y
     shown = model.values("outputs", y, p)
     ends = Ends.blank(1)

@@ -11,6 +11,7 @@ import numpy as np
 
 from ..collision.collide import collide
 from ..collision.result import Collision
+from ..engines.settings import ENGINES
 from ..errors import ComputationError
 from ..host.environment import one_core
 from ..host.progress import Progress

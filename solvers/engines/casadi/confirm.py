@@ -16,7 +16,8 @@ from .replay import Stopped
 from .sequence import EventSequence
 from .watch import POINTS, first_crossing
 
-_APART = 1e3  # tolerances by which the ends of a step may differ
+_APART = 1e2  # relative tolerances of the kernel by which the ends of a step may differ; of a state near zero, those
+_SCALE = 1e-3  # of a motion of this size
 
 
 def confirm(path: EventSequence, steps: Steps, choice: ModelKey, plugin: str, rtol: float) -> None:
@@ -40,7 +41,7 @@ def confirm(path: EventSequence, steps: Steps, choice: ModelKey, plugin: str, rt
                 reached = plain(flow, plugin, tolerance)(start, p, float(row["length"]))
             except IntegrationFailed as failure:
                 raise Stopped(f"gave up ({failure})", phase, float(row["time"]), start) from None
-            allowed = _APART * (tolerance.relative * np.abs(end) + tolerance.absolute)
+            allowed = _APART * rtol * np.maximum(np.abs(end), _SCALE)
             if not (np.abs(reached - end) <= allowed).all():
                 raise Stopped("does not agree with a step of the kernel", phase, float(row["time"]), start)
         first, duration = float(rows[0]["time"]), phase_run.duration

@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from casadi import SX, Function, jtimes, vertcat
 
-from ....generated.automaton import LOOSEST, is_parted, is_too_weak
+from ....generated.automaton import KINDS, LOOSEST, EventKind, is_parted, is_too_weak
 from ...errors import ComputationError
 from ...host.thread_caches import own_cache
 from ...model.key import ModelKey
@@ -21,13 +21,13 @@ from ...model.phases import Flow, Phase, WatchedEvents, event_table, expressions
 from ...model.rebound import rebounded
 from .integrators import IntegrationFailed, Tolerance, landing, plain, tolerance_for
 from .sequence import EventSequence, PhaseRun
-from .watch import POINTS, first_crossing
+from .watch import POINTS, Crossing, first_crossing, guards
 
 _LANDED = 1e-4  # largest Taylor step, relative to the phase, for landing without another integration
 _MISSES = 1e-13  # largest value of an event's function after the step, relative to its scale
 _RISES = 1e-9  # in its scale per duration: slope above which the function rises at the landing
 _TRIES = 8
-_MOVED, _MOVED_LEAST = 1e-4, 1e-9  # of a phase, and in x0/v0: how far an event may lie from where the record has it
+_MOVED, _MOVED_LEAST = 1e-4, 1e-12  # of a phase, and in x0/v0: how far an event may lie from where the record has it
 _ROUNDING = 1e-15  # noise of a gap or velocity of order 1, for times and event functions
 _ON_KINK = 1e-11  # of a guard: below it the side is that towards which it changes
 _REST = 10.0  # factor in the height of a rebound within which two engines may differ on whether it comes to rest
@@ -43,6 +43,12 @@ class Stopped(Exception):
     def __init__(self, why: str, phase: Phase, time: float, y: np.ndarray, missed: bool = False) -> None:
         super().__init__(why, phase, time, y, missed)
         self.why, self.phase, self.time, self.y, self.missed = why, phase, time, y, missed
+
+    def error(self, plugin: str, model: Model) -> ComputationError:
+        """The error of a replay by a plugin, dimensionless."""
+        other = "--engine rosenbrock" if plugin == "cvodes" else "the default engine, or another impact"
+        state = dict(zip(model.state, map(float, self.y), strict=False))
+        return ComputationError(f"{plugin} {self.why}", str(self.phase), self.time, state, f"try {other}")
 
 
 @dataclass(frozen=True)
@@ -92,29 +98,37 @@ def replayed(
         choice: the model that is integrated, with the quadratures `extras`.
 
     Raises:
-        ComputationError: phase, time (x0/v0) and state at which the replay stopped.
+        Stopped: the replay fails at every tolerance.
+        ComputationError: nothing is found, as `found` says.
     """
     used, looser, path = rtol, None, found(rtol)
     while True:
         tolerance = looser or tolerance_for(used, plugin, path.groups)
         try:
-            return path, _Run(path, choice, extras, plugin, tolerance, used).run()
+            return path, replay(path, choice, extras, plugin, tolerance, used)
         except Stopped as stopped:
             looser = None if stopped.missed else tolerance.loosened(used)
             if looser is not None:
                 continue
-            if stopped.missed and used > TIGHTEST:
-                used = max(used * 1e-2, TIGHTEST)
+            if not (stopped.missed and used > TIGHTEST):
+                raise
+            used = max(used * 1e-2, TIGHTEST)
+            try:
                 path = found(used)
-                continue
-            other = "--engine rosenbrock" if plugin == "cvodes" else "the default engine, or another impact"
-            raise ComputationError(
-                f"{plugin} {stopped.why}",
-                phase=str(stopped.phase),
-                time=stopped.time,
-                state=dict(zip(load(choice).state, map(float, stopped.y), strict=False)),
-                advice=f"try {other}",
-            ) from None
+            except ComputationError:
+                raise stopped from None
+
+
+def replay(
+    path: EventSequence, choice: ModelKey, extras: tuple[str, ...], plugin: str, tolerance: Tolerance, rtol: float
+) -> Replay:
+    """Integrate a sequence of events; Stopped if the engine fails, or its solution does not agree with the record.
+
+    Arguments:
+        choice: the model that is integrated, with the quadratures `extras`.
+        rtol: relative tolerance of the record.
+    """
+    return _Run(path, choice, extras, plugin, tolerance, rtol).run()
 
 
 class _Run:
@@ -137,7 +151,10 @@ class _Run:
         self.at = Replay(start, extras, extra_units(self.model, extras, self.p), tolerance.offset)
 
     def run(self) -> Replay:
-        """The whole replay; Stopped if the engine fails, or its solution does not agree with the record."""
+        """The whole replay."""
+        if self.path.separated != self._parts():
+            what = "separation has no event" if self.path.separated else "event of separation separates nothing"
+            raise Stopped(f"cannot follow the record: its {what}", self.path.steps[-1].phase, self.path.time, self.at.y)
         for step in self.path.steps:
             if step.duration > 0:
                 self._integrate(step)
@@ -145,6 +162,13 @@ class _Run:
             self.at.smallest_gap = min(self.at.smallest_gap, float(self.at.y[0]))
             self._jump(step)
         return self.at
+
+    def _parts(self) -> bool:
+        """True if the last event is one that separates the doublet."""
+        last = self.path.steps[-1]
+        if last.own:
+            return any(event.name == last.own and event.row.actions[-1] == "part" for event in self.model.own_events)
+        return KINDS[EventKind.RUPTURE] in last.kinds
 
     def _integrate(self, step: PhaseRun) -> None:
         """A phase: onto its event, by way of the kinks of its laws."""
@@ -268,6 +292,8 @@ class _Solution:
     def onto(self, event: str, expected: float) -> tuple[float, np.ndarray, np.ndarray]:
         """Duration and state on an event's surface, and the states at `POINTS` up to nearly there."""
         run = self.run
+        if event not in guards(self.flow, run.path.watch)[1]:
+            raise Stopped(f"has no event {event} in this phase", self.phase, run.at.time, run.at.y, missed=True)
         land = landing(self.flow, run.path.watch, event)
         parameters = np.append(run.p, float(self.phase.motion))
         scale, duration, nearer = self._scale(event), expected, np.inf

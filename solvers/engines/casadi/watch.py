@@ -17,6 +17,9 @@ POINTS = _EVENLY**3 * (10 - 15 * _EVENLY + 6 * _EVENLY**2)
 _FINER, _LOOKS = 34, 3  # points within an interval that may hold a minimum, and how often it is narrowed down
 _LOW = 0.2  # of the largest value in the phase: minima below are looked at
 _ERRORS = 1e2  # tolerances of the engine by which a guard may be negative
+# Least sizes, in x0 or v0, of guards that are a gap or a velocity; others have that of their largest value.
+_LEAST = {"turning": 1e-3, "contact": 1e-3, "film_edge": 1.0, "tangential_edge": 1.0, "rupture": 1.0}
+_MET = ("glass", "contact", "half_turn", "unwinding")  # a stick does not end just there unless this is its event
 _SHORT = 1e-15  # in x0/v0: a phase no longer than the rounding of a gap
 
 Solution = Callable[[np.ndarray], np.ndarray]
@@ -33,7 +36,7 @@ class Crossing:
 
 
 @own_cache(512)
-def _guards(flow: Flow, watch: WatchedEvents) -> tuple[Function, tuple[str, ...]]:
+def guards(flow: Flow, watch: WatchedEvents) -> tuple[Function, tuple[str, ...]]:
     """Function (states, groups and motion) -> guards and their rates, and the names of their events."""
     parts, motion = expressions(flow), SX.sym("motion")
     table = event_table(flow, watch, motion)
@@ -65,15 +68,17 @@ def first_crossing(
         rtol: tolerance of the engine.
         landed: the event that ends the phase; None if nothing does, so that guards count at its end as well.
     """
-    function, names = _guards(flow, watch)
+    function, names = guards(flow, watch)
     if not names or duration <= _SHORT:
         return None
     values, rates = (result.full() for result in function(states, parameters))
     rates *= duration
     crossings = []
     for k, name in enumerate(names):
-        size = max(float(np.abs(values[k]).max()), _unit(name))
+        size = max(float(np.abs(values[k]).max()), _LEAST.get(name, 0.0))
         limit = -_ERRORS * rtol * size
+        if landed is None and name in _MET and values[k][-1] < -limit:
+            crossings.append(Crossing(name, 1.0, float(values[k][-1]) / size))
         inner = slice(1, None if landed is None else -1)
         below = np.flatnonzero(values[k][inner] < limit)
         if below.size:
@@ -91,11 +96,6 @@ def first_crossing(
                 crossings.append(Crossing(name, dip[0], dip[1] / size))
                 break
     return min(crossings, key=lambda crossing: crossing.part, default=None)
-
-
-def _unit(name: str) -> float:
-    """The size of a guard that is a gap or a velocity; others have that of their largest value."""
-    return 1.0 if name in ("turning", "film_edge", "tangential_edge", "contact", "rupture") else 0.0
 
 
 def _root(parts: np.ndarray, values: np.ndarray, after: int) -> float:

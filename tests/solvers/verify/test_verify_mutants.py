@@ -8,10 +8,8 @@ from typing import Any
 
 import pytest
 from casadi import SX, integrator, vertcat
-from wetdoublet.generated.automaton import OPENING
 from wetdoublet.solvers import Collision, ComputationError, Scene, collide
-from wetdoublet.solvers.certificates import Certainty
-from wetdoublet.solvers.engines.casadi import locate
+from wetdoublet.solvers.collision.by_kernel import recorded
 from wetdoublet.solvers.engines.casadi.integrators import Plain, plain
 from wetdoublet.solvers.model.phases import expressions
 from wetdoublet.solvers.verify import audit, backward, budget, closed, conserved, order, region, sample
@@ -147,47 +145,24 @@ def test_an_engine_that_does_not_converge_is_found(collisions) -> None:
     assert failures(order.convergence(collisions, TOLERANCES, collide=off)) == ["convergence, cvodes"]
 
 
-class Overeager:
-    """A proof that calls every doublet stuck once it opens: too much."""
-
-    watches: str | None = None
-
-    def level(self, y, phase):
-        return None
-
-    def decided(self, y, phase, maxima=()):
-        return Certainty.of(phase.motion == OPENING)
-
-
-class Deceived(locate.EventLocator):
-    """A trajectory that believes it."""
-
-    def __init__(self, *given: Any, **options: Any) -> None:
-        super().__init__(*given, **options)
-        self.proof = Overeager()
-        self.watch = replace(self.watch, certificate=None)
+def overeager(scene, n, rtol, until=None):
+    """The kernel, with a proof that calls doublets stuck that separate."""
+    whole = recorded(scene, n, rtol)
+    if until is not None and whole.answers["outcome"][0] > 0:
+        raise ComputationError("a stick that is proved separates when it is followed on")
+    found = recorded(scene, n, rtol, until=until)
+    found.answers["outcome"], found.answers["certified"] = 0, 1
+    return found
 
 
 def test_a_certificate_that_proves_too_much_is_caught() -> None:
     """Impacts that a false proof certifies escape when continued; the audit counts them and names one."""
     (honest,) = audit.stick_audit(SCENE, impacts=12)
     assert honest.ok and not honest.figure.startswith("0 of 0")
-    (found,) = audit.stick_audit(SCENE, impacts=12, locator=Deceived)
+    (found,) = audit.stick_audit(SCENE, impacts=12, run=overeager)
     assert (found.name, found.ok) == ("stick certificate", False)
     assert int(found.figure.split()[0]) > 0
-    assert found.where.startswith("St ") and "apart at" in found.where
-
-
-def test_without_a_proof_the_trajectory_is_the_same() -> None:
-    """What separates is not changed by integrating without a certificate."""
-    from wetdoublet.solvers.model.dimensionless import nondimensionalise
-    from wetdoublet.solvers.model.model import load, select_model
-
-    n = nondimensionalise(SCENE, SCENE.speed_of(0.05), math.radians(70))
-    model = load(select_model(SCENE, oblique=True))
-    free, kept = audit.WithoutCertificate(model, n.groups, 1e-9).on(1e5), locate.locate(model, n.groups, 1e-9)
-    assert free.separated and kept.separated
-    assert free.y[1] == pytest.approx(float(kept.y[1]), rel=1e-7)  # 100 rtol: the energy is watched in one only
+    assert found.where.startswith("St ") and "separates when it is followed on" in found.where
 
 
 @pytest.mark.parametrize(

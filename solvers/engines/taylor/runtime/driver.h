@@ -305,6 +305,9 @@ static void run(queue *q)
         h = before_kinks(&e.s, h, creeps);
 #endif /* KINKS */
         first_event first = event_of_step(q, &e, &l, &f, h);
+#if WITH_LIMIT
+        pass_over_rounding(q, &l, &e.s, h, &first);
+#endif
         mask falls = l.alive & (first.time <= 1.0);
         h = choose(falls, h*first.time, h);
 #if WITH_LIMIT

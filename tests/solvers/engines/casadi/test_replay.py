@@ -1,0 +1,158 @@
+"""A replay notices a record of the kernel with an event taken out, moved or exchanged; each kind of event."""
+
+import json
+import math
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+from typing import Any
+
+import pytest
+from wetdoublet.generated.automaton import KINDS
+from wetdoublet.solvers import Scene, boundary, collide
+from wetdoublet.solvers.collision.by_kernel import followed, sequence_of
+from wetdoublet.solvers.engines.casadi.confirm import confirm
+from wetdoublet.solvers.engines.casadi.integrators import tolerance_for
+from wetdoublet.solvers.engines.casadi.replay import Stopped, replay
+from wetdoublet.solvers.engines.casadi.sequence import EventSequence
+from wetdoublet.solvers.model.dimensionless import DimensionlessGroups, nondimensionalise
+from wetdoublet.solvers.model.model import load, select_model
+
+from ....helpers.data import DATA
+
+RTOL = 1e-9
+HARD = json.loads((DATA / "hard_scenes.json").read_text())
+PARTS = ("granulation", 0.02, "75 deg")  # turned, film edge, rupture
+SCENES: dict[str, Callable[[], Scene]] = {
+    "parts": lambda: impact(*PARTS),
+    "glass": lambda: impact("granulation", 0.3, "10 deg"),
+    "elastic": lambda: impact("granulation", 2.0, "10 deg", {"liquid.glass_transition_pressure": "1e9 GPa"}),
+    "rough": lambda: impact("granulation", 0.6, "50 deg", {"particles.roughness": "4 um"}),
+    "half turn": lambda: impact("pendulum", 0.8, "30 deg", {"pendulum.length": "5 m"}),
+    "rotation reverses": lambda: hard("grazing incidence pulled in by strings"),
+    "tangential edge": lambda: hard("tangential force ends at two reduced radii"),
+    "rolls": lambda: hard("rolls and slides at rest on strings"),
+    "slides": lambda: hard("slides at rest and is released"),
+    "fell back": lambda: hard("below a separatrix"),
+}
+
+
+def impact(preset: str, stokes: float, angle: str, entries: dict[str, Any] | None = None) -> Scene:
+    """A preset with other entries, and its impact."""
+    return Scene.load(preset).with_entries(entries or {}).with_impact(stokes=stokes, angle=angle)
+
+
+def hard(name: str) -> Scene:
+    """A scene of the data file."""
+    row = HARD[name]
+    return Scene.load(row["preset"]).with_entries(row["scene"]) if "preset" in row else Scene.from_dict(row["scene"])
+
+
+def recorded(scene: Scene) -> tuple[DimensionlessGroups, EventSequence]:
+    """The groups of a scene's collision, and its phases as the kernel finds them."""
+    n = nondimensionalise(scene, *scene.need_impact())
+    return n, sequence_of(scene, n, RTOL)
+
+
+def without(path: EventSequence, k: int) -> EventSequence:
+    """The record without the event that ends phase k, whose mode goes on up to the next."""
+    steps = list(path.steps)
+    if k + 1 == len(steps):
+        steps[k] = replace(steps[k], event=None, kinds=(), rebounds=False, holds=False, own="")
+    else:
+        both = steps[k].duration + steps[k + 1].duration
+        steps[k : k + 2] = [replace(steps[k + 1], phase=steps[k].phase, duration=both)]
+    return replace(path, steps=tuple(steps))
+
+
+def moved(path: EventSequence, k: int) -> EventSequence:
+    """The record with the event that ends phase k a thousandth of the phase later."""
+    steps = list(path.steps)
+    steps[k] = replace(steps[k], duration=steps[k].duration * 1.001)
+    return replace(path, steps=tuple(steps))
+
+
+def exchanged(path: EventSequence, k: int) -> EventSequence:
+    """The record with the events that end phases k and k + 1 in each other's place."""
+    steps = list(path.steps)
+    first, second = steps[k : k + 2]
+    steps[k] = replace(second, phase=first.phase, duration=first.duration)
+    steps[k + 1] = replace(first, phase=second.phase, duration=second.duration)
+    return replace(path, steps=tuple(steps))
+
+
+def mutants(path: EventSequence) -> Iterator[tuple[str, EventSequence]]:
+    """Wrong records, but for events that are too near to the one before to be told apart."""
+    lasting = [k for k, step in enumerate(path.steps) if step.kinds and step.duration > 1e-6]
+    for k in lasting:
+        yield f"without {path.steps[k].kinds}", without(path, k)
+        yield f"{path.steps[k].kinds} moved", moved(path, k)
+        if k + 1 in lasting and path.steps[k].kinds != path.steps[k + 1].kinds:
+            yield f"{path.steps[k].kinds} exchanged", exchanged(path, k)
+
+
+@pytest.mark.parametrize("name", SCENES)
+@pytest.mark.parametrize("plugin", ["cvodes", "rosenbrock"])
+def test_a_wrong_record_is_noticed(name: str, plugin: str) -> None:
+    """The record is followed as it is; with an event taken out, moved or exchanged the replay stops there."""
+    scene = SCENES[name]()
+    n, path = recorded(scene)
+    choice, tolerance = select_model(scene, n.oblique, full=True, fold=True), tolerance_for(RTOL, plugin, n.groups)
+    assert replay(path, choice, (), plugin, tolerance, RTOL).events
+    followed_all_the_same = []
+    for what, wrong in mutants(path):
+        try:
+            replay(wrong, choice, (), plugin, tolerance, RTOL)
+            followed_all_the_same.append(what)
+        except Stopped:
+            pass
+    assert not followed_all_the_same
+
+
+def test_every_kind_of_event_is_among_them() -> None:
+    """The scenes of the test above have all events of the automaton that end a phase."""
+    met = {kind for make in SCENES.values() for kind in recorded(make())[1].kinds}
+    assert met == set(KINDS)
+
+
+@pytest.mark.parametrize("name", ["parts", "glass", "rolls"])
+def test_the_kernels_steps_are_confirmed_and_wrong_ones_are_not(name: str) -> None:
+    """The kernel's own trajectory agrees with CVODES step by step; with an event less it does not."""
+    scene = SCENES[name]()
+    n, path = recorded(scene)
+    steps = followed(scene, n, RTOL, None, ledger=True, trajectory=True).record.steps
+    assert steps is not None
+    choice = select_model(scene, n.oblique, full=True, fold=True)
+    confirm(path, steps, choice, "cvodes", RTOL)
+    for k in range(len(path.steps) - 1):
+        rows = steps.rows.copy()
+        rows["phase"] -= rows["phase"] > k
+        with pytest.raises(Stopped):
+            confirm(without(path, k), replace(steps, rows=rows), choice, "cvodes", RTOL)
+
+
+def test_beside_a_separatrix_the_kernel_answers() -> None:
+    """So near that Rosenbrock cannot repeat it the result is the kernel's, confirmed, and says so."""
+    line = boundary("granulation", angle=math.radians(55), stokes=(0.03, 0.05))
+    scene = impact("granulation", line.changes[0][0].stokes * (1 + 1e-12), "55 deg")
+    found = collide(scene, engine="cvodes")
+    assert found.engine == "taylor"
+    assert found == collide(scene)
+
+
+def test_an_engine_that_gives_up_says_where() -> None:
+    """Three steps are too few: phase, time in s, state in SI and advice, in one line."""
+    scene = impact("granulation", 0.03, "60 deg")
+    n, path = recorded(scene)
+    model = load(select_model(scene, n.oblique, fold=True))
+    tolerance = replace(tolerance_for(RTOL, "cvodes", n.groups), steps=3)
+    with pytest.raises(Stopped, match="gave up") as stopped:
+        replay(path, model.choice, (), "cvodes", tolerance, RTOL)
+    error = n.in_si(stopped.value.error("cvodes", model))
+    assert (error.phase, error.time) == ("closing inside the film", 0.0)
+    assert error.state["gap"] == pytest.approx(8e-6)  # m
+    assert error.state["normal velocity"] == pytest.approx(-scene.speed_of(0.03))  # m/s
+    # v0 tan(theta0)/(4a), rad/s
+    assert error.state["rotation rate"] == pytest.approx(scene.speed_of(0.03) * math.sqrt(3) / 200e-6)
+    line = str(error)
+    assert "\n" not in line
+    assert all(part in line for part in ("cvodes gave up", error.phase, "gap = 8e-06", "try --engine rosenbrock"))
