@@ -20,7 +20,7 @@ from ..engines.settings import RTOL
 from ..engines.taylor.build import compile_all
 from ..engines.taylor.call import variant
 from ..errors import ComputationError
-from ..model.dimensionless import DimensionlessGroups, nondimensionalise
+from ..model.dimensionless import Problem, nondimensionalise
 from ..model.model import Model, load, select_model
 from ..model.phases import Flow
 from ..scene.contact import GAPS, contact_gap
@@ -67,7 +67,7 @@ class Line:
         """Determine once whether the kernel supports the scene."""
         self.kernel = collision_engine(self.scene) == "taylor" if self.kernel is None else self.kernel
 
-    def numbers(self, stokes: float) -> DimensionlessGroups:
+    def numbers(self, stokes: float) -> Problem:
         """Dimensionless groups at a Stokes number."""
         return nondimensionalise(self.scene, self.scene.speed_of(stokes), self.angle)
 

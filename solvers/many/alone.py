@@ -29,9 +29,8 @@ def run(request: Impacts) -> Block:
 
 
 def _results(request: Impacts, k: int) -> dict[str, Any]:
-    scene, speed, angle = request.impact(k)
     ledger = any(name in LEDGER for name in request.of)
-    result = integrated(scene, nondimensionalise(scene, speed, angle), request.rtol, request.engine, ledger, False)
+    result = integrated(nondimensionalise(*request.impact(k)), request.rtol, request.engine, ledger, False)
     values: dict[str, Any] = {"outcome": OUTCOMES.index(result.outcome), "certified": result.certified}
     for name in ("restitution", *(name for name in request.of if name in INTEGRATED)):
         table, _, term = name.rpartition(".")

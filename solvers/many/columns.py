@@ -6,7 +6,7 @@ import numpy as np
 
 from ...generated import scaling
 from ..errors import WetDoubletError
-from ..model.dimensionless import generalised_centrifugal, nondimensionalise
+from ..model.dimensionless import nondimensionalise
 from ..model.validity import flags
 from ..results import FAILED, OF_IMPACT
 from ..scene.groups import si_values
@@ -43,7 +43,7 @@ def impact_columns(request: Impacts) -> Block:
         except WetDoubletError:  # the collision is marked as failed
             continue
         for name, column in columns.items():
-            value = generalised_centrifugal(scene, n) if name == "generalised_centrifugal" else getattr(n, name)
+            value = getattr(n, name)
             column[k] = np.nan if value is None else value
     return columns
 

@@ -19,7 +19,7 @@ from ..engines.casadi.integrators import IntegrationFailed, tolerance_for
 from ..engines.casadi.locate import EventLocator, EventSequence, PhaseRun
 from ..errors import ComputationError
 from ..host.thread_caches import own_cache
-from ..model.dimensionless import DimensionlessGroups, nondimensionalise
+from ..model.dimensionless import Problem, nondimensionalise
 from ..model.model import Model, load, select_model
 from ..scene.contact import ENTRIES, GAPS, TIE, contact_gap
 from ..scene.scene import Scene
@@ -54,9 +54,7 @@ def limit(rtol: float) -> float:
     return min(max(LIMIT, PER_RTOL * rtol), WIDEST)
 
 
-def checked(
-    scene: Scene, n: DimensionlessGroups, finder: EventLocator, path: EventSequence, rtol: float
-) -> Near | None:
+def checked(scene: Scene, n: Problem, finder: EventLocator, path: EventSequence, rtol: float) -> Near | None:
     """The nearest boundary found from a trajectory; ComputationError if it is too near for derivatives."""
     least = limit(rtol)
     if path.separated:
@@ -77,14 +75,14 @@ def checked_by_estimates(finder: EventLocator, path: EventSequence, rtol: float)
     return near
 
 
-def explained(scene: Scene, n: DimensionlessGroups, error: ComputationError, rtol: float) -> ComputationError:
+def explained(scene: Scene, n: Problem, error: ComputationError, rtol: float) -> ComputationError:
     """The error for a trajectory that could not be differentiated: names the boundary if it is close to one."""
     measured = [_measured(scene, n, Near(name, math.inf, _HINT)) for name in (GLASS, SADDLE)]
     near = min(measured, key=lambda one: one.distance)
     return refused(near, limit(rtol)) if near.distance < limit(rtol) else error
 
 
-def _nearest(scene: Scene, n: DimensionlessGroups, suspected: Iterator[Near], least: float) -> Near | None:
+def _nearest(scene: Scene, n: Problem, suspected: Iterator[Near], least: float) -> Near | None:
     """The nearest of the estimated boundaries; distances of near ones are computed, other hints dropped."""
     candidates, suspects = [], list(suspected)
     hints = sorted((one for one in suspects if one.of == _HINT), key=lambda one: one.distance)
@@ -110,9 +108,7 @@ def refused(near: Near, least: float) -> ComputationError:
 # ---- sticks: only e_n = 0 is defined, up to the boundary
 
 
-def _stick(
-    scene: Scene, n: DimensionlessGroups, finder: EventLocator, path: EventSequence, least: float
-) -> Near | None:
+def _stick(scene: Scene, n: Problem, finder: EventLocator, path: EventSequence, least: float) -> Near | None:
     """A boundary within the relative distance `least` in the Stokes number, by the outcomes on both sides."""
     decided = len(path.steps) == 1 and path.steps[0].duration == 0
     if decided and energy_proof(finder.proof) is not None:
@@ -128,7 +124,7 @@ def _stick(
     return None
 
 
-def _located(scene: Scene, n: DimensionlessGroups, stokes: float, rtol: float) -> EventSequence | None:
+def _located(scene: Scene, n: Problem, stokes: float, rtol: float) -> EventSequence | None:
     groups = nondimensionalise(scene, scene.speed_of(stokes), n.angle).groups
     try:
         return EventLocator(load(select_model(scene, n.oblique)), groups, min(rtol, 1e-10)).run()
@@ -287,7 +283,7 @@ def _sampled(finder: EventLocator, path: EventSequence) -> Iterator[tuple[PhaseR
 # ---- distances in the Stokes number, by functions that are smooth through the boundary
 
 
-def _measured(scene: Scene, n: DimensionlessGroups, near: Near) -> Near:
+def _measured(scene: Scene, n: Problem, near: Near) -> Near:
     """The computed distance in the Stokes number of an estimated boundary."""
     line = Line(scene, n.angle, _FINE, kernel=False, machine_code=False)
     escapes = (lambda stokes: line.escape(stokes, True)[1], lambda stokes: line.escape(stokes, False)[1])

@@ -19,7 +19,7 @@ from ..errors import ComputationError, WetDoubletError
 from ..host.arguments import check_names
 from ..host.pictures import register
 from ..host.thread_caches import own_cache
-from ..model.dimensionless import DimensionlessGroups, nondimensionalise
+from ..model.dimensionless import Problem, nondimensionalise
 from ..model.model import Model, load, select_model
 from ..model.validity import warn
 from ..results import FAILED, outcome_attributes
@@ -205,7 +205,7 @@ def _of_one_pair(request: _Request, pair: Pairs, rtol: float) -> tuple[int, tupl
     return outcome, (value.ravel(), derivatives / column_scales)
 
 
-def _scaled(pair: Pairs) -> tuple[DimensionlessGroups, np.ndarray]:
+def _scaled(pair: Pairs) -> tuple[Problem, np.ndarray]:
     """The groups of a pair, and the axes of its vectors; where nothing moves sideways rates have a scale of 1."""
     if pair.scene.wall:
         return nondimensionalise(pair.scene, -float(pair.opening[0]), 0.0), np.eye(3)

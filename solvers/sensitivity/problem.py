@@ -10,7 +10,7 @@ import numpy as np
 from ..engines.casadi.integrators import IntegrationFailed, tolerance_for
 from ..engines.casadi.locate import EventLocator, EventSequence
 from ..errors import ComputationError
-from ..model.dimensionless import DimensionlessGroups, nondimensionalise
+from ..model import dimensionless
 from ..model.model import load, select_model, slip_restitution
 from ..results import DEFINITIONS
 from ..scene.quantities import normal_speed
@@ -41,7 +41,7 @@ class Problem:
     """A collision, the parameters to differentiate in, and their reference values."""
 
     scene: Scene
-    n: DimensionlessGroups
+    n: dimensionless.Problem
     wrt: tuple[str, ...]
     kind: Kind
     reference: np.ndarray
@@ -50,7 +50,13 @@ class Problem:
     def of(cls, scene: Scene, speed: float, angle: float, wrt: tuple[str, ...], hold: str) -> Problem:
         """The problem of a scene's collision at a normal speed (m/s) and angle (rad)."""
         kind = kind_of(scene, hold)
-        return cls(scene, nondimensionalise(scene, speed, angle), wrt, kind, references(scene, kind, speed, angle))
+        return cls(
+            scene,
+            dimensionless.nondimensionalise(scene, speed, angle),
+            wrt,
+            kind,
+            references(scene, kind, speed, angle),
+        )
 
     def located(self, rtol: float) -> tuple[EventSequence, Near | None]:
         """The located trajectory and the nearest boundary found; ComputationError if that is too near."""

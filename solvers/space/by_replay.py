@@ -18,7 +18,7 @@ from ..engines.casadi.sequence import EventSequence, sequence
 from ..engines.taylor.in_space import recorded_in_space
 from ..engines.taylor.undecided import undecided
 from ..errors import ComputationError, WetDoubletError
-from ..model.dimensionless import DimensionlessGroups, nondimensionalise
+from ..model.dimensionless import Problem, nondimensionalise
 from ..model.model import Model, load, select_model
 from ..scene.groups import si_values
 from .books import OPEN, extras_of, is_open, of_casadi
@@ -42,7 +42,7 @@ def pairs_by_replay(pairs: Pairs, plugin: str, rtol: float, ledger: bool = False
     return ends
 
 
-def sequence_in_space(pair: Pairs, n: DimensionlessGroups, rtol: float) -> EventSequence:
+def sequence_in_space(pair: Pairs, n: Problem, rtol: float) -> EventSequence:
     """The phases and events of one pair that turns, as the kernel finds them in the laboratory's axes."""
     model = load(select_model(pair.scene, True, space=True))
     answer, log = recorded_in_space(pair.scene, vectors_of(pair), -pair.opening, rtol)
@@ -66,7 +66,7 @@ def own_axes(pair: Pairs) -> np.ndarray:
     return np.stack([normal, second, np.cross(normal, second)])
 
 
-def groups_of(pair: Pairs, axes: np.ndarray) -> DimensionlessGroups:
+def groups_of(pair: Pairs, axes: np.ndarray) -> Problem:
     """The groups of one pair, with the components of vectors along these axes."""
     speed = -float(pair.opening[0])
     n = nondimensionalise(pair.scene, speed, 0.0)

@@ -21,7 +21,7 @@ from ...model.phases import Flow, Phase, WatchedEvents, event_table, expressions
 from ...model.rebound import rebounded
 from .integrators import IntegrationFailed, Tolerance, landing, plain, tolerance_for
 from .sequence import EventSequence, PhaseRun
-from .watch import POINTS, Crossing, first_crossing, guards
+from .watch import POINTS, first_crossing, guards
 
 _LANDED = 1e-4  # largest Taylor step, relative to the phase, for landing without another integration
 _MISSES = 1e-13  # largest value of an event's function after the step, relative to its scale
