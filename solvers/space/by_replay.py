@@ -100,7 +100,7 @@ def groups_of(pair: Pairs, axes: np.ndarray) -> Problem:
 def _end(pair: Pairs, plugin: str, rtol: float, ledger: bool) -> Ends:
     turns, axes = not pair.head_on[0], own_axes(pair)
     n = groups_of(pair, axes) if turns else nondimensionalise(without_spins(pair.scene), -float(pair.opening[0]), 0.0)
-    found = partial(sequence_in_space, pair, n) if turns else partial(sequence_of, without_spins(pair.scene), n)
+    found = partial(sequence_in_space, pair, n) if turns else partial(sequence_of, n)
     choice = select_model(pair.scene, turns, full=ledger, space=turns)
     model = load(choice)
     extras = (EXTRAS if turns else ()) + (extras_of(model) if ledger else ())
