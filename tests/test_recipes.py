@@ -75,9 +75,9 @@ LAW = [  # an entry of BRIDGES, and its name among the scene's
 RESULT = [  # its row, and its expression
     ("solvers/results.py", "_COLLISION = (\n", '{}    Definition("lost_speed", "1", "", derivative="casadi"),\n'),
     (
-        "solvers/sensitivity/trajectory_expression.py",
-        '    names = model.names("energies")\n',
-        '    outputs_by_name["lost_speed"] = 1 - outputs_by_name["restitution"]\n{}',
+        "solvers/sensitivity/by_casadi.py",
+        '    if "strings" in energies:\n',
+        '    named["lost_speed"] = 1 - named["restitution"]\n{}',
     ),
 ]
 COMMAND = [("solvers/commands/cli.py", '    "scenes", ', '{}"hello", ')]

@@ -72,7 +72,9 @@ class Problem:
         return float(scaling.generalised_centrifugal(scene.reduced_radius, scene.reduced_mass, rate, force))
 
     def in_si(self, error: ComputationError) -> ComputationError:
-        """A `ComputationError` with dimensionless time and state, converted to SI units."""
+        """A `ComputationError` with dimensionless time and state, converted to SI units; one that is in SI as it is."""
+        if "normal velocity" in error.state:
+            return error
         state = dict(error.state)
         shown: dict[str, float] = {}
         if "gap" in state:

@@ -7,21 +7,20 @@ from functools import lru_cache, partial
 import numpy as np
 
 from ...generated.automaton import LAST_ANSWER, OUTCOMES
-from ..engines.casadi.locate import EventSequence
 from ..engines.choice import differentiates
 from ..engines.settings import KERNEL_STEPS
 from ..engines.taylor.call import Impacts
 from ..engines.taylor.layout import derivative_column, result
 from ..engines.taylor.orders import order_for
-from ..engines.taylor.tangent import CHATTERS, Carried, run_tangent
+from ..engines.taylor.tangent import GRIPS, Carried, run_tangent
 from ..model.dimensionless import nondimensionalise
 from ..results import DEFINITIONS, TANGENTS
 from ..scene.groups import rate_scales, si_values
 from ..scene.scene import Scene
 from ..scene.schema import SPINS
+from .boundary_distance import check_grip
 from .parameters import RELATIVE, SCALES, Kind, parameter_map, references
-from .problem import Problem, Slopes, sharpened
-from .result import Near
+from .problem import Problem, Query, Slopes
 
 BACKWARD = ("restitution",)  # results that the kernel's adjoint differentiates
 DIRECTIONS = 4  # most parameters for which forward tangents cost no more than the adjoint (docs/engineering/kernel.md)
@@ -136,18 +135,21 @@ def _at_reference(scene: Scene, kind: Kind, wrt: tuple[str, ...], angle: float) 
     return _Reference(moved, scales, np.asarray(units.full()).ravel())
 
 
-def one(problem: Problem, path: EventSequence, of: tuple[str, ...], rtol: float, near: Near | None) -> Slopes | None:
-    """Derivatives of a located collision; None if the kernel has none or finds another trajectory."""
+def slopes(problem: Problem, query: Query) -> Slopes | None:
+    """Derivatives of one collision; None if the kernel has none, or at its tolerance another outcome."""
+    path, of, rtol = problem.path, query.of, query.rtol
     if not path.separated or not offers(problem.scene, of, (problem.n.oblique,)):
         return None
     impact = Impacts(problem.scene, np.array([problem.n.speed]), np.array([problem.n.angle]), {})
-    along = gradients_by_kernel(impact, problem.kind, problem.wrt, of, sharpened(rtol, near, path), order_for(rtol))
+    sharp = query.sharpened(path.parting)
+    along = gradients_by_kernel(impact, problem.kind, problem.wrt, of, sharp, order_for(rtol))
     if along is None:
         return None
     answer = along.run.answers[0]
-    outcome = OUTCOMES[answer["outcome"]]
-    if answer["status"] > LAST_ANSWER or outcome != path.outcome or along.run.near[0, 1] == CHATTERS:
+    if answer["status"] > LAST_ANSWER or OUTCOMES[answer["outcome"]] != path.outcome:
         return None
+    if along.run.near[0, 1] == GRIPS:
+        check_grip(float(along.run.near[0, 0]), rtol)
     return Slopes(along.value[:, 0], along.first[:, 0])
 
 

@@ -29,7 +29,7 @@ from ..scene.held import held_quantity
 from ..scene.scene import Scene
 from ..scene.schema import SPEEDS
 from . import by_kernel as kernel
-from .boundary_distance import COMPUTED, limit, refused
+from .boundary_distance import limit, refused
 from .parameters import RELATIVE, SIDEWAYS, Kind, check_wrt, kind_of, references
 from .problem import NEAR, SHARPEST
 from .result import Near
@@ -38,6 +38,7 @@ from .sensitivities import sensitivities
 if TYPE_CHECKING:
     import xarray
 
+COMPUTED = 30.0  # multiple of the limit: below it a measure that is no distance calls for one
 _SOON = 1000  # steps within which most separating collisions end
 _LONG = 10 * KERNEL_STEPS  # steps for creeping collisions (runtime/implicit.h)
 _HINTED = 2  # decades by which the tolerance is smaller where the distance to a boundary is only known to be allowed

@@ -2,41 +2,43 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path as FilePath
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from casadi import Function, vertcat
 
-from ...generated.automaton import OUTCOMES
+from ...generated.automaton import KINDS, OUTCOMES
 from ..changes.experiment import free_names
-from ..engines.casadi.integrators import IntegrationFailed, Tolerance, tolerance_for
-from ..engines.casadi.locate import EventLocator
+from ..collision.by_kernel import sequence_of
+from ..engines.casadi.sequence import EventSequence
 from ..engines.settings import check_rtol
+from ..engines.taylor.in_space import recorded_in_space
 from ..errors import ComputationError, WetDoubletError
 from ..host.arguments import check_names
 from ..host.pictures import register
-from ..host.thread_caches import own_cache
 from ..model.dimensionless import Problem, nondimensionalise
-from ..model.model import Model, load, select_model
+from ..model.model import load, select_model
 from ..model.validity import warn
 from ..results import FAILED, outcome_attributes
 from ..scene.scene import Scene
-from ..space.by_casadi import groups_of, own_axes
+from ..space.by_kernel import vectors_of
+from ..space.by_replay import groups_of, own_axes, sequence_in_space
 from ..space.collide_pair import AXES, NUMBERS, VECTORS, check_scene, refusals
-from ..space.pairs import Pairs, checked
-from .boundary_distance import checked_by_estimates
-from .directions import differentiated
+from ..space.pairs import Pairs, without_spins
+from ..space.pairs import checked as checked_pairs
+from .boundary_distance import FINE, Course, Courses, checked, course, courses_of
+from .by_casadi import STATE, differentiated
 from .pair_maps import RESULTS, pair_maps, quantities_of
 from .parameters import kind_of, parameter_map, references
-from .problem import LOCATED, amplifies, sharpened
-from .trajectory_expression import Course, TrajectoryExpression, course_of, follow_course, influential, symbols
+from .problem import LOCATED, Query
 
 if TYPE_CHECKING:
     import xarray
 
+_SLIDES = np.pi / 4  # any angle beside a wall
 INPUTS = ("normal", "velocities", "spins")
 _SHAPES = {"normal": (3,), "velocities": (2, 3), "spins": (2, 3)}
 _STICK = "a stick: the rigid motion that it is given as is not differentiated"
@@ -84,7 +86,7 @@ def pair_gradients(
     check_scene(loaded)
     everything = (*free_names(loaded), *INPUTS)
     names = everything if wrt is None else check_names(wrt, everything, "wrt")
-    pairs = checked(loaded, normal, velocities, spins)
+    pairs = checked_pairs(loaded, normal, velocities, spins)
     request = _Request.of(loaded, names)
     size = pairs.size
     outcome, reason = np.full(size, FAILED, np.int8), np.full(size, "", object)
@@ -180,29 +182,20 @@ def _of_one_pair(request: _Request, pair: Pairs, rtol: float) -> tuple[int, tupl
     p, by_g, by_x = (each.full() for each in maps.groups(g, x, axes, scale))
     p, dp = p.ravel(), by_g @ dg + by_x @ dx
     n = replace(n, groups={**n.groups, **dict(zip(model.groups, p.tolist(), strict=True))})
+    found, courses = _followed(pair, n)
     try:
-        finder = EventLocator(model, n.groups, LOCATED)
-        path = finder.run()
+        path = found(LOCATED)
+        if not path.separated:
+            return OUTCOMES.index(path.outcome), None
+        near = checked(courses, True, rtol)
+        last = tuple(STATE + name for name in model.state)
+        query = Query((*last, "contact_time"), "forward", rtol, near)
+        end, by_p, dp = differentiated(found, model.choice, query, "rosenbrock", path.parting, p, dp)
     except ComputationError as error:
         raise n.in_si(error) from None
-    outcome = OUTCOMES.index(path.outcome)
-    if not path.separated:
-        return outcome, None
-    near = checked_by_estimates(finder, path, rtol)
-    course = course_of(path, model.choice)
-    active = influential(course, n.groups)
-    expression = _end(course, tolerance_for(sharpened(rtol, near, path), "rosenbrock", n.groups))
-    durations = np.array([step.duration for step in path.steps])
-    dp = dp * np.array(active)[:, None]
-    try:
-        end, by_p = differentiated(expression, course, p, durations, dp, active, "forward", amplifies(near))
-    except IntegrationFailed as failure:
-        raise ComputationError(
-            f"rosenbrock could not differentiate the trajectory ({failure})", advice="try another rtol"
-        ) from None
     value, *slopes = (each.full() for each in maps.results(end, p, g, x, axes, scale))
     derivatives = slopes[0] @ (by_p @ dp) + slopes[1] @ dp + slopes[2] @ dg + slopes[3] @ dx
-    return outcome, (value.ravel(), derivatives / column_scales)
+    return OUTCOMES.index(path.outcome), (value.ravel(), derivatives / column_scales)
 
 
 def _scaled(pair: Pairs) -> tuple[Problem, np.ndarray]:
@@ -214,12 +207,20 @@ def _scaled(pair: Pairs) -> tuple[Problem, np.ndarray]:
     return replace(n, groups={**n.groups, "obliquity": n.groups["obliquity"] or 1.0}), axes
 
 
-@own_cache(256)
-def _end(course: Course, tolerance: Tolerance) -> TrajectoryExpression:
-    """The expression of a course's last state and its time."""
-    p, durations = symbols(course)
-    at = follow_course(course, p, durations, (), "rosenbrock", tolerance)
-    end, missed = vertcat(at.y, at.time), vertcat(*at.shifts)
-    model: Model = course.model
-    names = (*model.state, "time")
-    return TrajectoryExpression(Function("end", [p, durations], [end, missed]), names, tuple(model.groups))
+def _followed(pair: Pairs, n: Problem) -> tuple[Callable[[float], EventSequence], Courses]:
+    """The events of one pair at a tolerance, and what happens at other speeds."""
+    if pair.scene.wall:  # the normal motion does not depend on the tangential one
+        scene = without_spins(pair.scene)
+        aside = nondimensionalise(scene, n.speed, _SLIDES)
+        return lambda rtol: replace(sequence_of(aside, rtol), groups=n.groups), partial(courses_of, scene, aside)
+    restitution = load(select_model(pair.scene, True, space=True)).names("outputs").index("restitution")
+
+    def courses(factors: np.ndarray) -> list[Course]:
+        rows = []
+        for factor in factors.tolist():
+            faster = replace(pair, velocities=factor * pair.velocities, spins=factor * pair.spins)
+            answer, log = recorded_in_space(pair.scene, vectors_of(faster), -faster.opening, FINE)
+            rows.append(course(answer, log, KINDS, float(answer["shown"][restitution])))
+        return rows
+
+    return partial(sequence_in_space, pair, n), courses

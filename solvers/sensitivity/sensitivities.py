@@ -1,12 +1,11 @@
 """`sensitivities()`: derivatives of the results of a scene's collision."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from functools import partial
 from pathlib import Path as FilePath
 
 import numpy as np
 
-from ..engines.casadi.locate import EventSequence
 from ..engines.choice import casadi_gradient_engine, gradient_engine
 from ..engines.settings import check_engine, check_rtol
 from ..errors import ComputationError, InputError
@@ -14,10 +13,11 @@ from ..host.arguments import check_name
 from ..results import DEFINITIONS, SPENT, TANGENTS, check_differentiated
 from ..scene.held import held_quantity
 from ..scene.scene import Scene
-from . import by_kernel as kernel
+from . import by_casadi, by_kernel
+from .boundary_distance import checked, courses_of, explained
 from .parameters import SIDEWAYS, check_wrt
-from .problem import Problem, Slopes
-from .result import Near, Sensitivities
+from .problem import Problem, Query, Slopes
+from .result import Sensitivities
 
 METHODS = ("forward", "adjoint")
 
@@ -78,18 +78,23 @@ def sensitivities(
     names = check_wrt(loaded, wrt)
     v0, angle_ = loaded.need_impact()
     problem = Problem.of(loaded, v0, angle_, names, held)
-    path, near = problem.located(rtol)
-    todo = tuple(name for name in _computed(of) if problem.defined(name, path))
+    n, courses = problem.n, partial(courses_of, loaded, problem.n)
+    try:
+        separated = problem.path.separated
+    except ComputationError as error:
+        raise explained(courses, error, rtol) from None
+    near = checked(courses, separated, rtol)
+    todo = tuple(name for name in _computed(of) if problem.defined(name))
     odd = np.array([DEFINITIONS[name].odd for name in todo], dtype=bool)
     sideways = np.isin(names, SIDEWAYS)
-    tilts = bool(todo and sideways.any() and odd.any()) and not problem.n.oblique
-    plugin, free = casadi_gradient_engine(requested), requested is None and method == "forward"
-    if free:
-        plugin = gradient_engine(loaded, of, TANGENTS, {problem.n.oblique, problem.n.oblique or tilts})
-    run = _Run(todo, method, rtol, near, free)
-    slopes, plugin = run.slopes(problem, path, plugin) if todo else (None, plugin)
+    tilts = bool(todo and sideways.any() and odd.any()) and not n.oblique
+    plugin = casadi_gradient_engine(requested)
+    if requested is None and method == "forward":
+        plugin = gradient_engine(loaded, of, TANGENTS, {n.oblique, n.oblique or tilts})
+    query = Query(todo, method, rtol, near)
+    slopes, plugin = _slopes(problem, query, plugin) if todo else (None, plugin)
     if tilts and slopes is not None:
-        tilted, plugin = run.slopes(*problem.tilted(), plugin)
+        tilted, plugin = _slopes(problem.tilted(), query, plugin)
         slopes = Slopes(slopes.value, np.where(odd[:, None] & sideways, tilted.first, slopes.first))
     rows = {name: _combined(name, todo, slopes, len(names)) for name in of}
     values = {name: row[0] for name, row in rows.items()}
@@ -99,7 +104,7 @@ def sensitivities(
         gradient={name: _row(names, row[1]) for name, row in rows.items()},
         elasticity={name: _elasticities(name, reference, *row) for name, row in rows.items()},
         reference=reference,
-        outcome=path.outcome,
+        outcome=problem.path.outcome,
         method=method,
         engine=plugin,
         hold=held,
@@ -109,31 +114,13 @@ def sensitivities(
     )
 
 
-@dataclass(frozen=True)
-class _Run:
-    """The request for one trajectory; `free` if the kernel may replace CasADi where that fails."""
-
-    of: tuple[str, ...]
-    method: str
-    rtol: float
-    near: Near | None
-    free: bool
-
-    def slopes(self, problem: Problem, path: EventSequence, plugin: str) -> tuple[Slopes, str]:
-        """Derivatives by the parameters, SI, and the engine that computed them."""
-        refused = plugin == "taylor"
-        slopes = kernel.one(problem, path, self.of, self.rtol, self.near) if refused else None
-        if slopes is None:
-            plugin = casadi_gradient_engine() if refused else plugin
-            try:
-                slopes = problem.slopes(path, self.of, self.method, plugin, self.rtol, self.near)
-            except ComputationError:  # CasADi's trajectory misses a located event; the kernel's may not
-                if refused or not self.free:
-                    raise
-                slopes, plugin = kernel.one(problem, path, self.of, self.rtol, self.near), "taylor"
-                if slopes is None:
-                    raise
-        return Slopes(slopes.value, slopes.first / problem.units()), plugin
+def _slopes(problem: Problem, query: Query, engine: str) -> tuple[Slopes, str]:
+    """Derivatives by the parameters, SI, and the engine that computed them: Rosenbrock where the kernel cannot."""
+    slopes = by_kernel.slopes(problem, query) if engine == "taylor" else None
+    if slopes is None:
+        engine = casadi_gradient_engine() if engine == "taylor" else engine
+        slopes = by_casadi.slopes(problem, query, engine)
+    return Slopes(slopes.value, slopes.first / problem.units()), engine
 
 
 def _computed(of: Sequence[str]) -> tuple[str, ...]:

@@ -73,7 +73,7 @@ def backward(sample: Sample, back: Back | None = None) -> Iterator[Finding]:
         except WetDoubletError:
             continue  # failures are reported with the sample
         for piece in path.pieces:
-            at = place(moving[k].stokes, moving[k].angle, event=piece.name)
+            at = place(moving[k].stokes, moving[k].angle, event=str(piece.phase))
             for start, duration, amplification in sections(piece, path.p):
                 for engine, entries in errors.items():
                     error = _return_error(piece.flow, start, duration, path.p, engine, back or returning)

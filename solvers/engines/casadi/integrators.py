@@ -40,12 +40,13 @@ def quiet() -> Iterator[None]:
             sys.stderr.write(line + "\n")
 
 
-def _call(function: Function, x0: np.ndarray, p: np.ndarray) -> np.ndarray:
-    """Call an integrator, suppress its prints, and reduce its failure to one line."""
+@contextlib.contextmanager
+def failures() -> Iterator[None]:
+    """Suppress prints of integrators that are called within; IntegrationFailed with one line where one fails."""
     check()
     with captured_stderr() as printed:
         try:
-            result = _buffered(function)(x0, p)
+            yield
         except (RuntimeError, SystemError) as error:
             # CasADi wraps an interrupt that arrives during a call; CVODES only prints it
             message = str(error) + printed.getvalue()
@@ -55,6 +56,11 @@ def _call(function: Function, x0: np.ndarray, p: np.ndarray) -> np.ndarray:
             raise IntegrationFailed(_reason(str(error))) from None
     if "KeyboardInterrupt" in printed.getvalue():  # an interrupt that CVODES reported as a failed step
         raise KeyboardInterrupt
+
+
+def _call(function: Function, x0: np.ndarray, p: np.ndarray) -> np.ndarray:
+    with failures():
+        result = _buffered(function)(x0, p)
     if not np.isfinite(result).all():
         raise IntegrationFailed("the state is not finite")
     return result.reshape(function.size_out(0), order="F")

@@ -53,9 +53,13 @@ class Stopped(Exception):
 
 @dataclass(frozen=True)
 class Piece:
-    """An integrated phase, or its part on one side of a kink: name, flow, initial state, start and duration (x0/v0)."""
+    """An integrated phase, or its part on one side of a kink: flow, initial state, start and duration (x0/v0).
 
-    name: str
+    `event`: on which it ends, of the phase or a kink; None if it just ends.
+    """
+
+    phase: Phase
+    event: str | None
     flow: Flow
     start: np.ndarray
     time: float
@@ -67,22 +71,24 @@ class Replay:
     """An event sequence as integrated by one engine; states include the extras, times are in x0/v0."""
 
     y: np.ndarray
+    tolerance: Tolerance
     extras: tuple[str, ...] = ()
     units: Sequence[float] = ()  # of the extras
-    offset: float = 0.0
     time: float = 0.0
     steps: int = 0
     smallest_gap: float = 1.0
     dry_loss: float = 0.0
     friction_loss: float = 0.0
     own_loss: float = 0.0
+    grip: float = np.inf  # least distance of a rebound from the switch between sliding and sticking (`Rebound`)
     events: list[tuple[str, float]] = field(default_factory=list)
     pieces: list[Piece] = field(default_factory=list)
 
     def extra(self, name: str) -> float:
         """The final value of a quadrature, of an energy in m v0^2."""
         position = self.extras.index(name)
-        return float(self.units[position]) * (float(self.y[len(self.y) - len(self.extras) + position]) - self.offset)
+        last = float(self.y[len(self.y) - len(self.extras) + position])
+        return float(self.units[position]) * (last - self.tolerance.offset)
 
 
 def replayed(
@@ -148,7 +154,7 @@ class _Run:
         self.model: Model = load(choice)
         self.p = self.model.group_values(path.groups)
         start = np.concatenate([self.model.start(self.p), np.full(len(extras), tolerance.offset)])
-        self.at = Replay(start, extras, extra_units(self.model, extras, self.p), tolerance.offset)
+        self.at = Replay(start, tolerance, extras, extra_units(self.model, extras, self.p))
 
     def run(self) -> Replay:
         """The whole replay."""
@@ -181,7 +187,7 @@ class _Run:
             crossing = solution.crossing(duration, states, step.event)
             if crossing is not None and crossing.event in self.model.kinks:
                 duration, y, _ = solution.onto(crossing.event, crossing.part * duration)
-                self._record(phase, flow, duration, y)
+                self._record(phase, crossing.event, flow, duration, y)
                 left -= duration
                 continue
             if crossing is not None:
@@ -191,11 +197,11 @@ class _Run:
                     "the record has none",
                     phase, time, y, missed=True,
                 )  # fmt: skip
-            self._record(phase, flow, duration, y)
+            self._record(phase, step.event, flow, duration, y)
             return
 
-    def _record(self, phase: Phase, flow: Flow, duration: float, y: np.ndarray) -> None:
-        self.at.pieces.append(Piece(str(phase), flow, self.at.y, self.at.time, duration))
+    def _record(self, phase: Phase, event: str | None, flow: Flow, duration: float, y: np.ndarray) -> None:
+        self.at.pieces.append(Piece(phase, event, flow, self.at.y, self.at.time, duration))
         self.at.time += duration
         self.at.y = y
 
@@ -227,6 +233,7 @@ class _Run:
             jump = rebounded(model, step.kinds[0], at.y, self.p, step.holds)
             at.dry_loss += jump.dry
             at.friction_loss += jump.friction
+            at.grip = min(at.grip, abs(jump.grip))
             self._check_rest(step, jump.after)
             at.y = np.concatenate([jump.after, at.y[size:]])
         if step.holds:  # chatter dissipates what remains of the rebound's energy

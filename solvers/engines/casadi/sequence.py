@@ -119,7 +119,7 @@ def sequence(
         time=float(answer["time"]),
         smallest_gap=float(answer["smallest_gap"]),
         parting=float(answer["shown"][model.names("outputs").index("restitution")]) if separated else 0.0,
-        slip=float(answer["slip"]) if separated else np.nan,
+        slip=float(answer["slip"]) if separated and model.oblique else np.nan,
         decided=decided,
     )
 

@@ -61,7 +61,7 @@ class Stretch:
 def stretch(piece: Piece, model: Model, replayed: Replay, p: np.ndarray, plugin: str, tolerance: Tolerance) -> Stretch:
     """A phase of a replay, integrated again through the requested times; ComputationError if that fails."""
     size, turned = len(model.state), tuple(name for name in replayed.extras if name == "rotation")
-    names, offset = (*model.state, *turned), replayed.offset if turned else 0.0
+    names, offset = (*model.state, *turned), replayed.tolerance.offset if turned else 0.0
     kept = [*range(size), *(size + replayed.extras.index(name) for name in turned)]
 
     def sample(parts: np.ndarray) -> tuple[np.ndarray, np.ndarray | None]:
@@ -70,7 +70,7 @@ def stretch(piece: Piece, model: Model, replayed: Replay, p: np.ndarray, plugin:
         except IntegrationFailed as failure:  # the located trajectory, with smaller steps, may succeed
             state = dict(zip(model.state, piece.start.tolist(), strict=False))
             message, advice = f"the trajectory by {plugin} gave up ({failure})", "try the other --engine"
-            raise ComputationError(message, piece.name, piece.time, state, advice) from None
+            raise ComputationError(message, str(piece.phase), piece.time, state, advice) from None
         y = np.column_stack([piece.start[kept], inside])
         return y[:size], y[names.index("rotation")] - offset if "rotation" in names else None
 
@@ -82,7 +82,7 @@ def stretch(piece: Piece, model: Model, replayed: Replay, p: np.ndarray, plugin:
             flow = replace(piece.flow, extras=turned)
             return plain(flow, plugin, tolerance, grid)(piece.start[kept], p, piece.duration)
 
-    return Stretch(piece.name, piece.time, piece.duration, sample)
+    return Stretch(str(piece.phase), piece.time, piece.duration, sample)
 
 
 def dataset(

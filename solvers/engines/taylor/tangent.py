@@ -8,7 +8,6 @@ import numpy as np
 
 from ....generated.automaton import LOOSEST
 from ...model.model import select_model
-from ...scene.contact import ENTRIES, TIE
 from ...scene.groups import si_values
 from ...scene.scene import Scene
 from ..settings import KERNEL_STEPS
@@ -18,12 +17,10 @@ from .layout import ANSWER, MOST_STEPS, NEARNESS, RESULTS, names, number
 from .orders import order_backward, order_for
 from .source import Variant
 
-CHATTERS = 5  # boundary of a trajectory with resting contact
+CHATTERS, GRIPS = 5, 10  # boundaries: of a trajectory with resting contact; of a rebound with friction
 DISTANCES = {  # boundaries whose measure is a distance reported by `sensitivities`
-    6: (TIE, list(ENTRIES.values())[-1]),
-    7: ("glass criterion met at initial contact", "liquid.glass_transition_pressure"),
-    8: ("half turn at separation", "rotation"),
-    10: ("switch between sliding and sticking contact", "particles.friction"),
+    7: ("glass criterion met at initial contact", "impact.stokes"),
+    GRIPS: ("switch between sliding and sticking contact", "particles.friction"),
 }
 STRICTER = 4.0  # stricter tolerance, by this factor, of steps that are not limited by directions
 _SPINS = {"impact_spin": "initial_spin", "impact_partner_spin": "initial_partner_spin"}

@@ -2,18 +2,24 @@
 
 import math
 import re
-from dataclasses import replace
+from collections.abc import Callable
+from functools import cache
 from itertools import pairwise
 
 import numpy as np
 import pytest
 from wetdoublet import solvers
 from wetdoublet.solvers import ComputationError, Scene, boundary, collide
-from wetdoublet.solvers.boundaries.changes import Change
-from wetdoublet.solvers.engines.casadi.locate import EventLocator
-from wetdoublet.solvers.model.dimensionless import nondimensionalise
-from wetdoublet.solvers.model.model import load, select_model
-from wetdoublet.solvers.sensitivity.boundary_distance import checked, limit
+from wetdoublet.solvers.sensitivity.boundary_distance import (
+    AT_ONCE,
+    CONTACT,
+    GLASS,
+    LADDER,
+    Course,
+    along_speed,
+    checked,
+    limit,
+)
 
 from ...helpers.reference import sensitivities
 
@@ -25,14 +31,12 @@ EDGES = [
     ("granulation", 55, 1, "graze of the glass criterion"),
     ("pendulum", 20, 0, "rim"),
 ]
-_KNOWN: dict[tuple[str, int], tuple[Change, ...]] = {}
 
 
-def change(preset: str, degrees: int, k: int) -> Change:
-    """A change of outcome, traced once."""
-    if (preset, degrees) not in _KNOWN:
-        _KNOWN[preset, degrees] = boundary(preset, angle=math.radians(degrees), rtol=1e-11).changes[0]
-    return _KNOWN[preset, degrees][k]
+@cache
+def changes(preset: str, degrees: int) -> tuple[float, ...]:
+    """The Stokes numbers at which the outcome changes."""
+    return tuple(change.stokes for change in boundary(preset, angle=math.radians(degrees), rtol=1e-11).changes[0])
 
 
 @pytest.mark.parametrize("side", [-1, 1])
@@ -41,7 +45,7 @@ def test_within_the_limit_it_is_refused(edge: tuple[str, int, int, str], side: i
     """At half the limit on either side: the boundary's name, and the distance that `boundary` says it is."""
     preset, degrees, k, name = edge
     away = 0.5 * limit(1e-9)
-    stokes = change(preset, degrees, k).stokes * (1 + side * away)
+    stokes = changes(preset, degrees)[k] * (1 + side * away)
     with pytest.raises(ComputationError, match=name) as refused:
         sensitivities(preset, wrt=["liquid.viscosity"], stokes=stokes, angle=math.radians(degrees))
     said = re.search(r"relative distance of (\S+) in impact.stokes", str(refused.value))
@@ -55,7 +59,7 @@ def test_beyond_the_limit_the_nearest_boundary_is_named(edge: tuple[str, int, in
     """At three times the limit on the separating side there is a derivative, and the result says what it is near."""
     preset, degrees, k, name = edge
     away = 3 * limit(1e-9)
-    stokes = change(preset, degrees, k).stokes * (1 + away)
+    stokes = changes(preset, degrees)[k] * (1 + away)
     found = sensitivities(preset, wrt=["impact.stokes"], stokes=stokes, angle=math.radians(degrees))
     assert found.near is not None
     assert name in found.near.boundary
@@ -65,7 +69,7 @@ def test_beyond_the_limit_the_nearest_boundary_is_named(edge: tuple[str, int, in
 
 def test_square_root_at_the_rim() -> None:
     """Past the rim e_n ~ sqrt(St - St*): e_n/(de_n/dSt) is twice the distance, in the limit."""
-    edge = change("pendulum", 45, 0).stokes
+    edge = changes("pendulum", 45)[0]
     away = 3e-5
     found = sensitivities("pendulum", wrt=["impact.stokes"], stokes=edge * (1 + away), angle=math.radians(45))
     e_n, slope = found.value["restitution"], found.gradient["restitution"]["impact.stokes"]
@@ -76,7 +80,7 @@ def test_square_root_at_the_rim() -> None:
 
 def test_logarithm_at_the_saddle() -> None:
     """Past the saddle t_f ~ -ln(St - St*)/lambda: dt_f/dSt times the distance is the same at any small distance."""
-    edge = change("granulation", 55, 0).stokes
+    edge = changes("granulation", 55)[0]
     products = []
     for away in (2e-5, 2e-4):
         found = sensitivities("granulation", ["contact_time"], ["impact.stokes"], stokes=edge * (1 + away),
@@ -88,7 +92,7 @@ def test_logarithm_at_the_saddle() -> None:
 
 def test_cvodes_refuses_beside_a_saddle() -> None:
     """Its derivatives of e_n differ from Rosenbrock's by 2e-3 of the largest there: an error names the saddle."""
-    stokes = change("granulation", 55, 0).stokes * (1 + 1e-4)
+    stokes = changes("granulation", 55)[0] * (1 + 1e-4)
     with pytest.raises(ComputationError, match="no derivative by cvodes.*saddle.*rosenbrock"):
         solvers.sensitivities("granulation", stokes=stokes, angle=math.radians(55), engine="cvodes")
 
@@ -96,15 +100,65 @@ def test_cvodes_refuses_beside_a_saddle() -> None:
 def test_chatter_is_refused() -> None:
     """A doublet that rests before it separates: its rebounds do not end, so no derivative is given.
 
-    No scene is known to do this (what holds at rest goes on holding), so a path is told that it did.
+    No scene is known to do this (what holds at rest goes on holding), so a course is told that it did.
     """
-    scene = Scene.load("granulation").with_impact(stokes=0.14, angle="40 deg")
-    n = nondimensionalise(scene, float(scene.speed or 0), float(scene.angle or 0))
-    finder = EventLocator(load(select_model(scene, True)), n.groups, 1e-9)
-    path = finder.run()
-    path.steps[0] = replace(path.steps[0], kinds=("glass", "rests"))
+    rests = Course(True, ("glass", "rests", "rupture"), speed=0.1)
     with pytest.raises(ComputationError, match="chatter"):
-        checked(scene, n, finder, path, 1e-9)
+        checked(lambda factors: [rests] * factors.size, True, 1e-9)
+
+
+ROUGH, GLASSY = ("rough", "rupture"), ("glass", "rupture")
+
+
+@pytest.mark.parametrize(
+    ("below", "above", "name"),
+    [
+        (Course(False, ("rough",), 0.0), Course(True, ROUGH, 0.3), "saddle"),
+        (Course(False, ("rough", "fell back", "rough"), 0.0), Course(True, ROUGH, 0.3), "saddle"),
+        (Course(True, ("turned", "rupture"), 0.3), Course(True, ROUGH, 0.3), CONTACT),
+        (Course(False, ("turned",), 0.0), Course(True, GLASSY, 0.3), GLASS),
+        (Course(True, ROUGH, 0.3), Course(True, GLASSY, 0.3), GLASS),
+        (Course(True, ROUGH, 0.3), Course(True, ("glass" + AT_ONCE, "rupture"), 0.3), "initial contact"),
+        (Course(True, GLASSY, 0.3), Course(True, ("glass" + AT_ONCE, "rupture"), 0.3), "initial contact"),
+        (Course(True, ("elastic", "rupture"), 0.3), Course(True, ROUGH, 0.3), "tie"),
+        (Course(True, ROUGH, 0.3), Course(False, ("rough", "half turn"), 0.0), "half turn"),
+        (Course(True, ROUGH, 0.3), Course(True, ("rough", "pop", "rupture"), 0.3), "event pop"),
+        (Course(None, (), 0.0), Course(None, (), 0.0), None),
+        (Course(True, ("rupture",), 0.3), Course(True, ("fell back", "turned", "rupture"), 0.3), None),
+    ],
+)  # fmt: skip
+@pytest.mark.parametrize("place", [-2e-3, 3e-8, 0.2])
+def test_a_boundary_is_named_by_what_differs(below: Course, above: Course, name: str | None, place: float) -> None:
+    """Courses that change at a known speed: the distance to 1 %, and the name. Turning points alone change nothing."""
+    near = along_speed(lambda factors: [above if factor > 1 + place else below for factor in factors], LADDER)
+    if name is None:
+        assert near is None
+    else:
+        assert near is not None
+        assert name in near.boundary
+        assert near.distance == pytest.approx(abs(place), rel=0.01)
+
+
+@pytest.mark.parametrize(
+    ("speed", "name"),
+    [
+        (lambda past: math.sqrt(past), "rim"),
+        (lambda past: math.sqrt(0.2 + past), "saddle"),
+        (lambda past: 0.4 - 0.1 * math.sqrt(past), GLASS),
+    ],
+)
+def test_the_opening_speed_tells_what_is_lost(speed: Callable[[float], float], name: str) -> None:
+    """A stick that is proved at once, beside a glassy rebound: at the rim the opening speed vanishes, beside a graze it
+    varies with the root of the distance.
+    """
+
+    def courses(factors: np.ndarray) -> list[Course]:
+        past = (factors - 1.01).tolist()
+        return [Course(True, GLASSY, speed(d)) if d > 0 else Course(False, (), 0.0) for d in past]
+
+    near = along_speed(courses, LADDER)
+    assert near is not None
+    assert name in near.boundary
 
 
 @pytest.mark.parametrize(

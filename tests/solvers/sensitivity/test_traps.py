@@ -1,24 +1,28 @@
 """The traps of differentiating through CasADi's integrators, each kept shut."""
 
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import numpy as np
 import pytest
-from wetdoublet.solvers import sensitivities
+from casadi import Function
+from wetdoublet.solvers import Scene, sensitivities
+from wetdoublet.solvers.collision.by_kernel import sequence_of
 from wetdoublet.solvers.engines.casadi import integrators
-from wetdoublet.solvers.engines.casadi.integrators import IntegrationFailed, Tolerance, tolerance_for
+from wetdoublet.solvers.engines.casadi.integrators import IntegrationFailed, tolerance_for
+from wetdoublet.solvers.engines.casadi.replay import replayed
 from wetdoublet.solvers.model.dimensionless import nondimensionalise
-from wetdoublet.solvers.sensitivity import derivatives
-from wetdoublet.solvers.sensitivity import trajectory_expression as graph
-from wetdoublet.solvers.sensitivity.derivatives import evaluate
-from wetdoublet.solvers.sensitivity.problem import Problem
+from wetdoublet.solvers.model.model import load, select_model
+from wetdoublet.solvers.sensitivity.by_casadi import course_of, derivatives, evaluate, trajectory
 
 from ...helpers.sensitive import CASES, DRY
 
 pytestmark = pytest.mark.slow
 
 GLASS = CASES[0].scene
-WRT = ("liquid.glass_transition_pressure", "bridge.volume", "liquid.film_thickness", "impact.angle")
 
 
 # ---- events that are true where a phase starts
@@ -60,32 +64,44 @@ def test_integrators_that_are_differentiated_have_no_events(plugin: str, monkeyp
     monkeypatch.setattr(integrators, "integrator", spied)
     # a tolerance that nothing else asks for, so that nothing is taken from the caches
     sensitivities(GLASS, ["rotation", "energy.capillary"], rtol=1.03e-9, engine=plugin)
-    assert {name for name, engine, _ in built if engine == plugin} >= {"flow"}
-    for name, engine, parts in built:
-        assert parts == ({"x", "p", "ode", "zero"} if name == "locate" else {"x", "p", "ode"})
-        assert engine == "rosenbrock" or "zero" not in parts
+    assert {engine for _, engine, _ in built} == {plugin}
+    assert all(parts == {"x", "p", "ode"} for _, _, parts in built)
+
+
+@dataclass(frozen=True)
+class Differentiable:
+    """A collision as a function of groups and durations, with its values of both."""
+
+    function: Function
+    p: np.ndarray
+    durations: np.ndarray
+
+    @classmethod
+    def of(cls, scene: Scene) -> Differentiable:
+        n = nondimensionalise(scene, float(scene.speed or 0), float(scene.angle or 0))
+        choice = select_model(scene, n.oblique)
+        path, replay = replayed(partial(sequence_of, n), choice, (), "rosenbrock", 1e-10)
+        function = trajectory(course_of(path, replay, choice), ("restitution",), "rosenbrock", replay.tolerance)
+        p = load(choice).group_values(n.groups)
+        return cls(function, p, np.array([piece.duration for piece in replay.pieces]))
+
+    def gradient(self, durations: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        return derivatives(self.function, self.p, durations, np.eye(self.p.size), "adjoint", amplified=False)
 
 
 def test_a_failure_is_no_zero() -> None:
     """An integrator that gives up raises; zeros would look like a stick that depends on nothing."""
-    problem = Problem.of(GLASS, float(GLASS.speed or 0), float(GLASS.angle or 0), WRT, "speed")
-    path, _ = problem.located(1e-9)
-    course = graph.course_of(path, path.model.choice)
-    whole = graph.trajectory_expression(course, ("restitution",), "rosenbrock", Tolerance(1e-9, 1e-12))
+    collision = Differentiable.of(GLASS)
     with pytest.raises(IntegrationFailed):
-        evaluate(whole.function, path.p * np.nan, np.array([step.duration for step in path.steps]))
-    durations = np.array([step.duration for step in path.steps]) / 3
+        evaluate(collision.function, collision.p * np.nan, collision.durations)
     with pytest.raises(IntegrationFailed, match="misses"):
-        derivatives.settled(whole, path.p, durations, np.arange(3), 1e-9)
+        collision.gradient(collision.durations / 3)
 
 
-def test_located_durations_need_not_be_exact() -> None:
-    """The landing takes the rest: durations wrong by 1e-4 give the same derivatives once they are settled."""
-    problem = Problem.of(GLASS, float(GLASS.speed or 0), float(GLASS.angle or 0), WRT, "speed")
-    path, _ = problem.located(1e-9)
-    right = problem.slopes(path, ("restitution",), "adjoint", "rosenbrock", 1e-10)
-    steps = [type(step)(**{**vars(step), "duration": step.duration * (1 + 1e-4)}) for step in path.steps]
-    path.steps[:] = steps
-    found = problem.slopes(path, ("restitution",), "adjoint", "rosenbrock", 1e-10)
-    assert found.first == pytest.approx(right.first, rel=1e-8)
-    assert found.value == pytest.approx(right.value, rel=1e-9)
+def test_durations_need_not_be_exact() -> None:
+    """The landing takes the rest: durations wrong by 1e-4 give the same derivatives once they are corrected."""
+    collision = Differentiable.of(GLASS)
+    value, slopes = collision.gradient(collision.durations)
+    found_value, found_slopes = collision.gradient(collision.durations * (1 + 1e-4))
+    assert found_slopes == pytest.approx(slopes, rel=1e-8)
+    assert found_value == pytest.approx(value, rel=1e-9)
