@@ -17,7 +17,6 @@ from .layout import ANSWER, MOST_STEPS, NEARNESS, RESULTS, names, number
 from .orders import order_backward, order_for
 from .source import Variant
 
-COLUMNS = {"time": 5, "smallest_gap": 6, "turned": 7}  # after the outputs
 CHATTERS, GRIPS = 5, 10  # boundaries: of a trajectory with resting contact; of a rebound with friction
 DISTANCES = {  # boundaries whose measure is a distance reported by `sensitivities`
     7: ("glass criterion met at initial contact", "impact.stokes"),

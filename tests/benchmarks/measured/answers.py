@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 from wetdoublet.solvers.engines.casadi.locate import EventSequence
-from wetdoublet.solvers.model.dimensionless import DimensionlessGroups, nondimensionalise
+from wetdoublet.solvers.model.dimensionless import Problem, nondimensionalise
 from wetdoublet.solvers.scene.scene import Scene
 
 
@@ -23,7 +23,7 @@ class Answer:
     restitution: float
 
 
-def dimensionless(scene: Scene, impact: Impact) -> DimensionlessGroups:
+def dimensionless(scene: Scene, impact: Impact) -> Problem:
     """Dimensionless groups of a scene's collision."""
     return nondimensionalise(scene, scene.speed_of(impact.stokes), impact.angle)
 

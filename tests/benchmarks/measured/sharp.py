@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from wetdoublet.generated.automaton import CRITERIA
 from wetdoublet.solvers.engines.casadi.locate import EventLocator
-from wetdoublet.solvers.model.dimensionless import DimensionlessGroups
+from wetdoublet.solvers.model.dimensionless import Problem
 from wetdoublet.solvers.model.model import load, select_model
 from wetdoublet.solvers.scene.scene import Scene
 
@@ -52,7 +52,7 @@ class _Trajectory:
         return rebounds if event in CRITERIA else edge if event == "film_edge" else ends
 
 
-def long_double(scene: Scene, numbers: Sequence[DimensionlessGroups], rtol: float) -> np.ndarray:
+def long_double(scene: Scene, numbers: Sequence[Problem], rtol: float) -> np.ndarray:
     """e_n of collisions that separate, by heyoka's Taylor integrator in 80-bit numbers; NaN where one does not."""
     import heyoka
 

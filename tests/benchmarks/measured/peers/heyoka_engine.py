@@ -16,7 +16,7 @@ from wetdoublet.generated.automaton import CRITERIA, SAFETY
 from wetdoublet.solvers.certificates.choice import energy_proof
 from wetdoublet.solvers.engines.casadi.locate import EventLocator
 from wetdoublet.solvers.errors import ComputationError
-from wetdoublet.solvers.model.dimensionless import DimensionlessGroups
+from wetdoublet.solvers.model.dimensionless import Problem
 from wetdoublet.solvers.model.key import ModelKey
 from wetdoublet.solvers.model.model import load, select_model
 from wetdoublet.solvers.scene.scene import Scene
@@ -238,7 +238,7 @@ class Batch:
 
 def prepare(
     scene: Scene,
-    numbers: Sequence[DimensionlessGroups],
+    numbers: Sequence[Problem],
     rtol: float,
     size: int = BATCH,
     inside: bool = False,
@@ -302,9 +302,7 @@ def _below(start: Start) -> float:
     return max((barrier.gap for barrier in barriers), default=0.0) * (1 - 1e-12)
 
 
-def starts(
-    locators: Sequence[EventLocator], numbers: Sequence[DimensionlessGroups], varying: Sequence[str]
-) -> list[Start]:
+def starts(locators: Sequence[EventLocator], numbers: Sequence[Problem], varying: Sequence[str]) -> list[Start]:
     """State and parameters at initial contact; one that meets a criterion there rebounds there.
 
     Parameters are the groups named, then film, active and level.

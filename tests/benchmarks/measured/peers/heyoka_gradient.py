@@ -17,7 +17,7 @@ import numpy as np
 from wetdoublet.generated.automaton import CRITERIA
 from wetdoublet.solvers.engines.casadi.locate import EventLocator
 from wetdoublet.solvers.errors import ComputationError
-from wetdoublet.solvers.model.dimensionless import DimensionlessGroups
+from wetdoublet.solvers.model.dimensionless import Problem
 from wetdoublet.solvers.model.key import ModelKey
 from wetdoublet.solvers.model.model import load, select_model
 from wetdoublet.solvers.scene.scene import Scene
@@ -238,7 +238,7 @@ class Gradients(Batch):
 
 def prepare(
     scene: Scene,
-    numbers: Sequence[DimensionlessGroups],
+    numbers: Sequence[Problem],
     slopes: np.ndarray,
     rtol: float,
     size: int = BATCH,
@@ -289,7 +289,7 @@ def prepare(
     return batch
 
 
-def _begin(equations: Variational, locator: EventLocator, numbers: DimensionlessGroups) -> Start:
+def _begin(equations: Variational, locator: EventLocator, numbers: Problem) -> Start:
     """At initial contact; one that meets a criterion there rebounds there, at a moment that nothing moves."""
     values = locator.model.values("events", locator.y, locator.p)
     rebound = min(values[name] for name in CRITERIA) <= 0
