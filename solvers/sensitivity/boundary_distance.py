@@ -144,7 +144,8 @@ def courses_of(scene: Scene, n: DimensionlessGroups, factors: np.ndarray) -> lis
     impacts = Impacts(scene, n.speed * factors, np.full(factors.size, n.angle), {})
     ran, words = run_recorded(impacts, n.oblique, FINE, ledger=True), words_of(scene)
     speeds = ran.answers["shown"][:, 0].tolist()
-    return [course(*row, words, speed) for *row, speed in zip(ran.answers, ran.events, speeds, strict=True)]
+    rows = zip(ran.answers, ran.events, speeds, strict=True)
+    return [course(answer, log, words, speed) for answer, log, speed in rows]
 
 
 def along_speed(courses: Courses, ladder: Sequence[float]) -> Near | None:
@@ -172,7 +173,7 @@ def along_speed(courses: Courses, ladder: Sequence[float]) -> Near | None:
 
 
 def _width(brackets: Brackets) -> np.ndarray:
-    return np.maximum(_WIDTH * np.abs(brackets.place), _NARROWEST)
+    return np.asarray(np.maximum(_WIDTH * np.abs(brackets.place), _NARROWEST))
 
 
 def _name(courses: Courses, change: Brackets) -> str:

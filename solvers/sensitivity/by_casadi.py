@@ -206,7 +206,8 @@ def quadratures(model: Model, of: Iterable[str]) -> tuple[str, ...]:
     """Names of the quadratures that results need: the rotation where it is no state, and terms of the ledger."""
     turns = model.has("turning_rate") and not model.strings
     has = {*model.names("energy_rates"), *(("rotation",) if turns else ())}
-    return tuple(extra for name in of if name in DIFFERENTIATED and (extra := DIFFERENTIATED[name].extra) in has)
+    extras = (DIFFERENTIATED[name].extra for name in of if name in DIFFERENTIATED)
+    return tuple(extra for extra in extras if extra is not None and extra in has)
 
 
 # ---- its derivatives
