@@ -173,8 +173,7 @@ def along_speed(courses: Courses, ladder: Sequence[float]) -> Near | None:
 
 
 def _width(brackets: Brackets) -> np.ndarray:
-    width: np.ndarray = np.maximum(_WIDTH * np.abs(brackets.place), _NARROWEST)
-    return width
+    return np.asarray(np.maximum(_WIDTH * np.abs(brackets.place), _NARROWEST))
 
 
 def _name(courses: Courses, change: Brackets) -> str:

@@ -20,7 +20,7 @@ from casadi import DM, MX, Function, densify, fmin, jtimes, vertcat
 
 from ..collision.by_kernel import sequence_of
 from ..engines.casadi.integrators import IntegrationFailed, Tolerance, failures, landing, plain, quiet
-from ..engines.casadi.replay import Replay, replayed
+from ..engines.casadi.replay import Replay, Stopped, replayed
 from ..engines.casadi.sequence import EventSequence
 from ..errors import ComputationError
 from ..host.thread_caches import own_cache
@@ -340,7 +340,10 @@ def differentiated(
             message = "no derivative by cvodes: its steps do not follow those of a trajectory that lies at the"
             raise ComputationError(f"{message} {near}, nearer than {NEAR:g}", advice="--engine rosenbrock")
         sharp = max(sharp, _SHARPEST_CVODES)
-    path, replay = replayed(found, choice, quadratures(load(choice), query.of), plugin, sharp)
+    try:
+        path, replay = replayed(found, choice, quadratures(load(choice), query.of), plugin, sharp)
+    except Stopped as stopped:
+        raise stopped.error(plugin, load(choice)) from None
     check_grip(replay.grip, query.rtol)
     course = course_of(path, replay, choice)
     function = trajectory(course, query.of, plugin, replay.tolerance)

@@ -25,6 +25,7 @@ from .problem import Problem, Query, Slopes
 BACKWARD = ("restitution",)  # results that the kernel's adjoint differentiates
 DIRECTIONS = 4  # most parameters for which forward tangents cost no more than the adjoint (docs/engineering/kernel.md)
 SPEED, ANGLE = 1.0, 0.5  # impact (m/s, rad) at which parameters are mapped; others follow by their powers
+_OF_UNEQUAL = frozenset(("radius_ratio", "mass_ratio"))  # quantities that make equal spheres unequal
 _TURNS = tuple(name for name in TANGENTS if DEFINITIONS[name].odd or name == "tangential_restitution")
 
 
@@ -72,8 +73,9 @@ def gradients_by_kernel(
     scene, size = impacts.scene, impacts.angle.size
     angle, oblique = ANGLE if impacts.angle[0] > 0 else 0.0, bool(impacts.oblique[0])
     at = _at_reference(scene, kind, wrt, angle)
+    fold = not _OF_UNEQUAL & at.moved.keys()
     derivatives = run_tangent(
-        impacts, oblique, rtol, "rotation" in of, tuple(at.moved), order, budget, backward, nearest=nearest
+        impacts, oblique, rtol, "rotation" in of, tuple(at.moved), order, budget, backward, fold, nearest
     )
     if derivatives is None:
         return None

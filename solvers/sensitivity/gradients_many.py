@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ...generated.automaton import LAST_ANSWER, OUTCOMES, Status
+from ...generated.automaton import LAST_ANSWER, OUTCOMES
 from ...generated.automaton import STICK as STICKS
 from ..engines.choice import gradient_engine
 from ..engines.settings import KERNEL_STEPS, RTOL, check_engine
@@ -230,7 +230,8 @@ def _stretch(request: _Request, which: np.ndarray) -> np.ndarray:
                 part = part[again.run.answers["status"] > LAST_ANSWER]
             if not part.size:
                 break
-    stuck = which[_sticks(request, which, answers, answered.run.by_energy)]
+    sticks = (answers["outcome"] == OUTCOMES.index(STICKS)) & (answers["status"] <= LAST_ANSWER)
+    stuck = which[_alike_beside(request, which, answers, np.flatnonzero(sticks))]
     request.outcome[stuck], request.reason[stuck], request.engine[stuck] = 0, STICK, "taylor"
     if "restitution" in request.of:
         place = request.of.index("restitution")
@@ -264,14 +265,6 @@ def _keep(request: _Request, which: np.ndarray, answered: kernel.Along, part: np
         slopes[np.isnan(answered.value[:, part])] = np.nan
         request.gradient[:, into] = slopes
         request.engine[into] = "taylor"
-
-
-def _sticks(request: _Request, which: np.ndarray, answers: np.ndarray, by_energy: bool) -> np.ndarray:
-    """Mask of sticks without a boundary nearby, tested as in `boundary_distance`."""
-    stuck = (answers["outcome"] == OUTCOMES.index(STICKS)) & (answers["status"] <= LAST_ANSWER)
-    far = stuck & (answers["status"] == Status.PROVED_AT_TOUCH) & by_energy
-    far[_alike_beside(request, which, answers, np.flatnonzero(stuck & ~far))] = True
-    return np.asarray(far)
 
 
 def _alike_beside(request: _Request, which: np.ndarray, answers: np.ndarray, checked: np.ndarray) -> np.ndarray:

@@ -114,6 +114,24 @@ def test_the_engine_that_is_chosen() -> None:
         assert found.gradient[of]["liquid.viscosity"] == pytest.approx(own, rel=1e-6)
 
 
+def test_a_partner_that_is_equal_varies_alone() -> None:
+    """The spin of one sphere depends on the other's size and mass: against differences of unequal pairs."""
+    scene = Scene.load("granulation")
+    size, mass = (2 * float(scene.material[name]) for name in ("reduced_radius", "reduced_mass"))
+    entries = {"partner.radius": size, "partner.mass": mass}
+    impact = {"speed": 0.14 / scene.stokes_per_speed, "angle": "40 deg"}
+    found = sensitivities(scene.with_entries(entries), ["final_spin"], [*entries], engine="taylor", **impact)
+    assert found.engine == "taylor"
+    for name, value in entries.items():
+
+        def at(part: float, name: str = name, value: float = value) -> float:
+            own = scene.with_entries(entries | {name: value * (1 + part)})
+            return float(collide(own, rtol=1e-12, ledger=False, **impact).final_spin)
+
+        expected = (at(1e-4) - at(-1e-4)) / 2e-4  # the error is 1e-8 of the third derivative
+        assert float(found.gradient["final_spin"][name] or 0) * value == pytest.approx(expected, rel=1e-5)
+
+
 def test_bad_input() -> None:
     """Names and lengths that cannot be are one line that says what is accepted."""
     with pytest.raises(InputError, match="restitution"):
