@@ -37,10 +37,10 @@ def test_a_failure_is_marked_and_the_rest_go_on(monkeypatch):
         nondimensionalise(scene, scene.speed_of(0.03), 1.0).groups["stokes"]: ZeroDivisionError("oops"),
     }
 
-    def integrated(scene, n, *rest):
-        if n.groups["stokes"] in bad:
-            raise bad[n.groups["stokes"]]
-        return real(scene, n, *rest)
+    def integrated(problem, *rest):
+        if problem.groups["stokes"] in bad:
+            raise bad[problem.groups["stokes"]]
+        return real(problem, *rest)
 
     real = alone.integrated
     plain = collide_many(scene, stokes=[0.01, 0.2], angle=1.0, engine="rosenbrock")

@@ -34,10 +34,10 @@ def unlucky(monkeypatch):
     """Let the collisions of one Stokes number, 0.1, fail."""
     real = alone.integrated
 
-    def integrated(scene, n, *rest):
-        if abs(n.groups["stokes"] - 0.1) < 1e-12:
+    def integrated(problem, *rest):
+        if abs(problem.groups["stokes"] - 0.1) < 1e-12:
             raise ComputationError("no luck", advice="none")
-        return real(scene, n, *rest)
+        return real(problem, *rest)
 
     monkeypatch.setattr(alone, "integrated", integrated)
 

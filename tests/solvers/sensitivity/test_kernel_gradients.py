@@ -8,9 +8,9 @@ from wetdoublet.solvers.engines.choice import gradient_engine
 from wetdoublet.solvers.engines.taylor.call import Impacts
 from wetdoublet.solvers.engines.taylor.tangent import run_tangent
 from wetdoublet.solvers.host.compiler import compiler
+from wetdoublet.solvers.results import TANGENTS
 from wetdoublet.solvers.scene.groups import si_values
 from wetdoublet.solvers.sensitivity import gradients_many as many
-from wetdoublet.solvers.sensitivity.by_kernel import KNOWN
 from wetdoublet.solvers.sensitivity.gradients_many import STICK
 
 pytestmark = [pytest.mark.skipif(compiler() is None, reason="no C compiler"), pytest.mark.slow]
@@ -106,7 +106,7 @@ def test_the_engine_that_is_chosen() -> None:
     assert found.engine == "taylor"
     assert gradients_many(scene, **asked, of=OF).engine.values.tolist() == ["taylor"]
     assert sensitivities(scene, OF, **asked, method="adjoint").engine == "rosenbrock"
-    assert gradient_engine(scene, (*OF, "energy.capillary"), KNOWN, (True,)) == "rosenbrock"
+    assert gradient_engine(scene, (*OF, "energy.capillary"), TANGENTS, (True,)) == "rosenbrock"
     plain = gradients_many(scene, **asked, of=OF, engine="rosenbrock")
     assert plain.engine.values.tolist() == ["rosenbrock"]
     for of in OF:
