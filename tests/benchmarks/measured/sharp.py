@@ -7,12 +7,12 @@ from typing import Any
 
 import numpy as np
 from wetdoublet.generated.automaton import CRITERIA
-from wetdoublet.solvers.engines.casadi.locate import EventLocator
 from wetdoublet.solvers.model.dimensionless import DimensionlessGroups
 from wetdoublet.solvers.model.model import load, select_model
 from wetdoublet.solvers.scene.scene import Scene
 
 from .gradient_task import Gradients
+from .peers.automaton import Automaton
 from .peers.engines import KERNEL, engines
 from .peers.heyoka_engine import HORIZON, starts, system
 from .tasks import TASKS
@@ -58,10 +58,10 @@ def long_double(scene: Scene, numbers: Sequence[DimensionlessGroups], rtol: floa
 
     choice = select_model(scene, True)
     groups = [each.groups for each in numbers]
-    equations = system(choice, groups, None)
-    trajectories = [EventLocator(load(choice), each, 1e-13) for each in groups]
+    equations = system(choice, groups, "")
+    automata = [Automaton(load(choice), each, 1e-13) for each in groups]
     trajectory = _Trajectory(dry=np.longdouble(groups[0]["dry_restitution"]), film=len(equations.varying))
-    begun = starts(trajectories, numbers, equations.varying)
+    begun = starts(automata, numbers, equations.varying)
     either, falling = heyoka.event_direction.any, heyoka.event_direction.negative
     states = [start.state[: len(equations.rates)].astype(np.longdouble) for start in begun]  # no work of the bridge
     trajectory.integrator = ta = heyoka.taylor_adaptive(

@@ -15,13 +15,13 @@ from typing import Any
 
 import numpy as np
 from wetdoublet.generated.automaton import CRITERIA
-from wetdoublet.solvers.engines.casadi.locate import EventLocator
 from wetdoublet.solvers.errors import ComputationError
 from wetdoublet.solvers.model.dimensionless import DimensionlessGroups
 from wetdoublet.solvers.model.key import ModelKey
 from wetdoublet.solvers.model.model import load, select_model
 from wetdoublet.solvers.scene.scene import Scene
 
+from .automaton import Automaton
 from .heyoka_callbacks import Inside
 from .heyoka_engine import BATCH, Batch, Lane, Start, as_expression, elementary
 from .translated import translated
@@ -259,13 +259,13 @@ def prepare(
     if any(select_model(scene, each.oblique) != choice for each in numbers):
         raise ComputationError("head-on and oblique collisions are different structures")
     model = load(choice)
-    locators = [EventLocator(model, each.groups, min(rtol, 1e-6)) for each in numbers]
-    if any(locator.watch.tangential_edge for locator in locators):
+    automata = [Automaton(model, each.groups, rtol) for each in numbers]
+    if any(automaton.watch.tangential_edge for automaton in automata):
         raise ComputationError("the tangential edge lies within reach")
     criteria = [name for name in CRITERIA if name != "elastic" or numbers[0].groups["elastic_gap"] != 0.0]
     equations = variational(choice, criteria)
     batch = Gradients(film=len(equations.groups), equations=equations, slopes=slopes)
-    batch.starts = [_begin(equations, locator, each) for locator, each in zip(locators, numbers, strict=True)]
+    batch.starts = [_begin(equations, automaton) for automaton in automata]
     batch.lanes = [Lane() for _ in range(size)]
     either, falling = heyoka.event_direction.any, heyoka.event_direction.negative
     arguments = [heyoka.par[equations.groups.index(name)] for name in equations.smooth]
@@ -289,13 +289,12 @@ def prepare(
     return batch
 
 
-def _begin(equations: Variational, locator: EventLocator, numbers: DimensionlessGroups) -> Start:
+def _begin(equations: Variational, automaton: Automaton) -> Start:
     """At initial contact; one that meets a criterion there rebounds there, at a moment that nothing moves."""
-    values = locator.model.values("events", locator.y, locator.p)
-    rebound = min(values[name] for name in CRITERIA) <= 0
+    rebound = automaton.criterion() is not None
     film = 0.0 if rebound else 1.0
-    parameters = np.array([*(numbers.groups[name] for name in equations.groups), film, 1.0])
-    count = len(locator.model.state)
+    parameters = np.array([*(automaton.groups[name] for name in equations.groups), film, 1.0])
+    count = len(automaton.model.state)
     first = equations.begin[rebound]
     state = first(np.zeros(count * (1 + equations.columns)), pars=parameters[: first.nparams])
-    return Start(np.array(state), parameters, rebound, locator)
+    return Start(np.array(state), parameters, rebound, automaton)
