@@ -8,11 +8,10 @@ from typing import Any
 import numpy as np
 from wetdoublet.generated.automaton import CRITERIA
 from wetdoublet.solvers.model.dimensionless import DimensionlessGroups
-from wetdoublet.solvers.model.model import load, select_model
 from wetdoublet.solvers.scene.scene import Scene
 
 from .gradient_task import Gradients
-from .peers.automaton import Automaton
+from .peers.automaton import automata
 from .peers.engines import KERNEL, engines
 from .peers.heyoka_engine import HORIZON, starts, system
 from .tasks import TASKS
@@ -56,12 +55,10 @@ def long_double(scene: Scene, numbers: Sequence[DimensionlessGroups], rtol: floa
     """e_n of collisions that separate, by heyoka's Taylor integrator in 80-bit numbers; NaN where one does not."""
     import heyoka
 
-    choice = select_model(scene, True)
-    groups = [each.groups for each in numbers]
-    equations = system(choice, groups, "")
-    automata = [Automaton(load(choice), each, 1e-13) for each in groups]
-    trajectory = _Trajectory(dry=np.longdouble(groups[0]["dry_restitution"]), film=len(equations.varying))
-    begun = starts(automata, numbers, equations.varying)
+    followed = automata(scene, numbers, 1e-13)
+    equations = system(followed[0].model.choice, [each.groups for each in numbers], "")
+    trajectory = _Trajectory(dry=np.longdouble(numbers[0].groups["dry_restitution"]), film=len(equations.varying))
+    begun = starts(followed, equations.varying)
     either, falling = heyoka.event_direction.any, heyoka.event_direction.negative
     states = [start.state[: len(equations.rates)].astype(np.longdouble) for start in begun]  # no work of the bridge
     trajectory.integrator = ta = heyoka.taylor_adaptive(

@@ -4,32 +4,22 @@ Events and their effects are those of `generated/automaton.py`, equations and gu
 is proved where the energy is below a barrier ahead, or, on strings, where the film stops every rebound.
 """
 
+from collections.abc import Sequence
 from functools import cached_property, lru_cache
 from typing import NamedTuple
 
 import numpy as np
 from casadi import SX, Function, fmax, sum1, vertcat
-from wetdoublet.generated.automaton import (
-    BOUNCE,
-    CLOSING,
-    CRITERIA,
-    EVENTS,
-    LOOSEST,
-    OPENING,
-    RELEASE_SPEED,
-    ROTATE,
-    SAFETY,
-    STICK,
-    is_on_edge,
-    is_parted,
-    is_too_weak,
-)
+from wetdoublet.generated import automaton as rules
+from wetdoublet.generated.automaton import CLOSING, OPENING, STICK
 from wetdoublet.solvers.engines.casadi.sequence import tangential_edge
 from wetdoublet.solvers.errors import ComputationError
+from wetdoublet.solvers.model.dimensionless import DimensionlessGroups
 from wetdoublet.solvers.model.key import ModelKey
-from wetdoublet.solvers.model.model import Model, load
-from wetdoublet.solvers.model.phases import Flow, Phase, WatchedEvents
+from wetdoublet.solvers.model.model import Model, load, select_model
+from wetdoublet.solvers.model.phases import Flow, Phase
 from wetdoublet.solvers.scene.contact import contact_gap, contact_word
+from wetdoublet.solvers.scene.scene import Scene
 
 from ..answers import Answer
 
@@ -78,17 +68,15 @@ class Automaton:
     """One collision; `run` follows it by a subclass's integrator. `y` has the works of attractions behind the state."""
 
     def __init__(self, model: Model, groups: dict[str, float], rtol: float) -> None:
-        if model.friction or model.own_events:
-            raise ComputationError("peers have neither friction nor declared events")
-        self.model, self.groups, self.rtol = model, groups, min(rtol, LOOSEST)
+        rupture = groups["rupture_gap"] if model.bridge else 1.0
+        if model.friction or model.own_events or tangential_edge(model, groups) < rupture:
+            raise ComputationError("peers have no friction, no declared events, no tangential edge within reach")
+        self.model, self.groups, self.rtol = model, groups, min(rtol, rules.LOOSEST)
         self.p, self.proof = model.group_values(groups), proof_of(model)
         self.works = model.works if self.proof == "energy" else ()
         self.y = np.append(model.start(self.p), [0.0] * len(self.works))
-        edge, rupture = tangential_edge(model, groups), groups["rupture_gap"] if model.bridge else 1.0
-        self.gaps = {"contact": contact_gap(groups), "rupture": rupture, "film edge": 1.0, "tangential edge": edge}
-        within = edge != 1.0 and min(self.gaps["contact"], 1.0) < edge < rupture
-        self.watch = WatchedEvents(tangential_edge=within)
-        self.phase = Phase(film=1, shear=int(edge >= 1.0), motion=CLOSING)
+        self.gaps = {"contact": contact_gap(groups), "rupture": rupture, "film edge": 1.0}
+        self.phase = Phase(film=1, shear=1, motion=CLOSING)
         self.time, self.reversed, self.outcome = 0.0, False, ""
 
     def integrated(self, flow: Flow, span: float) -> Hit:
@@ -123,16 +111,16 @@ class Automaton:
         if self.phase.resting or self.phase.motion == OPENING:
             return None
         values = self.values("events")
-        return next((word for word in CRITERIA if values[word] <= 0), None)
+        return next((word for word in rules.CRITERIA if values[word] <= 0), None)
 
     def rebound(self, word: str) -> None:
         """Reverse the motion; a rebound that does not open the gap becomes a rest."""
         after = list(self.values("rebound").values())
         self.y = np.array([*after, *self.y[len(after) :]])
         self.reversed = True
-        if is_parted(self.y[0], self.gaps["rupture"]):
-            self.outcome = BOUNCE
-        resting = is_too_weak(self.values("inward_force")["inward_force"], self.y[1], self.rtol, self.y[0])
+        if rules.is_parted(self.y[0], self.gaps["rupture"]):
+            self.outcome = rules.BOUNCE
+        resting = rules.is_too_weak(self.values("inward_force")["inward_force"], self.y[1], self.rtol, self.y[0])
         if resting:
             self.y[1] = 0.0
         self._opens(resting)
@@ -151,7 +139,7 @@ class Automaton:
         if name == CERTIFIED:
             self.outcome = STICK
             return
-        event, phase = next(row for row in EVENTS if row.name == name), self.phase
+        event, phase = next(row for row in rules.EVENTS if row.name == name), self.phase
         for action in event.actions:
             match action:
                 case "gap = target":
@@ -161,18 +149,14 @@ class Automaton:
                 case "rebound":
                     self.rebound(contact_word(self.groups) if event.chosen_by else event.words[0])
                 case "open":
-                    self.y[1] = RELEASE_SPEED
+                    self.y[1] = rules.RELEASE_SPEED
                     self._opens(False)
                 case "turn":
                     self._moves(-phase.motion)
                 case "cross film edge":
-                    film = 1 - phase.film
-                    shear = film if self.gaps["tangential edge"] == 1.0 else phase.shear
-                    self.phase = phase.with_(film=film, shear=shear)
-                case "cross tangential edge":
-                    self.phase = phase.with_(shear=1 - phase.shear)
+                    self.phase = phase.with_(film=1 - phase.film)
                 case "separate":
-                    self.outcome = BOUNCE if self.reversed else ROTATE
+                    self.outcome = rules.BOUNCE if self.reversed else rules.ROTATE
                 case "cut off":
                     self.outcome = STICK
                 case _:
@@ -180,9 +164,8 @@ class Automaton:
 
     def _opens(self, resting: bool) -> None:
         """Open from here, or rest; on an edge, the phase is beyond it."""
-        film = 0 if self.model.edged and is_on_edge(self.y[0], 1.0) else self.phase.film
-        shear = 0 if is_on_edge(self.y[0], self.gaps["tangential edge"]) else self.phase.shear
-        self.phase = self.phase.with_(film=film, shear=shear, resting=resting)
+        film = 0 if self.model.edged and rules.is_on_edge(self.y[0], 1.0) else self.phase.film
+        self.phase = self.phase.with_(film=film, resting=resting)
         self._moves(OPENING)
 
     def _moves(self, motion: int) -> None:
@@ -196,12 +179,12 @@ class Automaton:
     def level(self, y: np.ndarray) -> float | None:
         """The level below which a stick is proved from a state on; None if there is none."""
         if self.proof != "energy":
-            return -SAFETY * self.rtol if self.proof else None
+            return -rules.SAFETY * self.rtol if self.proof else None
         height = next((barrier.height for barrier in self.barriers if barrier.gap > y[0]), None)
         if height is None:
             return None
         first = sum(self.model.values(self.model.escape, self.model.start(self.p), self.p).values())
-        return height - SAFETY * self.rtol * (first + abs(height))
+        return height - rules.SAFETY * self.rtol * (first + abs(height))
 
     @cached_property
     def barriers(self) -> tuple[Barrier, ...]:
@@ -235,3 +218,11 @@ class Automaton:
         states[0] = gaps
         slopes: np.ndarray = self.model.function("effective_potential")(states, self.p).full()[1]
         return slopes
+
+
+def automata(scene: Scene, numbers: Sequence[DimensionlessGroups], rtol: float) -> list[Automaton]:
+    """Collisions of one structure, for peers that compile it; ComputationError if there are two."""
+    model = load(select_model(scene, numbers[0].oblique))
+    if len({number.oblique for number in numbers}) > 1:
+        raise ComputationError("head-on and oblique collisions are different structures")
+    return [Automaton(model, number.groups, rtol) for number in numbers]

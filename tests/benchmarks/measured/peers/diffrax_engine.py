@@ -8,12 +8,10 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
-from wetdoublet.solvers.errors import ComputationError
-from wetdoublet.solvers.model.model import load, select_model
 from wetdoublet.solvers.scene.scene import Scene
 
 from ..answers import Answer, Impact, dimensionless
-from .automaton import CERTIFIED, Automaton
+from .automaton import CERTIFIED, automata
 from .bulk import Bulk
 from .heyoka_engine import starts
 from .translated import translated
@@ -28,15 +26,12 @@ def collisions(scene: Scene, impacts: Sequence[Impact], rtol: float) -> Bulk:
 
     jax.config.update("jax_enable_x64", True)
     numbers = [dimensionless(scene, impact) for impact in impacts]
-    choice = select_model(scene, numbers[0].oblique)
-    automata = [Automaton(load(choice), each.groups, rtol) for each in numbers]
-    if any(each.watch.tangential_edge for each in automata) or len({each.oblique for each in numbers}) > 1:
-        raise ComputationError("the tangential edge lies within reach, or head-on is mixed with oblique")
-    names = tuple(automata[0].model.groups)
-    begun = starts(automata, numbers, names)
+    followed = automata(scene, numbers, rtol)
+    choice, names = followed[0].model.choice, tuple(followed[0].model.groups)
+    begun = starts(followed, names)
     states, parameters = (np.array([getattr(each, name) for each in begun]) for name in ("state", "parameters"))
     rebound = np.array([each.reversed for each in begun])
-    run = jax.jit(jax.vmap(trajectory(choice, names, automata[0].proof, rtol)))
+    run = jax.jit(jax.vmap(trajectory(choice, names, followed[0].proof, rtol)))
 
     def every() -> list[np.ndarray]:
         return [np.asarray(each) for each in run(states, parameters, rebound)]

@@ -52,8 +52,8 @@ def engines() -> tuple[Engine, ...]:
         *(Engine(name, one=partial(_one, name)) for name in CASADI_ENGINES),
         Engine("taylor", many=_many, fast=True, missing=absent),
         Engine(KERNEL, many=_kernel, fast=True, missing=absent),
-        Engine(HEYOKA, many=_heyoka, fast=True, missing=_absent("heyoka")),
-        Engine(HEYOKA_ALONE, many=_heyoka_alone, fast=True, missing=_absent("heyoka")),
+        Engine(HEYOKA, many=partial(_heyoka, False), fast=True, missing=_absent("heyoka")),
+        Engine(HEYOKA_ALONE, many=partial(_heyoka, True), fast=True, missing=_absent("heyoka")),
         Engine("diffrax Tsit5", many=_diffrax, missing=_absent("diffrax")),
         Engine("scipy LSODA", one=partial(_peer, "LSODA"), builds=False, missing=scipy),
         Engine("scipy Radau", one=partial(_peer, "Radau"), builds=False, missing=scipy),
@@ -108,34 +108,27 @@ def _kernel(scene: Scene, impacts: Sequence[Impact], rtol: float) -> Bulk:
     return Bulk(lambda: run_kernel(given, rtol), read)
 
 
-def _heyoka(scene: Scene, impacts: Sequence[Impact], rtol: float) -> Bulk:
-    """All collisions through one queue."""
-    from .heyoka_engine import collisions
+def _heyoka(alone: bool, scene: Scene, impacts: Sequence[Impact], rtol: float) -> Bulk:
+    """All collisions through one queue.
 
-    return _queue(collisions(scene, impacts, min(rtol, LOOSEST)))  # looser, its energy misses the level of a proof
-
-
-def _heyoka_alone(scene: Scene, impacts: Sequence[Impact], rtol: float) -> Bulk:
-    """The same, of which the time in Python does not count: no more than somebody who calls it from C++ would wait."""
+    Arguments:
+        alone: the time in Python's callbacks does not count: no more than somebody waits who calls it from C++.
+    """
     from .heyoka_callbacks import Inside
     from .heyoka_engine import collisions
 
-    inside = Inside()
-    bulk = _queue(collisions(scene, impacts, min(rtol, LOOSEST), watch=inside))
+    inside = Inside()  # looser than LOOSEST, its energy misses the level of a proof
+    batch = collisions(scene, impacts, min(rtol, LOOSEST), watch=inside if alone else None)
 
     def run() -> None:
         inside.reset()
-        bulk.run()
+        batch.run()
 
-    return Bulk(Partly(run, inside.left_out), bulk.read)
-
-
-def _queue(batch: Any) -> Bulk:
     def read(_: None) -> list[Answer | str]:
         pairs = zip(batch.outcomes, batch.restitutions)
         return [Answer(outcome, e_n) if outcome else "not decided" for outcome, e_n in pairs]
 
-    return Bulk(batch.run, read)
+    return Bulk(Partly(run, inside.left_out) if alone else run, read)
 
 
 def _diffrax(scene: Scene, impacts: Sequence[Impact], rtol: float) -> Bulk:

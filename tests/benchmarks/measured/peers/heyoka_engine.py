@@ -12,14 +12,12 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
-from wetdoublet.solvers.errors import ComputationError
 from wetdoublet.solvers.model.dimensionless import DimensionlessGroups
 from wetdoublet.solvers.model.key import ModelKey
-from wetdoublet.solvers.model.model import load, select_model
 from wetdoublet.solvers.scene.scene import Scene
 
 from ..answers import Impact, dimensionless
-from .automaton import CERTIFIED, Automaton
+from .automaton import CERTIFIED, Automaton, automata
 from .heyoka_callbacks import Inside
 from .translated import translated
 
@@ -142,6 +140,31 @@ class Batch:
     outcomes: list[str] = field(default_factory=list)
     restitutions: list[float] = field(default_factory=list)
 
+    def build(self, rates: Any, events: Mapping[str, Any], rtol: float, watch: Inside | None) -> None:
+        """Compile the integrator; `watch` takes the time within callbacks."""
+        import heyoka
+
+        either, falling = heyoka.event_direction.any, heyoka.event_direction.negative
+        self.lanes = [Lane() for _ in range(BATCH)]
+        first = self.starts[0]
+        self.integrator = heyoka.taylor_adaptive_batch(
+            rates,
+            state=np.repeat(first.state[:, None], BATCH, axis=1),
+            pars=np.repeat(first.parameters[:, None], BATCH, axis=1),
+            t_events=[
+                heyoka.t_event_batch(
+                    guard,
+                    callback=watch.watched(self.callback(name)) if watch else self.callback(name),
+                    direction=either if name == "film_edge" else falling,
+                )
+                for name, guard in events.items()
+            ],
+            tol=rtol,
+            compact_mode=False,
+            force_avx512=True,
+            fast_math=True,
+        )
+
     def run(self) -> None:
         """All collisions, once."""
         ta, count = self.integrator, len(self.starts)
@@ -219,13 +242,7 @@ class Batch:
 
 
 def prepare(
-    scene: Scene,
-    numbers: Sequence[DimensionlessGroups],
-    rtol: float,
-    size: int = BATCH,
-    inside: bool = False,
-    watch: Inside | None = None,
-    **options: Any,
+    scene: Scene, numbers: Sequence[DimensionlessGroups], rtol: float, inside: bool = False, watch: Inside | None = None
 ) -> Batch:
     """An integrator for these collisions, compiled, with its queue.
 
@@ -234,21 +251,13 @@ def prepare(
             is not proved without.
         watch: takes the time within callbacks.
 
-    ComputationError for what it does not do: a tangential edge within reach, a mixture of head-on and oblique.
+    ComputationError as of `automata`.
     """
-    import heyoka
-
-    choice = select_model(scene, numbers[0].oblique)
-    if any(select_model(scene, each.oblique) != choice for each in numbers):
-        raise ComputationError("head-on and oblique collisions are different structures")
-    model = load(choice)
-    automata = [Automaton(model, each.groups, rtol) for each in numbers]
-    if any(automaton.watch.tangential_edge for automaton in automata):
-        raise ComputationError("the tangential edge lies within reach")
-    proved = automata[0].proof
-    equations = system(choice, [each.groups for each in numbers], proved, inside)
+    followed = automata(scene, numbers, rtol)
+    proved = followed[0].proof
+    equations = system(followed[0].model.choice, [each.groups for each in numbers], proved, inside)
     batch = Batch(dry=numbers[0].groups["dry_restitution"], film=len(equations.varying))
-    batch.starts = starts(automata, numbers, equations.varying)
+    batch.starts = starts(followed, equations.varying)
     if inside:
         for start in batch.starts:  # just below the outermost barrier
             outermost = max((barrier.gap for barrier in start.automaton.barriers), default=0.0)
@@ -256,41 +265,21 @@ def prepare(
     if not proved:  # heyoka wants no parameter that is not used
         for start in batch.starts:
             start.parameters = start.parameters[:-1]
-    batch.lanes = [Lane() for _ in range(size)]
-    either, falling = heyoka.event_direction.any, heyoka.event_direction.negative
-    events = [
-        heyoka.t_event_batch(
-            expression,
-            callback=watch.watched(batch.callback(name)) if watch else batch.callback(name),
-            direction=either if name == "film_edge" else falling,
-        )
-        for name, expression in equations.events.items()
-    ]
-    first = batch.starts[0]
-    batch.integrator = heyoka.taylor_adaptive_batch(
-        equations.rates,
-        state=np.repeat(first.state[:, None], size, axis=1),
-        pars=np.repeat(first.parameters[:, None], size, axis=1),
-        t_events=events,
-        tol=rtol,
-        **({"compact_mode": False, "force_avx512": True, "fast_math": True} | options),
-    )
+    batch.build(equations.rates, equations.events, rtol, watch)
     return batch
 
 
-def starts(
-    automata: Sequence[Automaton], numbers: Sequence[DimensionlessGroups], varying: Sequence[str]
-) -> list[Start]:
+def starts(followed: Sequence[Automaton], varying: Sequence[str]) -> list[Start]:
     """State and parameters at initial contact; one that meets a criterion there rebounds there.
 
     Parameters are the groups named, then film, active and level.
     """
     begun = []
-    for automaton, number in zip(automata, numbers):
+    for automaton in followed:
         if word := automaton.criterion():
             automaton.rebound(word)
         level, film = automaton.level(automaton.y), float(automaton.phase.film)
-        parameters = [*(number.groups[name] for name in varying), film, 1.0, _NEVER if level is None else level]
+        parameters = [*(automaton.groups[name] for name in varying), film, 1.0, _NEVER if level is None else level]
         begun.append(Start(automaton.y, np.array(parameters), automaton.reversed, automaton))
     return begun
 

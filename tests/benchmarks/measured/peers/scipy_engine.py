@@ -45,11 +45,11 @@ class Equations:
 
 
 @lru_cache(maxsize=256)
-def equations(flow: Flow, watch: WatchedEvents) -> Equations:
+def equations(flow: Flow) -> Equations:
     """The equations of a flow for an external integrator; the parameters are groups, motion and level."""
     parts = expressions(flow)
     motion, level = SX.sym("motion"), SX.sym("level")
-    table = event_table(flow, watch, motion)
+    table = event_table(flow, WatchedEvents(), motion)
     dips = tuple(k for k, event in enumerate(table) if event.dips)
     guards = {event.name: event.function for event in table}
     if proof_of(flow.model):
@@ -77,7 +77,7 @@ class ScipyAutomaton(Automaton):
 
     def integrated(self, flow: Flow, span: float) -> Hit:
         """Integrate to the first event, or to the end of the span."""
-        smooth, level = equations(flow, self.watch), self.level(self.y)
+        smooth, level = equations(flow), self.level(self.y)
         parameters = np.append(self.p, [self.phase.motion, _UNREACHABLE if level is None else level])
         rates, table, jacobian = (Buffered(each, (0, 1)) for each in (smooth.rates, smooth.table, smooth.jacobian))
         size = self.y.size
