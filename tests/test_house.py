@@ -17,7 +17,7 @@ Graph = dict[str, set[str]]
 # From what stands on nothing to what nothing stands on. A room imports from rooms above it in this list, never below.
 ORDER = (
     "derive.vocabulary", "derive.physics", "derive.equations", "derive.user", "derive.emit", "derive.checks",
-    "generated", "solvers.errors", "solvers.host", "solvers.formatting", "solvers.scene",
+    "generated", "solvers.errors", "solvers.host", "solvers.results", "solvers.formatting", "solvers.scene",
     "solvers.model", "solvers.engines", "solvers.collision", "solvers.many",
     "solvers.proofs", "solvers.space", "solvers.changes", "solvers.boundaries", "solvers.sensitivity",
     "solvers.averages", "solvers.fitting", "solvers.planning", "solvers.verify", "solvers.export",

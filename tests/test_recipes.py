@@ -73,7 +73,7 @@ LAW = [  # an entry of BRIDGES, and its name among the scene's
     ("solvers/scene/schema.py", '"soulie", "constant"', '{}, "halved"'),
 ]
 RESULT = [  # its row, and its expression
-    ("solvers/sensitivity/results.py", '    Quantity("contact_time"', '    Quantity("lost_speed", "1"),\n{}'),
+    ("solvers/results.py", "_COLLISION = (\n", '{}    Definition("lost_speed", "1", "", derivative="casadi"),\n'),
     (
         "solvers/sensitivity/by_casadi.py",
         '    if "strings" in energies:\n',

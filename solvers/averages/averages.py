@@ -17,10 +17,10 @@ from ..host.cores import usable_cores
 from ..host.outputs import check_file
 from ..host.progress import Progress
 from ..host.workers import in_workers
-from ..many.batch import checked_numbers
+from ..many.arguments import checked_numbers
 from ..many.blocks import kept
+from ..many.impacts import software
 from ..many.results import fill
-from ..many.scan import software
 from ..model.validity import warn
 from ..scene.scene import Scene
 from ..scene.schema import MEETING, Field, Range

@@ -10,11 +10,10 @@ from ..engines.settings import check_rtol
 from ..errors import ComputationError, InputError
 from ..host.arguments import check_names
 from ..many.collide_many import collide_many
-from ..many.results import FAILED
+from ..results import DIFFERENTIATED, FAILED
 from ..scene.scene import Scene
 from ..sensitivity.gradients_many import gradients_many
 from ..sensitivity.parameters import check_wrt
-from ..sensitivity.results import DIFFERENTIATED
 
 OUTCOME = "outcome"
 CHOICES = ("nan", "zero", "raise")

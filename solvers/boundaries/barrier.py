@@ -113,7 +113,8 @@ class Potential:
         """A result of an emitted function at these gaps, with the momenta of a state."""
         states = np.repeat(y[: len(self.model.state), None], gaps.size, axis=1)
         states[0] = gaps
-        return np.asarray(self.model.function(name)(states, self.p).full())[row]
+        values: np.ndarray = np.asarray(self.model.function(name)(states, self.p).full())[row]
+        return values
 
 
 def _panels(integrand: Callable[[np.ndarray], np.ndarray], edges: np.ndarray) -> np.ndarray:

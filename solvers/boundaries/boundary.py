@@ -10,7 +10,7 @@ from ..engines.settings import RTOL, check_rtol
 from ..errors import InputError
 from ..host.arguments import check_function, check_whole
 from ..host.cores import usable_cores
-from ..many.batch import checked_numbers, checked_span
+from ..many.arguments import checked_numbers, checked_span
 from ..model.validity import warn
 from ..scene.scene import Scene
 from .plane import ANGLE, check_plane

@@ -11,8 +11,9 @@ from ..engines.taylor.call import run_kernel
 from ..engines.taylor.record import run_recorded
 from ..errors import ComputationError, InputError
 from ..host.cores import usable_cores
-from ..many.batch import Batch, ascending, checked_numbers, checked_vary
+from ..many.arguments import ascending, checked_numbers, checked_vary
 from ..many.by_kernel import impacts_of
+from ..many.impacts import Impacts
 from ..scene.scene import Scene
 from .window import STOKES, stokes_range
 
@@ -120,19 +121,11 @@ class Plane:
         criteria[sound] = np.where(answers["status"] <= LAST_ANSWER, answers["reversal"], -2)
         return criteria
 
-    def _request(self, points: np.ndarray) -> Batch:
+    def _request(self, points: np.ndarray) -> Impacts:
         x, size = self.x(points), points.shape[0]
         angle = x if self.over == ANGLE else np.full(size, float(self.scene.angle or 0.0))
-        return Batch(
-            scene=self.scene,
-            stokes=self.stokes_at(points),
-            speed=None,
-            angle=angle,
-            vary={} if self.over == ANGLE else {self.over: x},
-            rtol=self.rtol,
-            engine="taylor",
-            of=(),
-        )
+        columns = {"impact.stokes": self.stokes_at(points), "impact.angle": angle, self.over: x}
+        return Impacts.listed(self.scene, columns, self.rtol, "taylor")
 
 
 def check_plane(scene: Scene, over: str, span: Any, stokes: Any, rtol: float, label: str = "over") -> Plane:

@@ -16,7 +16,7 @@ from ..collision.text import name_of
 from ..engines.settings import RTOL
 from ..formatting.notebook import view
 from ..host.pictures import Drawn
-from ..many.results import outcome_attributes
+from ..results import outcome_attributes
 from ..scene.origin import origin
 from ..scene.quantities import quantities
 from ..scene.scene import Scene

@@ -110,7 +110,7 @@ class SceneSampler:
         """The reason why a collision at an angle and between two Stokes numbers is not decided."""
         for stokes in (stokes for at, stokes in self.undecided if at == angle and low <= stokes <= high):
             try:
-                recorded(self.scene, nondimensionalise(self.scene, self.scene.speed_of(stokes), angle), self.rtol)
+                recorded(nondimensionalise(self.scene, self.scene.speed_of(stokes), angle), self.rtol)
             except (ComputationError, InputError) as error:
                 return str(error)
         return "no collision could be computed"

@@ -17,9 +17,11 @@ from ...generated.automaton import LAST_ANSWER
 from ..engines.choice import differentiates
 from ..engines.settings import KERNEL_STEPS
 from ..engines.taylor.call import Impacts, run_kernel
-from ..engines.taylor.tangent import COLUMNS, run_tangent
+from ..engines.taylor.layout import derivative_column, result
+from ..engines.taylor.tangent import run_tangent
 from ..errors import ComputationError
 from ..many.by_kernel import admissible
+from ..results import DEFINITIONS
 from ..scene.quantities import quantities
 from ..scene.scene import Scene
 from ..scene.schema import MEETING
@@ -32,13 +34,6 @@ LENGTHS = ("solids", "touch", "apart")
 """Distances of the centres (m) of touching solids and at both ends of contact, of rows that need them."""
 
 _HEAD_ON = 1e-12  # angle (rad) below which an impact is head-on: rounding on a line along the speeds
-_PLACES: dict[str, tuple[int, int | str]] = {  # column of the derivative, field of the value
-    "restitution": (0, 0),
-    "tangential_restitution": (1, 1),
-    "contact_time": (COLUMNS["time"], "time"),
-    "rotation": (COLUMNS["turned"], "turned"),
-}
-_TIMES = {"contact_time", "rotation"}  # these need every step of a trajectory
 
 
 def free_names(scene: Scene) -> tuple[str, ...]:
@@ -182,9 +177,11 @@ class Experiment:
 
     def plain(self, names: tuple[str, ...], row: np.ndarray, speed: np.ndarray, angle: np.ndarray) -> np.ndarray:
         """The results alone, (results, impacts): of long trajectories in a fraction of the time."""
-        answers = self.answers(row, speed, angle, "rotation" in names, jumps=0 if _TIMES & set(names) else 2)
+        answers = self.answers(
+            row, speed, angle, "rotation" in names, jumps=min(DEFINITIONS[name].jumps for name in names)
+        )
         done = (answers["status"] <= LAST_ANSWER) & (answers["outcome"] > 0)
-        results = np.stack([np.where(done, _value(answers, name), np.nan) for name in names])
+        results = np.stack([np.where(done, result(answers, name), np.nan) for name in names])
         for k, name in enumerate(names):
             if name == "contact_time":
                 results[k] *= self.columns["film_thickness"][self._share(row)] / speed
@@ -241,8 +238,8 @@ class Experiment:
         done = answers["status"] <= LAST_ANSWER
         results.outcome[which] = np.where(done, answers["outcome"], UNDECIDED)
         for k, name in enumerate(names):
-            value = _value(answers, name)
-            by = {one: slopes[:, run.quantities.index(one), _PLACES[name][0]] for one in moved if one in run.quantities}
+            value, column = result(answers, name), derivative_column(name)
+            by = {one: slopes[:, run.quantities.index(one), column] for one in moved if one in run.quantities}
             by_speed, by_angle = by.pop("speed").copy(), by.pop("angle", np.zeros(which.size)).copy()
             free = np.zeros((which.size, len(self.rows.names)))
             for one, each in by.items():
@@ -275,11 +272,6 @@ def check_derivatives(scene: Scene) -> None:
     """Raise ComputationError unless the kernel differentiates the scene's collisions on this machine."""
     if not differentiates(scene, (True,)):
         raise _without_derivatives()
-
-
-def _value(answers: np.ndarray, name: str) -> np.ndarray:
-    where = _PLACES[name][1]
-    return (answers[where] if isinstance(where, str) else answers["shown"][:, where]).copy()
 
 
 def _without_derivatives() -> ComputationError:

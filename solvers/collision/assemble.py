@@ -6,8 +6,7 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
-from ..model.dimensionless import DimensionlessGroups, generalised_centrifugal
-from ..scene.scene import Scene
+from ..model.dimensionless import Problem
 from .outcome import Energy, Event
 from .result import Collision
 
@@ -16,8 +15,7 @@ if TYPE_CHECKING:
 
 
 def assembled(
-    scene: Scene,
-    n: DimensionlessGroups,
+    problem: Problem,
     *,
     outcome: str,
     reversal: str | None,
@@ -48,38 +46,38 @@ def assembled(
         drift: |L/L(0) - 1| at the end; None where the angular momentum L is not conserved.
         decided: time (x0/v0) at which a stick was certain; None: at the end.
     """
-    separated = outcome != "stick"
-    end = time * n.time
+    separated, scene = outcome != "stick", problem.scene
+    end = time * problem.time
 
     def rate(name: str) -> float | None:
         if not separated:
             return None
-        return outputs[name] * n.rate if n.oblique else 0.0
+        return outputs[name] * problem.rate if problem.oblique else 0.0
 
     partner = "final_spin_partner" if "final_spin_partner" in outputs else "final_spin"
     return Collision(
         outcome=outcome,
         restitution=outputs["restitution"] if separated else 0.0,
-        tangential_restitution=outputs["tangential_restitution"] if separated and n.angle > 0 else None,
-        slip_restitution=slip if separated and n.oblique and math.isfinite(slip) else None,
+        tangential_restitution=outputs["tangential_restitution"] if separated and problem.angle > 0 else None,
+        slip_restitution=slip if separated and problem.oblique and math.isfinite(slip) else None,
         rotation=rotation if separated else None,
         contact_time=end if separated else None,
-        smallest_gap=smallest_gap * n.length if separated else None,
+        smallest_gap=smallest_gap * problem.length if separated else None,
         final_spin=rate("final_spin"),
         final_spin_partner=0.0 if separated and scene.wall else rate(partner) if scene.pair else None,
         final_rotation_rate=rate("final_rotation_rate"),
-        stokes=n.stokes,
-        centrifugal=n.centrifugal,
-        generalised_centrifugal=generalised_centrifugal(scene, n),
-        capillary=n.capillary,
-        reynolds=n.reynolds,
-        speed=n.speed,
-        angle=n.angle,
+        stokes=problem.stokes,
+        centrifugal=problem.centrifugal,
+        generalised_centrifugal=problem.generalised_centrifugal,
+        capillary=problem.capillary,
+        reynolds=problem.reynolds,
+        speed=problem.speed,
+        angle=problem.angle,
         reversal=reversal,
         certified=certified and not separated,
         until=None if separated else end,
-        decided=None if separated else end if decided is None else decided * n.time,
-        events=tuple(Event(kind, at * n.time) for kind, at in events),
+        decided=None if separated else end if decided is None else decided * problem.time,
+        events=tuple(Event(kind, at * problem.time) for kind, at in events),
         energy=energy,
         angular_momentum_drift=drift,
         engine=engine,

@@ -14,11 +14,11 @@ from ..engines.taylor.call import Impacts
 from ..engines.taylor.record import Recorded, run_recorded
 from ..engines.taylor.undecided import SEPARATES, undecided
 from ..errors import ComputationError
-from ..model.dimensionless import DimensionlessGroups
-from ..model.model import load, select_model
+from ..model.dimensionless import Problem
+from ..results import TERMS
 from ..scene.scene import Scene
 from .assemble import assembled
-from .outcome import KERNEL_TERMS, Energy, absent_terms
+from .outcome import Energy, absent_terms
 from .result import Collision
 
 if TYPE_CHECKING:
@@ -33,12 +33,7 @@ def words_of(scene: Scene) -> tuple[str, ...]:
 
 
 def recorded(
-    scene: Scene,
-    n: DimensionlessGroups,
-    rtol: float,
-    ledger: bool = False,
-    trajectory: bool = False,
-    until: float | None = None,
+    problem: Problem, rtol: float, ledger: bool = False, trajectory: bool = False, until: float | None = None
 ) -> Recorded:
     """One collision by the kernel, with its events.
 
@@ -48,26 +43,26 @@ def recorded(
     Raises:
         ComputationError: phase, time and state, in SI, if the outcome is not decided; or there is no kernel.
     """
-    impact = Impacts(scene, np.array([n.speed]), np.array([n.angle]), {})
-    ran = run_recorded(impact, n.oblique, rtol, ledger, trajectory, until=until)
-    answer, words = ran.answers[0], words_of(scene)
+    impact = Impacts(problem.scene, np.array([problem.speed]), np.array([problem.angle]), {})
+    ran = run_recorded(impact, problem.oblique, rtol, ledger, trajectory, until=until)
+    answer, words = ran.answers[0], words_of(problem.scene)
     if answer["status"] > LAST_ANSWER:
-        happened = [words[kind] for kind in ran.events[0, : answer["events"]]["kind"].tolist()]
-        declared = next((word for word in reversed(happened) if word not in KINDS), "")
-        states = load(select_model(scene, n.oblique, full=ledger, fold=True)).state
-        raise n.in_si(undecided(answer, tuple(states), declared))
+        log = ran.events[0, : answer["events"]]
+        declared = next((word for word in (words[kind] for kind in log["kind"][::-1]) if word not in KINDS), "")
+        states = problem.model(full=ledger).state
+        raise problem.in_si(undecided(answer, tuple(states), declared, bool(log["resting"][-1:].any())))
     if until is not None and answer["outcome"] > 0:
         raise ComputationError(f"a stick that is decided, not proved, {SEPARATES}", advice="leave out --until")
     return ran
 
 
-def followed(scene: Scene, n: DimensionlessGroups, rtol: float, until: float | None, **options: bool) -> Followed:
+def followed(problem: Problem, rtol: float, until: float | None, **options: bool) -> Followed:
     """One collision by the kernel; a stick is followed on up to a time (s) beyond its decision."""
-    ran = recorded(scene, n, rtol, **options)
+    ran = recorded(problem, rtol, **options)
     decided = float(ran.answers["time"][0])
-    if until is None or ran.answers["outcome"][0] > 0 or not decided < until / n.time:
+    if until is None or ran.answers["outcome"][0] > 0 or not decided < until / problem.time:
         return Followed(ran, None)
-    return Followed(recorded(scene, n, rtol, **options, until=until / n.time), decided)
+    return Followed(recorded(problem, rtol, **options, until=until / problem.time), decided)
 
 
 class Followed(NamedTuple):
@@ -77,20 +72,17 @@ class Followed(NamedTuple):
     decided: float | None
 
 
-def sequence_of(scene: Scene, n: DimensionlessGroups, rtol: float, until: float | None = None) -> EventSequence:
+def sequence_of(problem: Problem, rtol: float, until: float | None = None) -> EventSequence:
     """The phases and events of one collision, as the kernel finds them; `until` (s) as for `followed`."""
-    record, decided = followed(scene, n, rtol, until, ledger=True)
-    answer, model = record.answers[0], load(select_model(scene, n.oblique, full=True, fold=True))
-    return sequence(answer, record.events[0, : answer["events"]], words_of(scene), model, n.groups, decided)
+    record, decided = followed(problem, rtol, until, ledger=True)
+    answer, model = record.answers[0], problem.model(full=True)
+    return sequence(
+        answer, record.events[0, : answer["events"]], words_of(problem.scene), model, problem.groups, decided
+    )
 
 
 def collision(
-    scene: Scene,
-    n: DimensionlessGroups,
-    rtol: float,
-    ledger: bool = False,
-    trajectory: bool = False,
-    until: float | None = None,
+    problem: Problem, rtol: float, ledger: bool = False, trajectory: bool = False, until: float | None = None
 ) -> Collision:
     """The collision by one call of the kernel.
 
@@ -102,17 +94,16 @@ def collision(
     Raises:
         ComputationError: as `recorded`; or the energy ledger is open, as the trajectory is then wrong.
     """
-    record, decided = followed(scene, n, rtol, until, ledger=ledger, trajectory=trajectory)
+    record, decided = followed(problem, rtol, until, ledger=ledger, trajectory=trajectory)
     answer, books = _row(record.answers), None if record.ledger is None else _row(record.ledger)
-    energy = None if books is None else _energy(scene, n, books)
+    energy = None if books is None else _energy(problem, books)
     separated = answer["outcome"] > 0
     if energy is not None and separated:
         energy.check(rtol)
-    names, words = load(select_model(scene, n.oblique, fold=True)).names("outputs"), words_of(scene)
+    names, words = problem.model().names("outputs"), words_of(problem.scene)
     log = record.events[0, : answer["events"]]
     return assembled(
-        scene,
-        n,
+        problem,
         outcome=OUTCOMES[answer["outcome"]],
         reversal=KINDS[answer["reversal"]] if answer["reversal"] >= 0 else None,
         certified=bool(answer["certified"]),
@@ -127,8 +118,8 @@ def collision(
         decided=decided,
         rtol=rtol,
         energy=energy,
-        drift=None if books is None else _drift(scene, n, books),
-        trajectory=_trajectory(scene, n, rtol, record, ledger) if trajectory else None,
+        drift=None if books is None else _drift(problem, books),
+        trajectory=_trajectory(problem, rtol, record, ledger) if trajectory else None,
     )
 
 
@@ -137,32 +128,32 @@ def _row(rows: np.ndarray) -> dict[str, Any]:
     return dict(zip(rows.dtype.names or (), rows[0].tolist(), strict=True))
 
 
-def _energy(scene: Scene, n: DimensionlessGroups, books: Mapping[str, float]) -> Energy:
-    terms = {name: books[field] * n.energy for name, field in KERNEL_TERMS.items()}
-    terms |= {"own_events": books["own_events"] * n.energy} if "own_events" in books else {}
-    absent = absent_terms(scene) | (set() if n.oblique else {"dry_friction"})
+def _energy(problem: Problem, books: Mapping[str, float]) -> Energy:
+    terms = {name: books[field] * problem.energy for name, field in TERMS.items()}
+    terms |= {"own_events": books["own_events"] * problem.energy} if "own_events" in books else {}
+    absent = absent_terms(problem.scene) | (set() if problem.oblique else {"dry_friction"})
     return Energy(**{"strings": 0.0} | {name: value for name, value in terms.items() if name not in absent})
 
 
-def _drift(scene: Scene, n: DimensionlessGroups, books: Mapping[str, float]) -> float | None:
+def _drift(problem: Problem, books: Mapping[str, float]) -> float | None:
     """|L/L(0) - 1| at the end; None with strings or a wall, which exert a torque; 0 head-on."""
-    if scene.pendulum is not None or (scene.wall and n.oblique):
+    if problem.scene.pendulum is not None or (problem.scene.wall and problem.oblique):
         return None
-    return abs(books["momentum"] - 1.0) if n.oblique else 0.0
+    return abs(books["momentum"] - 1.0) if problem.oblique else 0.0
 
 
-def _trajectory(scene: Scene, n: DimensionlessGroups, rtol: float, recorded: Recorded, full: bool) -> xarray.Dataset:
+def _trajectory(problem: Problem, rtol: float, recorded: Recorded, full: bool) -> xarray.Dataset:
     from ..engines.casadi.trajectory import attributes, dataset  # imports xarray
     from ..model.rebound import rebounded
 
     assert recorded.steps is not None
-    model = load(select_model(scene, n.oblique, full=full, fold=True))
-    attrs = attributes(scene, OUTCOMES[recorded.answers["outcome"][0]], "taylor", rtol)
-    p = model.group_values(n.groups)
+    model = problem.model(full=full)
+    attrs = attributes(problem.scene, OUTCOMES[recorded.answers["outcome"][0]], "taylor", rtol)
+    p = model.group_values(problem.groups)
     first, reversal = model.start(p), int(recorded.answers["reversal"][0])
     if reversal >= 0:  # where initial contact decides, the state after it
         first = rebounded(model, KINDS[reversal], first, p).after
-    return dataset([*_stretches(recorded.steps, len(model.state))], model, n, first, attrs)
+    return dataset([*_stretches(recorded.steps, len(model.state))], model, problem, first, attrs)
 
 
 def _stretches(steps: Steps, states: int) -> Iterator[Stretch]:

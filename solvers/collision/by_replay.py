@@ -13,9 +13,8 @@ from ..engines.casadi.integrators import tolerance_for
 from ..engines.casadi.replay import Replay, Stopped, replayed
 from ..engines.casadi.sequence import EventSequence
 from ..errors import ComputationError
-from ..model.dimensionless import DimensionlessGroups
-from ..model.model import Model, load, select_model, slip_restitution
-from ..scene.scene import Scene
+from ..model.dimensionless import Problem
+from ..model.model import Model, load, slip_restitution
 from .assemble import assembled
 from .by_kernel import collision, followed, sequence_of
 from .outcome import Energy
@@ -28,13 +27,7 @@ _LEDGER = ("normal_lubrication", "tangential_lubrication", "capillary", "attract
 
 
 def by_replay(
-    scene: Scene,
-    n: DimensionlessGroups,
-    rtol: float,
-    plugin: str,
-    ledger: bool,
-    trajectory: bool,
-    until: float | None = None,
+    problem: Problem, rtol: float, plugin: str, ledger: bool, trajectory: bool, until: float | None = None
 ) -> Collision:
     """One collision by CVODES or Rosenbrock: they integrate the phases that the kernel has found, and watch its events.
 
@@ -46,22 +39,21 @@ def by_replay(
     Raises:
         ComputationError: the replay does not agree with the kernel's record, or the engine gives up.
     """
-    choice = select_model(scene, n.oblique, full=ledger or trajectory, fold=True)
+    choice = problem.key(full=ledger or trajectory)
     model = load(choice)
-    p = model.group_values(n.groups)
-    found = partial(sequence_of, scene, n, until=until)
+    p = model.group_values(problem.groups)
+    found = partial(sequence_of, problem, until=until)
     try:
         path, replay = replayed(found, choice, quadratures(model, ledger), plugin, rtol)
     except Stopped as stopped:
-        if not _confirmed(scene, n, rtol, plugin, until):
-            raise n.in_si(stopped.error(plugin, model)) from None
-        return collision(scene, n, rtol, ledger, trajectory, until)
-    energy = _energy(model, replay, p, n) if ledger else None
+        if not _confirmed(problem, rtol, plugin, until):
+            raise problem.in_si(stopped.error(plugin, model)) from None
+        return collision(problem, rtol, ledger, trajectory, until)
+    energy = _energy(model, replay, p, problem) if ledger else None
     if energy is not None and path.separated:
         energy.check(rtol)
     return assembled(
-        scene,
-        n,
+        problem,
         outcome=path.outcome,
         reversal=path.reversal,
         certified=path.certified,
@@ -77,17 +69,17 @@ def by_replay(
         rtol=rtol,
         energy=energy,
         drift=_drift(model, replay, p) if ledger else None,
-        trajectory=_trajectory(scene, path, replay, model, n, plugin, rtol) if trajectory else None,
+        trajectory=_trajectory(problem, path, replay, model, plugin, rtol) if trajectory else None,
     )
 
 
-def _confirmed(scene: Scene, n: DimensionlessGroups, rtol: float, plugin: str, until: float | None) -> bool:
+def _confirmed(problem: Problem, rtol: float, plugin: str, until: float | None) -> bool:
     """True if the kernel's trajectory agrees with the equations step by step."""
-    choice = select_model(scene, n.oblique, full=True, fold=True)
+    choice = problem.key(full=True)
     try:
-        record, _ = followed(scene, n, rtol, until, ledger=True, trajectory=True)
+        record, _ = followed(problem, rtol, until, ledger=True, trajectory=True)
         assert record.steps is not None  # requested
-        confirm(sequence_of(scene, n, rtol, until), record.steps, choice, plugin, rtol)
+        confirm(sequence_of(problem, rtol, until), record.steps, choice, plugin, rtol)
     except (ComputationError, Stopped):
         return False
     return True
@@ -105,7 +97,7 @@ def _rotation(replay: Replay, model: Model) -> float:
     return replay.extra("rotation") if "rotation" in replay.extras else 0.0
 
 
-def _energy(model: Model, replay: Replay, p: np.ndarray, n: DimensionlessGroups) -> Energy:
+def _energy(model: Model, replay: Replay, p: np.ndarray, problem: Problem) -> Energy:
     first, last = (model.values("energies", y, p) for y in (model.start(p), replay.y))
     spent = {name: replay.extra(name) if name in replay.extras else 0.0 for name in _LEDGER}
     terms = spent | {"initial": first["kinetic"], "final": last["kinetic"], "dry_contact": replay.dry_loss}
@@ -114,7 +106,7 @@ def _energy(model: Model, replay: Replay, p: np.ndarray, n: DimensionlessGroups)
     terms["own_events"] = replay.own_loss
     absent = {"attraction": "attraction" not in model.works, "dry_friction": not model.friction}
     absent["own_events"] = not model.own_events
-    return Energy(**{name: value * n.energy for name, value in terms.items() if not absent.get(name)})
+    return Energy(**{name: value * problem.energy for name, value in terms.items() if not absent.get(name)})
 
 
 def _drift(model: Model, replay: Replay, p: np.ndarray) -> float | None:
@@ -127,14 +119,14 @@ def _drift(model: Model, replay: Replay, p: np.ndarray) -> float | None:
 
 
 def _trajectory(
-    scene: Scene, path: EventSequence, replay: Replay, model: Model, n: DimensionlessGroups, plugin: str, rtol: float
+    problem: Problem, path: EventSequence, replay: Replay, model: Model, plugin: str, rtol: float
 ) -> xarray.Dataset:
     from ..engines.casadi.trajectory import attributes, dataset, stretch  # imports xarray
 
-    attrs = attributes(scene, path.outcome, plugin, rtol)
-    tolerance, p = tolerance_for(rtol, plugin, n.groups), model.group_values(n.groups)
+    attrs = attributes(problem.scene, path.outcome, plugin, rtol)
+    tolerance, p = tolerance_for(rtol, plugin, problem.groups), model.group_values(problem.groups)
     pieces = [stretch(piece, model, replay, p, plugin, tolerance) for piece in replay.pieces]
     try:
-        return dataset(pieces, model, n, replay.y, attrs)
+        return dataset(pieces, model, problem, replay.y, attrs)
     except ComputationError as error:
-        raise n.in_si(error) from None
+        raise problem.in_si(error) from None

@@ -7,7 +7,7 @@ from ...generated.automaton import STICK
 from ..engines.settings import UNTIL, check_engine, check_rtol
 from ..errors import ComputationError
 from ..host.arguments import check_flag
-from ..model.dimensionless import DimensionlessGroups, nondimensionalise
+from ..model.dimensionless import Problem, nondimensionalise
 from ..model.validity import warn
 from ..scene.scene import Scene
 from .by_kernel import collision
@@ -68,9 +68,9 @@ def collide(
     last = None if until is None else UNTIL.number(until)
     loaded = Scene.load(scene).with_impact(stokes, speed, angle, relative_speed)
     v0, theta0 = loaded.need_impact()
-    dimensionless = nondimensionalise(loaded, v0, theta0)
+    problem = nondimensionalise(loaded, v0, theta0)
     warn(loaded)
-    result = integrated(loaded, dimensionless, rtol, requested, ledger, trajectory, last)
+    result = integrated(problem, rtol, requested, ledger, trajectory, last)
     return _proved(result, loaded) if proof else result
 
 
@@ -88,17 +88,11 @@ def _proved(result: Collision, scene: Scene) -> Collision:
 
 
 def integrated(
-    scene: Scene,
-    n: DimensionlessGroups,
-    rtol: float,
-    engine: str | None,
-    ledger: bool,
-    trajectory: bool,
-    until: float | None = None,
+    problem: Problem, rtol: float, engine: str | None, ledger: bool, trajectory: bool, until: float | None = None
 ) -> Collision:
     """The collision by the kernel, or as an engine of CasADi replays it; `until` in s."""
     if engine in (None, "taylor"):
-        return collision(scene, n, rtol, ledger, trajectory, until)
+        return collision(problem, rtol, ledger, trajectory, until)
     from .by_replay import by_replay
 
-    return by_replay(scene, n, rtol, engine, ledger, trajectory, until)
+    return by_replay(problem, rtol, engine, ledger, trajectory, until)

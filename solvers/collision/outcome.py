@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..errors import ComputationError
 from ..model.validity import NEEDS, sentences
+from ..results import OF_SEPARATION, UNITS
 from ..scene.origin import origin
 from ..scene.scene import Scene
 
@@ -16,36 +17,12 @@ if TYPE_CHECKING:
 
     from ..engines.interval.prove import Proof
 
-UNITS = {
-    "restitution": "1", "tangential_restitution": "1", "slip_restitution": "1",
-    "rotation": "rad", "contact_time": "s", "smallest_gap": "m",
-    "final_spin": "rad/s", "final_spin_partner": "rad/s", "final_rotation_rate": "rad/s", "stokes": "1",
-    "centrifugal": "1", "generalised_centrifugal": "1", "capillary": "1", "reynolds": "1", "speed": "m/s",
-    "angle": "rad", "until": "s", "decided": "s", "events": "s", "energy": "J", "angular_momentum_drift": "1",
-    "steps": "1", "rtol": "1",
-}  # fmt: skip
-"""Units of the values in a collision's JSON object, by key; for `events`, the unit of their times."""
-
 _OPEN, _OPEN_AT_LEAST = 1e4, 1e-6  # limits of the residual: multiple of rtol, part of the largest term
 
 
 def open_beyond(rtol: float) -> float:
     """Residual of a ledger over its largest term beyond which the trajectory must be wrong."""
     return max(_OPEN * rtol, _OPEN_AT_LEAST)
-
-
-KERNEL_TERMS = {
-    "initial": "initial",
-    "final": "final",
-    "normal_lubrication": "normal",
-    "tangential_lubrication": "tangential",
-    "capillary": "capillary",
-    "attraction": "attraction",
-    "dry_contact": "dry",
-    "dry_friction": "friction",
-    "strings": "lifted",
-}
-"""Terms of the ledger, and the kernel's name for each."""
 
 
 def absent_terms(scene: Scene) -> set[str]:
@@ -187,12 +164,9 @@ class Outcome:
 
     def to_dict(self) -> dict[str, Any]:
         """The JSON object of `wetdoublet collide --json`."""
-        plain = (
-            "outcome", "restitution", "tangential_restitution", "slip_restitution", "rotation", "contact_time",
-            "smallest_gap", "final_spin", "final_rotation_rate", "stokes", "centrifugal", "capillary", "speed", "angle",
-            "reversal", "certified", "until", "decided",
-        )  # fmt: skip
-        result: dict[str, Any] = {name: getattr(self, name) for name in plain}
+        plain = ("outcome", *OF_SEPARATION, "stokes", "centrifugal", "capillary", "speed", "angle")
+        plain += ("reversal", "certified", "until", "decided")
+        result: dict[str, Any] = {name: getattr(self, name) for name in plain if name != "final_spin_partner"}
         if self.scene.pair or self.scene.wall:
             result["final_spin_partner"] = self.final_spin_partner
         if self.scene.attraction is not None:

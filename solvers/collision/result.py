@@ -4,6 +4,7 @@ from dataclasses import dataclass, fields
 
 from ..formatting.notebook import view
 from ..host.pictures import Drawn
+from ..results import DEFINITIONS, OF_SEPARATION
 from .outcome import Outcome
 
 _ENDS = 20  # events that `repr` shows at each end of a longer list
@@ -40,7 +41,7 @@ class Collision(Outcome, Drawn):
 
     def _repr_html_(self) -> str:
         """Outcome and why, results with units, events, and what the model warns of."""
-        from .text import assumed, degrees, name_of, plain, quantity, reason
+        from .text import assumed, degrees, name_of, plain, quantity, reason, with_unit
 
         rows = [
             ("outcome", self.outcome, reason(self)),
@@ -49,18 +50,9 @@ class Collision(Outcome, Drawn):
                 f"St {plain(self.stokes)}, {degrees(self.angle)}",
                 f"normal speed {quantity(self.speed, 'm/s')}",
             ),
-            ("normal restitution e_n", plain(self.restitution), ""),
         ]
-        results = [
-            ("tangential restitution e_t", plain(self.tangential_restitution), self.tangential_restitution),
-            ("rotation", degrees(self.rotation), self.rotation),
-            ("contact time", quantity(self.contact_time, "s"), self.contact_time),
-            ("smallest gap", quantity(self.smallest_gap, "m"), self.smallest_gap),
-            ("final spin", plain(self.final_spin, "rad/s"), self.final_spin),
-            ("final spin of the partner", plain(self.final_spin_partner, "rad/s"), self.final_spin_partner),
-            ("final rotation rate", plain(self.final_rotation_rate, "rad/s"), self.final_rotation_rate),
-        ]
-        rows += [(name, shown, "") for name, shown, value in results if value is not None]
+        defined = (DEFINITIONS[name] for name in OF_SEPARATION if getattr(self, name) is not None)
+        rows += [(row.label, with_unit(getattr(self, row.name), row.unit), "") for row in defined]
         if self.events:
             happened = [f"{event.kind} at {quantity(event.time, 's')}" for event in self.events[:6]]
             more = [f"{len(self.events) - 6} more"] if len(self.events) > 6 else []

@@ -54,6 +54,13 @@ def degrees(value: float | None) -> str:
     return plain(None if value is None else math.degrees(value), "deg")
 
 
+def with_unit(value: float, unit: str) -> str:
+    """Return a number in SI with its unit as it is shown: prefixed, in degrees, or plain."""
+    if unit == "rad":
+        return degrees(value)
+    return quantity(value, unit) if unit in ("s", "m") else plain(value, unit.removeprefix("1"))
+
+
 def name_of(scene: Scene, longest: int = 32) -> str:
     """Return the scene's name on one line without control characters, shortened to `longest` characters."""
     return _cut(scene.name, longest) or "unnamed scene"

@@ -92,7 +92,7 @@ def _plane(angle: str | None, over: str | None, request: options.SceneRequest) -
         if angle is not None:
             accepted = "--set impact.angle=ANGLE for a plane of another entry"
             raise InputError("--angle", angle, accepted, "is given together with --over")
-        from ..many.batch import check_varies
+        from ..many.arguments import check_varies
 
         check_varies(name, ends, "--over", request.package)
         if name in request.entries:

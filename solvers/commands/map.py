@@ -80,7 +80,7 @@ def command(
     if "angle" not in axes:
         raise InputError("--angle", None, "LO:HI:N in degrees")
 
-    from ..many.batch import checked_vary
+    from ..many.arguments import checked_vary
     from ..many.blocks import connected
     from ..many.csv_map import write_csv
     from ..many.regime_map import regime_map, write
@@ -122,7 +122,7 @@ def _axes(impacts: Mapping[str, str], vary: Sequence[str], most: int) -> dict[st
 
 def _varied(vary: Sequence[str], request: options.SceneRequest) -> dict[str, list[float] | list[str]]:
     """Axes of --vary by dotted name."""
-    from ..many.batch import check_varies
+    from ..many.arguments import check_varies
 
     axes: dict[str, list[float] | list[str]] = {}
     for text in vary:

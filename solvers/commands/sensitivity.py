@@ -45,15 +45,15 @@ def command(
         --over NAME=RANGE: With --uncertainty: the band over stokes, speed or angle, as stokes=log:0.01:0.5:30 or
             angle=20:80:25.
     """  # noqa: D301 -- click reads the \b, which keeps the lines of the example
+    from ..results import check_differentiated
     from ..sensitivity.parameters import check_wrt
-    from ..sensitivity.results import check_quantities
     from ..sensitivity.sensitivities import check_method, sensitivities
     from ..sensitivity.uncertainty import deviations, first_order, spoken
 
     if method is not None:
         check_method(method)
     if of is not None:
-        check_quantities(of)
+        check_differentiated(of)
     if engine == "taylor" and method not in (None, "forward"):
         raise InputError("--method", method, "forward with --engine taylor", "is not the kernel's")
     scene = request.scene()

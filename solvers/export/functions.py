@@ -3,7 +3,7 @@
 from casadi import CodeGenerator, Function
 
 from ...generated.assemble import casadi_functions
-from ..model.dimensionless import DimensionlessGroups, nondimensionalise
+from ..model.dimensionless import Problem, nondimensionalise
 from ..model.model import Model, load, select_model
 from ..scene.scene import Scene
 from .equations import file_name
@@ -45,7 +45,7 @@ def functions(model: Model, prefix: str) -> list[Function]:
     return list(result.values())
 
 
-def _comment(scene: Scene, model: Model, values: DimensionlessGroups | None) -> str:
+def _comment(scene: Scene, model: Model, values: Problem | None) -> str:
     """Comment at the head of the file that describes the functions."""
     choice, glassy = model.choice, scene.liquid.glass_transition_pressure is not None
     lines = [
@@ -65,7 +65,7 @@ def _comment(scene: Scene, model: Model, values: DimensionlessGroups | None) -> 
     return f"/*\n{inside}\n */\n"
 
 
-def _header(scene: Scene, name: str, model: Model, written: list[Function], values: DimensionlessGroups | None) -> str:
+def _header(scene: Scene, name: str, model: Model, written: list[Function], values: Problem | None) -> str:
     guard = f"WETDOUBLET_{name.upper()}_H"
     lines = [_comment(scene, model, values), f"#ifndef {guard}", f"#define {guard}", ""]
     lines += ["#ifdef __cplusplus", 'extern "C" {', "#endif", ""]

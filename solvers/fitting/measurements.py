@@ -15,6 +15,7 @@ from ...generated import scaling
 from ...generated.automaton import BOUNCE, OUTCOMES, ROTATE, STICK
 from ..changes.experiment import Rows, check_derivatives
 from ..errors import InputError, did_you_mean
+from ..results import DEFINITIONS
 from ..scene import units
 from ..scene.columns import DECIMAL_COMMA, Column, columns_of, row_name
 from ..scene.held import NAMES
@@ -25,20 +26,20 @@ from .flights import ARRIVING, DEPARTING, FLIGHT, FlightRows, Flights
 
 UNKNOWN = -1
 """Code of an outcome that was not recorded."""
-OBSERVED = ("restitution", "tangential_restitution", "contact_time", "rotation")
-"""Results of a collision that may be measured."""
 SCATTER = ("speed", "angle")
 """What single impacts scatter in."""
 SPEED_SD, ANGLE_SD = 0.02, math.radians(1.0)
 """Scatter of single impacts where the data do not give it: of the speed, relative; of the angle."""
 RESULT_SD = {"restitution": 0.02, "tangential_restitution": 0.02, "contact_time": 0.05, "rotation": math.radians(2.0)}
 """Standard deviation of measured results where the data do not give it; of the contact time relative."""
+OBSERVED = tuple(RESULT_SD)
+"""Results of a collision that may be measured."""
 
 _STICK = OUTCOMES.index(STICK)
 _MISSING = ("", "-", "na", "n/a", "nan", "null", "none")
 _ALIASES = {STICK: ("sticks", "s"), ROTATE: ("srs",), BOUNCE: ("bounces", "b")}
 _WORDS = {word: OUTCOMES.index(name) for name, others in _ALIASES.items() for word in (name, *others)}
-_UNITS = {"restitution": "", "tangential_restitution": "", "contact_time": "s", "rotation": "rad"} | FLIGHT
+UNITS = {name: DEFINITIONS[name].unit.removeprefix("1") for name in OBSERVED} | FLIGHT
 CORRELATION = "correlation"
 """Column of the correlations between errors of FLIGHT: those of a lower triangle, row by row, without the diagonal."""
 _IMPACT = {"speed": "m/s", "relative_speed": "m/s", "stokes": "", "angle": "rad"}
@@ -472,15 +473,15 @@ class _Table:
             if name in DEPARTING and error not in self.by_name:
                 raise InputError(self.header, name, f"a column {error} beside it", "stands alone")
             words = "a number >= 0" if relative else "a number"
-            values = self._numbers(name, _UNITS[name], (lambda v: v >= 0) if relative else math.isfinite, words)
+            values = self._numbers(name, UNITS[name], (lambda v: v >= 0) if relative else math.isfinite, words)
             sd = np.full(self.size, np.nan)
             if error in self.by_name:
-                sd = self._numbers(error, _UNITS[name], lambda v: v > 0, "a standard deviation > 0")
+                sd = self._numbers(error, UNITS[name], lambda v: v > 0, "a standard deviation > 0")
                 if self.by_name[error].unit == "%":
                     sd = sd * np.abs(values)
             if name in RESULT_SD and (np.isnan(sd) & np.isfinite(values)).any():
                 shown = f"{100 * RESULT_SD[name]:g} %" if relative else f"{RESULT_SD[name]:.4g}"
-                shown = f"{math.degrees(RESULT_SD[name]):.3g} deg" if _UNITS[name] == "rad" else shown
+                shown = f"{math.degrees(RESULT_SD[name]):.3g} deg" if UNITS[name] == "rad" else shown
                 self.remarks.append(f"Standard deviation of {name}, where it is not given: {shown}.")
                 sd = np.where(np.isnan(sd), RESULT_SD[name] * (np.abs(values) if relative else 1.0), sd)
             bad = ~(sd > 0) & np.isfinite(values) & (values != 0)

@@ -16,6 +16,7 @@ from ...generated.automaton import OUTCOMES
 from ..formatting.style import EDGES, FILLS, INK, LETTERS, NOTE, broken, halo, patch, picture, plain_text, title
 from ..formatting.ticks import plain
 from ..many.collide_many import collide_many
+from ..results import DEFINITIONS
 from ..scene.held import AXIS_LABELS
 from .free_entries import unit_shown
 from .joint import Part, home
@@ -36,12 +37,6 @@ _CURVE = 80  # points of a curve of a result
 _PROFILE = 5  # points of a profile to each side
 _MARKS = {0: "o", 1: "s", 2: "^", -1: "x"}  # by outcome; -1: not recorded
 _LINES = ("#2a6f97", "#c1554a", "#4f772d")
-_LABELS = {
-    "restitution": r"restitution $e_n$",
-    "tangential_restitution": r"tangential restitution $e_t$",
-    "contact_time": "contact time (s)",
-    "rotation": "rotation (rad)",
-}
 
 
 @picture
@@ -177,11 +172,17 @@ def _results(axes: Axes, part: Part, samples: np.ndarray, expected: Mapping[str,
     axes.set_xscale("log")
     plain(axes.xaxis)
     axes.set_xlabel(AXIS_LABELS[data.speed_name])
-    axes.set_ylabel(_LABELS[name])
+    axes.set_ylabel(_label(name))
     axes.legend(title="mean angle of the group", fontsize=7, title_fontsize=7)
     dashes = ";\ndashes: the fit with each impact's group entries" if data.columns else ""
     what = "measured, and the fit at the mean angle of each group with its band (95 %)"
     axes.set_title(what + _caveat(part) + dashes, fontsize=9)
+
+
+def _label(name: str) -> str:
+    row = DEFINITIONS[name]
+    symbol, unit = f" ${row.symbol}$" if row.symbol else "", f" ({row.unit})" if row.unit != "1" else ""
+    return f"{row.label.removesuffix(row.symbol).rstrip()}{symbol}{unit}"
 
 
 def _caveat(part: Part) -> str:

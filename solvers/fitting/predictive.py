@@ -15,9 +15,9 @@ from scipy.stats import norm, qmc
 from ...generated.automaton import OUTCOMES
 from ..errors import ComputationError, InputError
 from ..host.pictures import register
-from ..many.batch import checked_numbers
+from ..many.arguments import checked_numbers
 from ..many.collide_many import collide_many
-from ..many.scan import LABELS
+from ..results import attributes
 from ..scene.ranges import MOST
 from ..scene.schema import FIELDS
 from .joint import Part
@@ -101,7 +101,7 @@ def predicted(
     outcome = found.reshape(weight.size, across.size, along.size)
     share = np.stack([np.tensordot(weight, outcome == code, 1) for code in range(len(OUTCOMES))])
     columns = {"probability": (("outcome", "angle", kind), share, {"units": "1", "long_name": "probability"})}
-    axes = {"angle": (("angle",), across, LABELS["angle"]), kind: ((kind,), along, LABELS[kind])}
+    axes = {"angle": (("angle",), across, attributes("angle")), kind: ((kind,), along, attributes(kind))}
     about = {
         "title": part.scene.name, "scene": part.scene.to_toml(), "draws": int(weight.size),
         "effective_draws": float(1 / (weight**2).sum()),

@@ -24,7 +24,7 @@ from ..scene.columns import Column, row_name
 from ..scene.scene import Scene
 from ..scene.values import with_unit
 from .flights import FLIGHT
-from .measurements import CORRELATION, OBSERVED
+from .measurements import CORRELATION, OBSERVED, UNITS
 from .straight import LEAST, REACH, Flight, near_contact, uneven
 from .trackers import PLACES, read_film, with_one_clock
 
@@ -37,8 +37,7 @@ _ACCEPTED = {
 _SIGNED = ("tangential_restitution", "rotation")
 _NAMES = ("speed", "angle", *OBSERVED)  # at the scene's gaps
 _WITH_SD = ("", "_sd")
-_UNITS = {"speed": "m/s", "angle": "deg", "contact_time": "s", "rotation": "deg"}
-_UNITS |= {name: unit.replace("rad", "deg") for name, unit in FLIGHT.items()}
+_UNITS = {name: unit.replace("rad", "deg") for name, unit in (UNITS | {"speed": "m/s", "angle": "rad"}).items()}
 _HIDDEN = (*FLIGHT, CORRELATION)  # written, for `fit`, and not printed
 _CLEAR = 4.0  # standard deviations of the noise by which a pair is apart
 _WIDER, _MANY = 0.25, 20  # share by which gaps are widened, beyond which frames are free flight, where so many remain

@@ -7,11 +7,12 @@ from ...generated.automaton import OUTCOMES
 from ..collision.collide import integrated
 from ..errors import WetDoubletError
 from ..model.dimensionless import nondimensionalise
-from .batch import Batch
-from .results import FAILED, INTEGRATED, LEDGER, NONE, REVERSALS, Block, empty
+from ..results import FAILED, INTEGRATED, LEDGER, NONE, REVERSALS
+from .impacts import Impacts
+from .results import Block, empty
 
 
-def run(request: Batch) -> Block:
+def run(request: Impacts) -> Block:
     """Compute the collisions of a batch one after another."""
     block = empty(request.size, request.of)
     for k in range(request.size):
@@ -27,10 +28,9 @@ def run(request: Batch) -> Block:
     return block
 
 
-def _results(request: Batch, k: int) -> dict[str, Any]:
-    scene, speed, angle = request.impact(k)
+def _results(request: Impacts, k: int) -> dict[str, Any]:
     ledger = any(name in LEDGER for name in request.of)
-    result = integrated(scene, nondimensionalise(scene, speed, angle), request.rtol, request.engine, ledger, False)
+    result = integrated(nondimensionalise(*request.impact(k)), request.rtol, request.engine, ledger, False)
     values: dict[str, Any] = {"outcome": OUTCOMES.index(result.outcome), "certified": result.certified}
     for name in ("restitution", *(name for name in request.of if name in INTEGRATED)):
         table, _, term = name.rpartition(".")

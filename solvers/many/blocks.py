@@ -37,8 +37,8 @@ from ..host.progress import Progress
 from ..host.remarks import say, silence_workers
 from ..host.workers import undisturbed
 from .compute import complete
+from .impacts import Impacts, Place
 from .results import Block, empty, fill
-from .scan import Place, Scan
 
 if TYPE_CHECKING:
     import xarray
@@ -87,20 +87,19 @@ def blocks(shape: tuple[int, ...], engine: str) -> list[Place]:
     ]
 
 
-def _computed(part: Scan, cores: int) -> Block:
+def _computed(part: Impacts, cores: int) -> Block:
     """Results of a block, computed here or by a worker."""
-    request = part.batch()
-    results = empty(request.size, request.of)
-    complete(request, results, cores=cores)
+    results = empty(part.size, part.of)
+    complete(part, results, cores=cores)
     return results
 
 
 @contextmanager
-def _computing(scan: Scan, client: Any, cut: Sequence[Place]) -> Iterator[tuple[Mapping[str, str], _Blocks]]:
+def _computing(impacts: Impacts, client: Any, cut: Sequence[Place]) -> Iterator[tuple[Mapping[str, str], _Blocks]]:
     """The arithmetic of a run, and a function that yields the blocks of a list with their results."""
 
     def task(k: int) -> Task:
-        return partial(_computed, scan.part(cut[k]))
+        return partial(_computed, impacts.block(cut[k]))
 
     def one_at_a_time(todo: Sequence[int]) -> Iterator[tuple[int, Block]]:
         for k in todo:
@@ -111,66 +110,65 @@ def _computing(scan: Scan, client: Any, cut: Sequence[Place]) -> Iterator[tuple[
         yield arithmetic(), one_at_a_time
         return
     with connected(client) as cluster:
-        expected = _agreed(cluster, "taylor" in scan.engines.values())
+        expected = _agreed(cluster, impacts.engine == "taylor")
         yield expected, lambda todo: _distributed(cluster, task, todo, expected)
 
 
 def into_memory(
-    scan: Scan, client: Any = None, progress: Progress | None = None, resume: Path | None = None
+    impacts: Impacts, client: Any = None, progress: Progress | None = None, resume: Path | None = None
 ) -> xarray.Dataset:
-    """Compute a scan here or on a cluster.
+    """Compute impacts here or on a cluster.
 
     Arguments:
         progress: called with (collisions done, collisions in all) at the start and after every block.
         resume: as of `kept`.
     """
-    request = scan.batch()
-    results, done = empty(scan.size, scan.of), np.zeros(scan.size, bool)
+    results, done = empty(impacts.size, impacts.of), np.zeros(impacts.size, bool)
 
     def finished(where: np.ndarray, block: Block) -> None:
         fill(results, where, block)
         done[where] = True
         if progress is not None:
-            progress(int(np.count_nonzero(done)), scan.size)
+            progress(int(np.count_nonzero(done)), impacts.size)
 
-    with kept(resume, scan.identity, results, done, "collisions"):
+    with kept(resume, impacts.identity, results, done, "collisions"):
         finished(np.zeros(0, int), {})
         if client is None:
-            order = scan.order()
-            complete(request, results, order[~done[order]], finished)
+            order = impacts.order()
+            complete(impacts, results, order[~done[order]], finished)
         else:
-            cut, flat = blocks(scan.shape, scan.answered_by), np.arange(scan.size).reshape(scan.shape)
-            with _computing(scan, client, cut) as (_, computed):
+            cut, flat = blocks(impacts.shape, impacts.engine), np.arange(impacts.size).reshape(impacts.shape)
+            with _computing(impacts, client, cut) as (_, computed):
                 for k, block in computed([k for k in range(len(cut)) if not done[flat[cut[k]]].all()]):
                     finished(flat[cut[k]].ravel(), block)
-    return scan.dataset(results, request)
+    return impacts.dataset(results)
 
 
-def into_store(scan: Scan, path: Path, client: Any = None, progress: Progress | None = None) -> xarray.Dataset:
-    """Compute a scan into a Zarr store that appears when it is complete; returns its Dataset, whose values are on disk.
+def into_store(impacts: Impacts, path: Path, client: Any = None, progress: Progress | None = None) -> xarray.Dataset:
+    """Compute impacts into a Zarr store that appears when it is complete; returns its Dataset, with values on disk.
 
     Arguments:
         client: of a cluster; None for this process.
         progress: called with (collisions done, collisions in all) at the start and after every block.
     """
-    cut = blocks(scan.shape, scan.answered_by)
+    cut = blocks(impacts.shape, impacts.engine)
     sizes = [math.prod(one.stop - one.start for one in at) for at in cut]
-    with _computing(scan, client, cut) as (digits, computed):
-        key = _digest({**scan.identity(), "arithmetic": dict(digits)})
+    with _computing(impacts, client, cut) as (digits, computed):
+        key = _digest({**impacts.identity(), "arithmetic": dict(digits)})
         target = Path(os.path.realpath(path))
         place = target.with_name(f"{target.name}.{key[:12]}.unfinished")
         done = _written(place, cut)
         if done is None:
             done = set()
-            _lay_out(place, scan, scan.part(cut[0]).dataset(empty(sizes[0], scan.of)))
+            _lay_out(place, impacts, impacts.block(cut[0]).dataset(empty(sizes[0], impacts.of)))
 
         def report() -> None:
             if progress is not None:
-                progress(sum(sizes[k] for k in done), scan.size)
+                progress(sum(sizes[k] for k in done), impacts.size)
 
         report()
         for k, block in computed([k for k in range(len(cut)) if k not in done]):
-            _write(place, dict(zip(map(str, scan.dims), cut[k])), scan.part(cut[k]).dataset(block))
+            _write(place, dict(zip(map(str, impacts.dims), cut[k])), impacts.block(cut[k]).dataset(block))
             done.add(k)
             report()
     former = place.with_suffix(".former")
@@ -222,13 +220,13 @@ def _written(place: Path, cut: Sequence[Place]) -> set[int] | None:
 
 
 @held()  # Zarr's tasks, interrupted, would write tracebacks later
-def _lay_out(place: Path, scan: Scan, first: xarray.Dataset) -> None:
+def _lay_out(place: Path, impacts: Impacts, first: xarray.Dataset) -> None:
     """Write the axes and the descriptions of all variables, whose values come by block; `first` is of one block."""
     import dask.array as da
     import xarray as xr
 
-    sizes = dict(zip(scan.dims, scan.shape, strict=True))
-    axes = {dim: axis for dim, (_, axis) in zip(scan.dims, scan.columns.values(), strict=True)}
+    sizes = dict(zip(impacts.dims, impacts.shape, strict=True))
+    axes = {dim: axis for dim, (_, axis) in zip(impacts.dims, impacts.columns.values(), strict=True)}
     variables = {}
     encoding: dict[str, Any] = {"outcome": {"fill_value": _MISSING}}
     for name, variable in _encoded(first).variables.items():

@@ -1,25 +1,27 @@
 """A batch of collisions by the Taylor kernel: columns of SI quantities in, columns of results out."""
 
 from collections.abc import Callable, Mapping
-from functools import lru_cache, partial
+from functools import lru_cache
 
 import numpy as np
 
 from ...generated import scaling
 from ...generated.automaton import KINDS, LAST_ANSWER
-from ..collision.outcome import KERNEL_TERMS, absent_terms, open_beyond
-from ..engines.taylor.call import Impacts, run_kernel
+from ..collision.outcome import absent_terms, open_beyond
+from ..engines.taylor import call
+from ..engines.taylor.call import run_kernel
+from ..engines.taylor.layout import result
 from ..engines.taylor.record import run_with_books
 from ..model.model import load, select_model
+from ..results import DEFINITIONS, LEDGER, NONE, RATES, REVERSALS, TERMS
 from ..scene.contact import AT_ANY_SPEED, gap_at_any_speed, never_touching
 from ..scene.entry_rules import FARTHEST
 from ..scene.groups import formulas, rate_scales, si_values
 from ..scene.quantities import NO_GLASS
 from ..scene.scene import Scene
-from .batch import Batch
 from .columns import varied_columns
-from .results import LEDGER as OF_LEDGER
-from .results import NONE, RATES, REVERSALS, TIMES, Block
+from .impacts import Impacts
+from .results import Block
 
 _STRETCH = 65536  # collisions in one call of the kernel, so that progress is reported and memory stays bounded
 _MOST = 1e30  # largest magnitude of an SI quantity; its inverse is the smallest
@@ -30,7 +32,7 @@ _NEAR = 1e-9  # relative distance to a limit of valid input below which the scen
 
 
 def collide_by_kernel(
-    request: Batch, which: np.ndarray, threads: int, finished: Callable[[np.ndarray, Block], None]
+    request: Impacts, which: np.ndarray, threads: int, finished: Callable[[np.ndarray, Block], None]
 ) -> np.ndarray:
     """Compute the collisions `which` of a batch; returns the indices of those that it does not complete.
 
@@ -38,8 +40,8 @@ def collide_by_kernel(
         finished: called with the indices and results of every finished block.
     """
     left = [which[:0]]
-    ledger = any(name in OF_LEDGER for name in request.of)
-    jumps = 0 if any(name in TIMES for name in request.of) else 1 if "smallest_gap" in request.of else 2
+    ledger = any(name in LEDGER for name in request.of)
+    jumps = min((DEFINITIONS[name].jumps for name in request.of if name in DEFINITIONS), default=2)
     for first in range(0, which.size, _STRETCH):
         part = which[first : first + _STRETCH]
         whole = part.size == request.size and bool((part == np.arange(part.size)).all())
@@ -63,7 +65,7 @@ def collide_by_kernel(
     return np.concatenate(left)
 
 
-def impacts_of(request: Batch) -> tuple[Impacts, np.ndarray]:
+def impacts_of(request: Impacts) -> tuple[call.Impacts, np.ndarray]:
     """The impacts of a batch in SI, and a mask of their collisions; the others need the scene's own validation."""
     scene = request.scene
     values: dict[str, np.ndarray] = {}
@@ -78,7 +80,7 @@ def impacts_of(request: Batch) -> tuple[Impacts, np.ndarray]:
             sound, unit = np.full(request.size, _usual_scene(scene)), scene.stokes_per_speed
         speed = request.speed if request.speed is not None else np.asarray(request.stokes) / unit
         sound &= _usual(speed, _MOST)
-    impacts = Impacts(scene, speed, request.angle, values)
+    impacts = call.Impacts(scene, speed, request.angle, values)
     return impacts if sound.all() else impacts.part(np.flatnonzero(sound)), sound
 
 
@@ -117,55 +119,54 @@ def admissible(scene: Scene, values: Mapping[str, np.ndarray]) -> np.ndarray:
     return sound
 
 
-def block_of(request: Batch, answers: np.ndarray, impacts: Impacts, books: np.ndarray | None) -> Block:
+def block_of(request: Impacts, answers: np.ndarray, impacts: call.Impacts, books: np.ndarray | None) -> Block:
     """Kernel records as the requested columns of a result."""
-    separated, scene = answers["outcome"] > 0, request.scene
-
-    def defined(where: np.ndarray, values: np.ndarray) -> np.ndarray:
-        return np.where(where, values, np.nan)
-
-    def length() -> np.ndarray | float:
-        return impacts.others.get("film_thickness", scene.liquid.film_thickness)
-
-    columns: dict[str, Callable[[], np.ndarray]] = {
-        "tangential_restitution": lambda: defined(separated & (impacts.angle > 0), answers["shown"][:, 1]),
-        "slip_restitution": lambda: defined(separated & impacts.oblique, answers["slip"]),
-        "contact_time": lambda: defined(separated, answers["time"] * (length() / impacts.speed)),
-        "smallest_gap": lambda: defined(separated, answers["smallest_gap"] * length()),
-        "rotation": lambda: defined(separated, answers["turned"]),
-        "until": lambda: defined(~separated, answers["time"] * (length() / impacts.speed)),
-        "reversal": lambda: _CODES[answers["reversal"]],
-        "steps": lambda: answers["steps"].astype(float),
+    separated = answers["outcome"] > 0
+    exists = {
+        "all": np.ones(separated.size, bool),
+        "separated": separated,
+        "sliding": separated & (impacts.angle > 0),
+        "slipping": separated & impacts.oblique,
+        "stick": ~separated,
     }
     block: Block = {
         "outcome": answers["outcome"].astype(np.int8),
         "certified": answers["certified"] != 0,
         "restitution": np.where(separated, answers["shown"][:, 0], 0.0),
     }
-    if any(name in RATES for name in request.of):
-        rates = rates_of(scene, answers, impacts)
-        columns |= {name: partial(defined, separated, column) for name, column in rates.items()}
-    if books is not None:
-        block |= {name: column for name, column in _ledger(request, books, impacts).items() if name in request.of}
-    return block | {name: column() for name, column in columns.items() if name in request.of}
+    length = impacts.others.get("film_thickness", request.scene.liquid.film_thickness)
+    rates = rates_of(request.scene, answers, impacts) if any(name in RATES for name in request.of) else {}
+    terms = {} if books is None else _ledger(request, books, impacts)
+    for name in request.of:
+        row = DEFINITIONS.get(name)
+        if name in terms:
+            block[name] = terms[name]
+        elif name == "reversal":
+            block[name] = _CODES[answers["reversal"]]
+        elif name not in block and row is not None and row.place is not None:
+            values = rates[name] if row.scale == "rate" else result(answers, name)
+            if row.scale in ("length", "time"):
+                values = values * (length if row.scale == "length" else length / impacts.speed)
+            block[name] = np.where(exists[row.exists], values, np.nan)
+    return block
 
 
-def rates_of(scene: Scene, answers: np.ndarray, impacts: Impacts) -> Block:
+def rates_of(scene: Scene, answers: np.ndarray, impacts: call.Impacts) -> Block:
     """Spins and rotation rate at separation, rad/s; 0 head-on."""
     values = si_values(scene, None, None) | dict(impacts.others) | {"speed": impacts.speed, "angle": impacts.angle}
     unit = rate_scales(scene, values)
-    names = load(select_model(scene, True, fold=not impacts.others)).names("outputs")
-    rates = {name: answers["shown"][:, k] * unit for k, name in enumerate(names) if name in RATES}
-    none = np.full(unit.size, np.nan)
-    partner = np.zeros(unit.size) if scene.wall else rates["final_spin"] if scene.pair else none
-    return {"final_spin_partner": partner, "final_rotation_rate": none, **rates}
+    rates = {name: result(answers, name) * unit for name in RATES}
+    if "final_spin_partner" not in load(select_model(scene, True, fold=not impacts.others)).names("outputs"):
+        none = np.full(unit.size, np.nan)
+        rates["final_spin_partner"] = np.zeros(unit.size) if scene.wall else rates["final_spin"] if scene.pair else none
+    return rates
 
 
-def _ledger(request: Batch, books: np.ndarray, impacts: Impacts) -> Block:
+def _ledger(request: Impacts, books: np.ndarray, impacts: call.Impacts) -> Block:
     """The ledger in J, and the drift of the angular momentum; NaN where the scene has no such term."""
     scene, others = request.scene, impacts.others
     unit = np.asarray(others.get("reduced_mass", scene.reduced_mass)) * impacts.speed**2
-    terms = {name: books[column] * unit for name, column in KERNEL_TERMS.items()}
+    terms = {name: books[column] * unit for name, column in TERMS.items()}
     terms |= {name: np.full(books.size, 0.0 if name == "strings" else np.nan) for name in absent_terms(scene)}
     initial, final, *spent = terms.values()
     block = {f"energy.{name}": values for name, values in terms.items()}
@@ -178,7 +179,7 @@ def _ledger(request: Batch, books: np.ndarray, impacts: Impacts) -> Block:
 
 def _closed(answers: np.ndarray, books: np.ndarray, rtol: float) -> np.ndarray:
     """Where the ledger is as closed as a tolerance leaves it, or the outcome is a stick."""
-    terms = np.array([books[name] for name in KERNEL_TERMS.values()])
+    terms = np.array([books[name] for name in TERMS.values()])
     residual = np.abs(terms[0] - terms[1:].sum(axis=0))
     largest = np.maximum(np.abs(terms).max(axis=0), residual)
     return np.asarray((answers["outcome"] == 0) | (residual <= open_beyond(rtol) * largest))

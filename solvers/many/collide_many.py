@@ -7,11 +7,11 @@ from pathlib import Path as FilePath
 from typing import TYPE_CHECKING, Any
 
 from ..engines.settings import RTOL, check_engine, check_rtol
+from ..results import REQUESTED
 from ..scene.scene import Scene
-from .batch import check_outputs, checked_columns
+from .arguments import check_outputs, checked_columns
 from .blocks import into_memory
-from .results import RESULTS
-from .scan import Scan, laid_out
+from .impacts import Impacts, laid_out
 
 if TYPE_CHECKING:
     import xarray
@@ -67,11 +67,11 @@ def collide_many(
         >>> laws.restitution.shape
         (2,)
     """
-    names, rtol, engine = check_outputs(of, RESULTS), check_rtol(rtol), check_engine(engine)
+    names, rtol, engine = check_outputs(of, REQUESTED), check_rtol(rtol), check_engine(engine) or "taylor"
     impact = {"stokes": stokes, "speed": speed, "relative_speed": relative_speed, "angle": angle}
     loaded, arrays, held = checked_columns(scene, impact, vary, hold, most=None, texts=True)
     arguments = {**{f"impact.{name}": values for name, values in impact.items()}, **(vary or {})}
     dims, shape, columns, beside = laid_out(arrays, arguments)
-    scan = Scan(loaded, dims, shape, columns, rtol, engine, names, held, beside)
-    scan.check()
-    return into_memory(scan)
+    impacts = Impacts(loaded, columns, dims, shape, rtol, engine, names, held, beside)
+    impacts.check()
+    return into_memory(impacts)

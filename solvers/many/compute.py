@@ -12,11 +12,12 @@ from ..engines.settings import FEW
 from ..errors import InputError
 from ..host.cores import usable_cores
 from ..host.workers import in_workers
+from ..results import FAILED, VALIDITY
 from .alone import run
-from .batch import Batch
 from .by_kernel import collide_by_kernel
 from .columns import impact_columns, validity
-from .results import FAILED, VALIDITY, Block, empty, fill
+from .impacts import Impacts
+from .results import Block, empty, fill
 
 _BLOCK = 50  # collisions in a block for a worker
 _SLOW = 20  # as `FEW`, for collisions that the kernel did not complete; they take up to seconds each
@@ -25,7 +26,7 @@ Finished = Callable[[np.ndarray, Block], None]
 
 
 def complete(
-    request: Batch,
+    request: Impacts,
     results: Block,
     which: np.ndarray | None = None,
     finished: Finished | None = None,
@@ -55,7 +56,7 @@ def complete(
         results[VALIDITY] = validity(request, results)
 
 
-def _compute(request: Batch, which: np.ndarray, finished: Finished, cores: int) -> None:
+def _compute(request: Impacts, which: np.ndarray, finished: Finished, cores: int) -> None:
     size, few = _BLOCK, FEW
     if request.engine == "taylor":
         left = collide_by_kernel(request, which, cores if which.size > FEW else 1, finished)

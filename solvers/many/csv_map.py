@@ -12,7 +12,7 @@ from ...generated.automaton import OUTCOMES
 from ..formatting.markdown import csv_text
 from ..host import files
 from ..model.validity import FLAGS
-from .results import FAILED, REVERSALS
+from ..results import FAILED, REVERSALS
 
 if TYPE_CHECKING:
     import xarray

@@ -36,10 +36,10 @@ from ..formatting.style import (
 )
 from ..formatting.style import title as write_title
 from ..model.validity import counted
+from ..results import FAILED, VALIDITY
 from ..scene.held import AXIS_LABELS, NAMES
 from ..scene.scene import Scene
 from .regime_map import IMPACTS, impact_axis, scene_of
-from .results import FAILED, VALIDITY
 
 if TYPE_CHECKING:
     import xarray

@@ -18,16 +18,16 @@ from ..host import files
 from ..host.arguments import check_function
 from ..host.outputs import check_file
 from ..host.progress import Progress
+from ..results import BY_DEFAULT, IMPACT, VALIDITY, attributes
 from ..scene.groups import formulas
 from ..scene.ranges import MOST, MOST_STORED, most_collisions
 from ..scene.scene import Scene
 from ..scene.schema import MEETING, SPEEDS
 from ..scene.user_model import Package
-from .batch import Batch, check_outputs, checked_columns
+from .arguments import check_outputs, checked_columns
 from .blocks import check_scheduler, check_store, into_memory, into_store
 from .columns import quantities_and_impacts
-from .results import QUANTITIES, VALIDITY
-from .scan import LABELS, Scan
+from .impacts import Impacts
 
 if TYPE_CHECKING:
     import xarray
@@ -35,8 +35,8 @@ if TYPE_CHECKING:
 IMPACTS = tuple(name.partition(".")[2] for name in SPEEDS)
 
 
-class Grid(Scan):
-    """A scan whose dimensions are the impact angle, the Stokes number or a speed, and entries that vary, in this order.
+class Grid(Impacts):
+    """Impacts over the impact angle, the Stokes number or a speed, and entries that vary, in this order.
 
     Each argument has one of them, and all have coordinates.
     """
@@ -57,20 +57,20 @@ class Grid(Scan):
             "version": release,
         }
 
-    def coordinates(self, request: Batch) -> dict[str, Column]:
+    def coordinates(self) -> dict[str, Column]:
         """The axes; speed and Stokes number if they are none, and with a bridge the centrifugal number."""
         dims: tuple[str, ...] = tuple(map(str, self.dims))
         coordinates: dict[str, Column] = {}
         for dim, (name, (_, axis)) in zip(dims, self.columns.items(), strict=True):
             unit = {"units": self.scene.fields[name].unit or "1", "long_name": name.replace(".", ", ", 1)}
-            coordinates[dim] = (dim,), axis, LABELS.get(dim, unit)
-        values = quantities_and_impacts(request)
+            coordinates[dim] = (dim,), axis, attributes(dim) if dim in IMPACT else unit
+        values = quantities_and_impacts(self)
         for name in ("speed", "stokes"):
             column = np.reshape(values[name], self.shape)
             if dims[1] == "relative_speed":
-                coordinates[name] = dims, column, LABELS[name]
+                coordinates[name] = dims, column, attributes(name)
             elif name != dims[1]:  # the same at every angle
-                coordinates[name] = dims[1:], column[0], LABELS[name]
+                coordinates[name] = dims[1:], column[0], attributes(name)
         if self.scene.bridge is not None:
             formula, arguments = formulas(self.scene)["centrifugal"]
             with np.errstate(all="ignore"):
@@ -91,7 +91,7 @@ def regime_map(
     hold: str | None = None,
     rtol: float = RTOL,
     engine: str | None = None,
-    of: Sequence[str] = (*QUANTITIES, VALIDITY),
+    of: Sequence[str] = (*BY_DEFAULT, VALIDITY),
     progress: Progress | None = None,
     client: Any = None,
     store: str | Path | None = None,
@@ -141,10 +141,11 @@ def regime_map(
     beside = None if resume is None else check_file(resume, "resume", replaced=True)
     loaded, arrays, held = checked_columns(scene, impact, vary, hold)
     axes = _axes(arrays, MOST if file is None else MOST_STORED)
-    rtol, engine, names = check_rtol(rtol), check_engine(engine), check_outputs(of)
+    rtol, engine, names = check_rtol(rtol), check_engine(engine) or "taylor", check_outputs(of)
     dims = tuple(name.partition(".")[2] if name in MEETING else name for name in axes)
     columns = {name: ((dim,), axis) for dim, (name, axis) in zip(dims, axes.items(), strict=True)}
-    grid = Grid(loaded, dims, tuple(axis.size for axis in axes.values()), columns, rtol, engine, names, held)
+    shape = tuple(axis.size for axis in axes.values())
+    grid = Grid(loaded, columns, dims, shape, rtol, engine, names, held)
     grid.check()
     if file is not None:
         return into_store(grid, file, client, progress)

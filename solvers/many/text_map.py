@@ -12,9 +12,9 @@ import numpy as np
 from ...generated.automaton import OUTCOMES
 from ..collision.text import WIDTH, name_of, quantity
 from ..model.validity import counted
+from ..results import FAILED, VALIDITY
 from ..scene.held import NAMES
 from .regime_map import IMPACTS, impact_axis, scene_of
-from .results import FAILED, VALIDITY
 
 if TYPE_CHECKING:
     import xarray

@@ -13,18 +13,19 @@ from ..scene.contact import GAPS
 from ..scene.groups import Formula, formulas, si_values
 from ..scene.scene import Scene
 from .key import ModelKey
-from .model import load, select_model
+from .model import Model, load, select_model
 
 FIRST_RATES = ("initial_turning", "initial_spin", "initial_partner_spin")
 
 
 @dataclass(frozen=True)
-class DimensionlessGroups:
-    """Groups by name, and the SI scales of length, time, angular velocity and energy.
+class Problem:
+    """One collision as engines take it: groups by name, and the SI scales of length, time, angular velocity and energy.
 
     `centrifugal` and `capillary` are None without a bridge, `reynolds` without the liquid's density.
     """
 
+    scene: Scene
     groups: dict[str, float]
     angle: float  # rad
     speed: float  # m/s
@@ -41,6 +42,34 @@ class DimensionlessGroups:
     def oblique(self) -> bool:
         """True if something moves sideways: the impact has an angle, or a sphere spins."""
         return any(self.groups.get(name, 0.0) != 0 for name in FIRST_RATES)
+
+    def key(self, full: bool = False) -> ModelKey:
+        """The smallest structure with its laws; `full`: with the spin as a state of its own, as for the ledger."""
+        return select_model(self.scene, self.oblique, full, fold=True)
+
+    def model(self, full: bool = False) -> Model:
+        """The model of `key`."""
+        return load(self.key(full))
+
+    @property
+    def generalised_centrifugal(self) -> float | None:
+        """Ce_F = m omega0^2 a/F(x0), F the sum of all attractions at initial contact; None without attraction.
+
+        It is 0 head-on and with a wall, where no line of centres rotates.
+        """
+        scene = self.scene
+        if scene.bridge is None and scene.attraction is None:
+            return None
+        chosen = select_model(scene, oblique=False)
+        free = chosen.structure.replace("_strings", "")  # strings pull inward but are not a cohesive force
+        model = load(ModelKey(free, tuple(law for law in chosen.laws if law[0] != "strings"), chosen.package))
+        p = model.group_values(self.groups)
+        still = np.array([1.0, 0.0, *(model.start(p)[2:] if len(model.state) > 2 else ())])
+        force = model.values("inward_force", still, p)["inward_force"] * self.energy / self.length
+        if not force > 0:
+            return None
+        rate = 0.0 if scene.wall else self.groups["initial_rate"]
+        return float(scaling.generalised_centrifugal(scene.reduced_radius, scene.reduced_mass, rate, force))
 
     def in_si(self, error: ComputationError) -> ComputationError:
         """A `ComputationError` with dimensionless time and state, converted to SI units; one that is in SI as it is."""
@@ -103,8 +132,8 @@ def _finite(name: str, formula: Formula, values: Mapping[str, float]) -> float:
     raise InputError(entry, shown, f"quantities whose {name.replace('_', ' ')} {kind} is {span}", "is too far off")
 
 
-def nondimensionalise(scene: Scene, speed: float, angle: float) -> DimensionlessGroups:
-    """Dimensionless groups of a scene's collision at normal speed `speed` (m/s) and `angle` (rad).
+def nondimensionalise(scene: Scene, speed: float, angle: float) -> Problem:
+    """A scene's collision at normal speed `speed` (m/s) and `angle` (rad).
 
     A group exists if the scene has all its quantities; without an elastic criterion elastic_gap is 0.
     """
@@ -123,7 +152,8 @@ def nondimensionalise(scene: Scene, speed: float, angle: float) -> Dimensionless
             groups[name] = values[name] = _finite(name, formula, values)
     x0 = scene.liquid.film_thickness
     scales = {name: _finite(name, formula, values) for name, formula in _SCALES.items()}
-    return DimensionlessGroups(
+    return Problem(
+        scene=scene,
         groups=groups,
         angle=angle,
         speed=speed,
@@ -136,23 +166,3 @@ def nondimensionalise(scene: Scene, speed: float, angle: float) -> Dimensionless
         capillary=groups.get("capillary"),
         reynolds=groups.get("reynolds"),
     )
-
-
-def generalised_centrifugal(scene: Scene, n: DimensionlessGroups) -> float | None:
-    """Return Ce_F = m omega0^2 a/F(x0), F the sum of all attractions at initial contact; None without attraction.
-
-    It is 0 head-on and with a wall, where no line of centres rotates.
-    """
-    if scene.bridge is None and scene.attraction is None:
-        return None
-    chosen = select_model(scene, oblique=False)
-    free = chosen.structure.replace("_strings", "")  # strings pull inward but are not a cohesive force
-    model = load(ModelKey(free, tuple(law for law in chosen.laws if law[0] != "strings"), chosen.package))
-    p = model.group_values(n.groups)
-    still = np.array([1.0, 0.0, *(model.start(p)[2:] if len(model.state) > 2 else ())])
-    inward = model.values("inward_force", still, p)["inward_force"]
-    force = inward * n.energy / n.length
-    if not force > 0:
-        return None
-    rate = 0.0 if scene.wall else n.groups["initial_rate"]
-    return float(scaling.generalised_centrifugal(scene.reduced_radius, scene.reduced_mass, rate, force))

@@ -20,7 +20,7 @@ from ..engines.interval.inputs import Inputs
 from ..errors import ComputationError, InputError
 from ..host.cores import usable_cores
 from ..many.collide_many import collide_many
-from ..many.results import outcome_attributes
+from ..results import outcome_attributes
 from ..scene.origin import origin
 from ..scene.scene import Scene
 from .cells import UNDECIDED, Cell

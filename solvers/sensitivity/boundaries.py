@@ -26,8 +26,7 @@ from ..host.arguments import check_function
 from ..host.pictures import Drawn
 from ..scene.scene import Scene
 from ..scene.schema import DEFAULTS, FIELDS, MEETING, SPEEDS
-from .parameters import check_wrt, kind_of, parameter_map, references
-from .results import Row
+from .parameters import Row, check_wrt, kind_of, parameter_map, references
 
 if TYPE_CHECKING:
     import xarray

@@ -20,7 +20,7 @@ from ..engines.taylor.call import Impacts
 from ..engines.taylor.record import run_recorded
 from ..engines.taylor.tangent import DISTANCES, GRIPS
 from ..errors import ComputationError
-from ..model.dimensionless import DimensionlessGroups
+from ..model.dimensionless import Problem
 from ..scene.contact import TIE
 from ..scene.scene import Scene
 from .result import Near
@@ -139,12 +139,13 @@ def course(answer: np.void, log: np.ndarray, words: Sequence[str], speed: float)
     )
 
 
-def courses_of(scene: Scene, n: DimensionlessGroups, factors: np.ndarray) -> list[Course]:
+def courses_of(scene: Scene, n: Problem, factors: np.ndarray) -> list[Course]:
     """What happens in a scene's collision at other speeds."""
     impacts = Impacts(scene, n.speed * factors, np.full(factors.size, n.angle), {})
     ran, words = run_recorded(impacts, n.oblique, FINE, ledger=True), words_of(scene)
     speeds = ran.answers["shown"][:, 0].tolist()
-    return [course(*row, words, speed) for *row, speed in zip(ran.answers, ran.events, speeds, strict=True)]
+    rows = zip(ran.answers, ran.events, speeds, strict=True)
+    return [course(answer, log, words, speed) for answer, log, speed in rows]
 
 
 def along_speed(courses: Courses, ladder: Sequence[float]) -> Near | None:
@@ -172,7 +173,7 @@ def along_speed(courses: Courses, ladder: Sequence[float]) -> Near | None:
 
 
 def _width(brackets: Brackets) -> np.ndarray:
-    return np.maximum(_WIDTH * np.abs(brackets.place), _NARROWEST)
+    return np.asarray(np.maximum(_WIDTH * np.abs(brackets.place), _NARROWEST))
 
 
 def _name(courses: Courses, change: Brackets) -> str:

@@ -20,7 +20,7 @@ from casadi import DM, MX, Function, densify, fmin, jtimes, vertcat
 
 from ..collision.by_kernel import sequence_of
 from ..engines.casadi.integrators import IntegrationFailed, Tolerance, failures, landing, plain, quiet
-from ..engines.casadi.replay import Replay, replayed
+from ..engines.casadi.replay import Replay, Stopped, replayed
 from ..engines.casadi.sequence import EventSequence
 from ..errors import ComputationError
 from ..host.thread_caches import own_cache
@@ -28,11 +28,11 @@ from ..model.key import ModelKey
 from ..model.model import Model, load, select_model
 from ..model.phases import Flow, Phase, WatchedEvents, extra_units
 from ..model.rebound import jump, rubs
+from ..results import DEFINITIONS
 from ..scene.contact import GAPS, contact_word
 from .boundary_distance import SADDLE, check_grip
 from .parameters import SCALES, parameter_map
 from .problem import NEAR, Problem, Query, Slopes
-from .results import DIFFERENTIATED
 
 _SHARPEST_CVODES = 3e-12  # smallest tolerance of CVODES with sensitivities; below it some integrations fail
 STATE = "state."  # begins the name of a component of the last state, among results
@@ -177,7 +177,7 @@ def trajectory(course: Course, of: tuple[str, ...], plugin: str, tolerance: Tole
 
 
 def results(course: Course, p: MX, end: End, tolerance: Tolerance) -> dict[str, MX]:
-    """Results by their names in `DIFFERENTIATED`, and the last state by `STATE` and the names of its components."""
+    """Results by their names in `DEFINITIONS`, and the last state by `STATE` and the names of its components."""
     model = course.model
     size = len(model.state)
     y = end.y[:size]
@@ -206,7 +206,8 @@ def quadratures(model: Model, of: Iterable[str]) -> tuple[str, ...]:
     """Names of the quadratures that results need: the rotation where it is no state, and terms of the ledger."""
     turns = model.has("turning_rate") and not model.strings
     has = {*model.names("energy_rates"), *(("rotation",) if turns else ())}
-    return tuple(extra for name in of if name in DIFFERENTIATED and (extra := DIFFERENTIATED[name].extra) in has)
+    rows = (DEFINITIONS[name] for name in of if name in DEFINITIONS)
+    return tuple(row.term for row in rows if row.integral and row.term in has)
 
 
 # ---- its derivatives
@@ -300,7 +301,7 @@ def slopes(problem: Problem, query: Query, plugin: str) -> Slopes:
     mapping = parameter_map(problem.kind, problem.wrt, tuple(load(choice).groups))
     p, scales = np.split(mapping.values(problem.reference).full().ravel(), [-len(SCALES)])
     by_theta = np.asarray(mapping.slopes(problem.reference)[0].full())
-    found, parting = partial(sequence_of, scene, n), problem.path.parting
+    found, parting = partial(sequence_of, n), problem.path.parting
     try:
         z, dz, dp = differentiated(found, choice, query, plugin, parting, p, by_theta[: p.size])
     except ComputationError as error:
@@ -308,7 +309,7 @@ def slopes(problem: Problem, query: Query, plugin: str) -> Slopes:
     # in SI: a result is its dimensionless value times a scale
     scale, by_scale = np.ones(len(of)), np.zeros((len(of), by_theta.shape[1]))
     for k, name in enumerate(of):
-        unit = DIFFERENTIATED[name].scale
+        unit = DEFINITIONS[name].scale
         if unit is not None:
             scale[k], by_scale[k] = scales[SCALES.index(unit)], by_theta[p.size + SCALES.index(unit)]
     return Slopes(z * scale, dz @ dp * scale[:, None] + z[:, None] * by_scale)
@@ -339,7 +340,10 @@ def differentiated(
             message = "no derivative by cvodes: its steps do not follow those of a trajectory that lies at the"
             raise ComputationError(f"{message} {near}, nearer than {NEAR:g}", advice="--engine rosenbrock")
         sharp = max(sharp, _SHARPEST_CVODES)
-    path, replay = replayed(found, choice, quadratures(load(choice), query.of), plugin, sharp)
+    try:
+        path, replay = replayed(found, choice, quadratures(load(choice), query.of), plugin, sharp)
+    except Stopped as stopped:
+        raise stopped.error(plugin, load(choice)) from None
     check_grip(replay.grip, query.rtol)
     course = course_of(path, replay, choice)
     function = trajectory(course, query.of, plugin, replay.tolerance)

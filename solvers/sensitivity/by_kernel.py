@@ -10,37 +10,28 @@ from ...generated.automaton import LAST_ANSWER, OUTCOMES
 from ..engines.choice import differentiates
 from ..engines.settings import KERNEL_STEPS
 from ..engines.taylor.call import Impacts
+from ..engines.taylor.layout import derivative_column, result
 from ..engines.taylor.orders import order_for
-from ..engines.taylor.tangent import COLUMNS, GRIPS, Carried, run_tangent
+from ..engines.taylor.tangent import GRIPS, Carried, run_tangent
 from ..model.dimensionless import nondimensionalise
+from ..results import DEFINITIONS, TANGENTS
 from ..scene.groups import rate_scales, si_values
 from ..scene.scene import Scene
 from ..scene.schema import SPINS
 from .boundary_distance import check_grip
 from .parameters import RELATIVE, SCALES, Kind, parameter_map, references
 from .problem import Problem, Query, Slopes
-from .results import DIFFERENTIATED
 
-# Results that the kernel differentiates (not the ledger): column of the derivative, field of the value.
-_WHERE: dict[str, tuple[int, str | int]] = {
-    "restitution": (0, 0),
-    "tangential_restitution": (1, 1),
-    "final_rotation_rate": (2, 2),
-    "final_spin": (3, 3),
-    "contact_time": (COLUMNS["time"], "time"),
-    "smallest_gap": (COLUMNS["smallest_gap"], "smallest_gap"),
-    "rotation": (COLUMNS["turned"], "turned"),
-}
-KNOWN = tuple(_WHERE)
 BACKWARD = ("restitution",)  # results that the kernel's adjoint differentiates
 DIRECTIONS = 4  # most parameters for which forward tangents cost no more than the adjoint (docs/engineering/kernel.md)
 SPEED, ANGLE = 1.0, 0.5  # impact (m/s, rad) at which parameters are mapped; others follow by their powers
-_TURNS = tuple(name for name in KNOWN if DIFFERENTIATED[name].odd or name == "tangential_restitution")
+_OF_UNEQUAL = frozenset(("radius_ratio", "mass_ratio"))  # quantities that make equal spheres unequal
+_TURNS = tuple(name for name in TANGENTS if DEFINITIONS[name].odd or name == "tangential_restitution")
 
 
 def offers(scene: Scene, of: Sequence[str], oblique: Collection[bool] = (True, False)) -> bool:
     """True if the kernel differentiates these results of the scene, for oblique and head-on collisions as requested."""
-    return all(name in KNOWN for name in of) and differentiates(scene, oblique)
+    return all(name in TANGENTS for name in of) and differentiates(scene, oblique)
 
 
 @dataclass(frozen=True)
@@ -82,8 +73,9 @@ def gradients_by_kernel(
     scene, size = impacts.scene, impacts.angle.size
     angle, oblique = ANGLE if impacts.angle[0] > 0 else 0.0, bool(impacts.oblique[0])
     at = _at_reference(scene, kind, wrt, angle)
+    fold = not _OF_UNEQUAL & at.moved.keys()
     derivatives = run_tangent(
-        impacts, oblique, rtol, "rotation" in of, tuple(at.moved), order, budget, backward, nearest=nearest
+        impacts, oblique, rtol, "rotation" in of, tuple(at.moved), order, budget, backward, fold, nearest
     )
     if derivatives is None:
         return None
@@ -98,14 +90,13 @@ def gradients_by_kernel(
         bent[:, wrt.index("impact.angle")] = steep / _steep(np.array(angle))
     scales = partial(_Scales, scene, impacts, at.scales, wrt, steep)
     for place, name in enumerate(of):
-        column, where = _WHERE[name]
         if name == "tangential_restitution" and angle == 0:
             continue
         if not oblique and name in _TURNS:
-            if DIFFERENTIATED[name].odd:
+            if DEFINITIONS[name].odd:
                 value[place, separated] = 0.0
             continue
-        plain = derivatives.answers[where] if isinstance(where, str) else derivatives.answers["shown"][:, where]
+        plain, column = result(derivatives.answers, name), derivative_column(name)
         sums = np.zeros((len(wrt), size))
         for quantity, row in at.moved.items():  # a quantity moves with few parameters
             if quantity not in derivatives.quantities:
@@ -119,7 +110,7 @@ def gradients_by_kernel(
         if name == "final_spin" and unspun:  # parted at initial contact: the spin is zero up to rounding
             plain = np.where(at_once, 0.0, plain)
             first[place] *= np.isin(wrt, SPINS) | ~at_once[:, None]
-        if DIFFERENTIATED[name].scale is not None:
+        if DEFINITIONS[name].scale is not None:
             scale, relative = scales().of(name)
             first[place] = (first[place] + plain[:, None] * relative) * scale[:, None]
             plain = plain * scale
@@ -198,6 +189,6 @@ class _Scales:
 
     def of(self, name: str) -> tuple[np.ndarray, np.ndarray]:
         """The scale (collisions,) and the derivatives of its logarithm (collisions, parameters)."""
-        scale = DIFFERENTIATED[name].scale
+        scale = DEFINITIONS[name].scale
         assert scale is not None
         return self._values[scale], self._relative[scale]

@@ -16,7 +16,7 @@ from ..changes.experiment import Rows
 from ..engines.settings import RTOL, check_rtol
 from ..errors import ComputationError, InputError
 from ..host.arguments import check_function, check_mapping, check_whole
-from ..many.batch import checked_numbers
+from ..many.arguments import checked_numbers
 from ..many.collide_many import collide_many
 from ..scene.scene import Scene
 from ..scene.schema import SPEEDS

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ...generated.automaton import LAST_ANSWER, OUTCOMES, Status
+from ...generated.automaton import LAST_ANSWER, OUTCOMES
 from ...generated.automaton import STICK as STICKS
 from ..engines.choice import gradient_engine
 from ..engines.settings import KERNEL_STEPS, RTOL, check_engine
@@ -21,9 +21,9 @@ from ..errors import WetDoubletError
 from ..formatting.labelled import Column, labelled
 from ..host.cores import usable_cores
 from ..host.pictures import register
-from ..many.batch import validated_batch
-from ..many.results import FAILED, outcome_attributes
+from ..many.impacts import listed
 from ..model.validity import warn
+from ..results import DEFINITIONS, FAILED, TANGENTS, check_differentiated, outcome_attributes
 from ..scene.groups import sideways
 from ..scene.held import held_quantity
 from ..scene.scene import Scene
@@ -33,7 +33,6 @@ from .boundary_distance import limit, refused
 from .parameters import RELATIVE, SIDEWAYS, Kind, check_wrt, kind_of, references
 from .problem import NEAR, SHARPEST
 from .result import Near
-from .results import DIFFERENTIATED, check_quantities
 from .sensitivities import sensitivities
 
 if TYPE_CHECKING:
@@ -143,8 +142,8 @@ def gradients_many(
         >>> found.gradient.sel(quantity="restitution", parameter="liquid.viscosity").shape
         (2,)
     """
-    names, by = check_quantities(of), check_engine(engine)
-    batch = validated_batch(
+    names, by = check_differentiated(of), check_engine(engine)
+    batch = listed(
         scene, {"stokes": stokes, "speed": speed, "relative_speed": relative_speed, "angle": angle}, {}, rtol,
         "rosenbrock", (),
     )  # fmt: skip
@@ -158,7 +157,7 @@ def gradients_many(
     left = np.arange(batch.size)
     oblique = set(sideways(loaded, batch.angle, {}).tolist())
     if by is None:
-        by = gradient_engine(loaded, names, kernel.KNOWN, oblique)
+        by = gradient_engine(loaded, names, TANGENTS, oblique)
     if by == "taylor" and kernel.offers(loaded, names, oblique):
         left = _by_kernel(request)
     for k in left:
@@ -169,7 +168,7 @@ def gradients_many(
 def _by_kernel(request: _Request) -> np.ndarray:
     """Compute collisions by the kernel; returns the indices of those left to CasADi."""
     moves = sideways(request.scene, request.angle, {})
-    turns = any(DIFFERENTIATED[name].odd for name in request.of) and bool({*request.wrt} & {*SIDEWAYS})
+    turns = any(DEFINITIONS[name].odd for name in request.of) and bool({*request.wrt} & {*SIDEWAYS})
     parts, left = [], [np.flatnonzero(~moves) if turns else np.zeros(0, int)]
     for which in (np.flatnonzero(request.angle > 0), np.flatnonzero((request.angle == 0) & (moves | (not turns)))):
         parts += [which[k : k + _STRETCH] for k in range(0, which.size, _STRETCH)]
@@ -231,7 +230,8 @@ def _stretch(request: _Request, which: np.ndarray) -> np.ndarray:
                 part = part[again.run.answers["status"] > LAST_ANSWER]
             if not part.size:
                 break
-    stuck = which[_sticks(request, which, answers, answered.run.by_energy)]
+    sticks = (answers["outcome"] == OUTCOMES.index(STICKS)) & (answers["status"] <= LAST_ANSWER)
+    stuck = which[_alike_beside(request, which, answers, np.flatnonzero(sticks))]
     request.outcome[stuck], request.reason[stuck], request.engine[stuck] = 0, STICK, "taylor"
     if "restitution" in request.of:
         place = request.of.index("restitution")
@@ -265,14 +265,6 @@ def _keep(request: _Request, which: np.ndarray, answered: kernel.Along, part: np
         slopes[np.isnan(answered.value[:, part])] = np.nan
         request.gradient[:, into] = slopes
         request.engine[into] = "taylor"
-
-
-def _sticks(request: _Request, which: np.ndarray, answers: np.ndarray, by_energy: bool) -> np.ndarray:
-    """Mask of sticks without a boundary nearby, tested as in `boundary_distance`."""
-    stuck = (answers["outcome"] == OUTCOMES.index(STICKS)) & (answers["status"] <= LAST_ANSWER)
-    far = stuck & (answers["status"] == Status.PROVED_AT_TOUCH) & by_energy
-    far[_alike_beside(request, which, answers, np.flatnonzero(stuck & ~far))] = True
-    return np.asarray(far)
 
 
 def _alike_beside(request: _Request, which: np.ndarray, answers: np.ndarray, checked: np.ndarray) -> np.ndarray:
@@ -326,7 +318,7 @@ def _dataset(request: _Request, hold: str) -> xarray.Dataset:
         "engine": (along, request.engine.astype(str), {"long_name": "what computed it"}),
     }
     coordinates: dict[str, Column] = {
-        "units": (("quantity",), np.array([DIFFERENTIATED[name].unit for name in request.of]), {}),
+        "units": (("quantity",), np.array([DEFINITIONS[name].unit for name in request.of]), {}),
         "reference": (("collision", "parameter"), reference, {}),
         "speed": (along, request.speed, {"units": "m/s", "long_name": "normal approach speed"}),
         "stokes": (along, stokes, {"units": "1", "long_name": "Stokes number"}),

@@ -19,10 +19,10 @@ from ..engines.taylor.in_space import recorded_in_space
 from ..errors import ComputationError, WetDoubletError
 from ..host.arguments import check_names
 from ..host.pictures import register
-from ..many.results import FAILED, outcome_attributes
-from ..model.dimensionless import DimensionlessGroups, nondimensionalise
+from ..model.dimensionless import Problem, nondimensionalise
 from ..model.model import load, select_model
 from ..model.validity import warn
+from ..results import FAILED, outcome_attributes
 from ..scene.scene import Scene
 from ..space.by_kernel import vectors_of
 from ..space.by_replay import groups_of, own_axes, sequence_in_space
@@ -116,16 +116,12 @@ def pair_gradients(
     }
     first = 0
     for name, shape in RESULTS.items():
-        unit, what = NUMBERS[name] if name in NUMBERS else VECTORS[name][1:]
-        more = VECTORS[name][0] if name in VECTORS else ()
+        more, about = ((), NUMBERS[name]) if name in NUMBERS else VECTORS[name]
         part = slice(first, first := first + int(np.prod(shape)))
-        data[name] = (
-            (*dims, *more),
-            value[:, part].reshape((*pairs.shape, *shape)),
-            {"units": unit, "long_name": what},
-        )
+        data[name] = (*dims, *more), value[:, part].reshape((*pairs.shape, *shape)), about
         slopes = slope[:, part].reshape((*pairs.shape, *shape, len(request.parameters)))
-        data[f"d_{name}"] = ((*dims, *more, "parameter"), slopes, {"long_name": f"derivative of the {what}"})
+        meaning = {"long_name": f"derivative of the {about['long_name']}"}
+        data[f"d_{name}"] = (*dims, *more, "parameter"), slopes, meaning
     coordinates = {"axis": list(AXES), "parameter": list(request.parameters)}
     return xr.Dataset(data, coordinates, {"scene": loaded.to_toml(), "rtol": rtol, "engine": "rosenbrock"})
 
@@ -202,7 +198,7 @@ def _of_one_pair(request: _Request, pair: Pairs, rtol: float) -> tuple[int, tupl
     return OUTCOMES.index(path.outcome), (value.ravel(), derivatives / column_scales)
 
 
-def _scaled(pair: Pairs) -> tuple[DimensionlessGroups, np.ndarray]:
+def _scaled(pair: Pairs) -> tuple[Problem, np.ndarray]:
     """The groups of a pair, and the axes of its vectors; where nothing moves sideways rates have a scale of 1."""
     if pair.scene.wall:
         return nondimensionalise(pair.scene, -float(pair.opening[0]), 0.0), np.eye(3)
@@ -211,12 +207,12 @@ def _scaled(pair: Pairs) -> tuple[DimensionlessGroups, np.ndarray]:
     return replace(n, groups={**n.groups, "obliquity": n.groups["obliquity"] or 1.0}), axes
 
 
-def _followed(pair: Pairs, n: DimensionlessGroups) -> tuple[Callable[[float], EventSequence], Courses]:
+def _followed(pair: Pairs, n: Problem) -> tuple[Callable[[float], EventSequence], Courses]:
     """The events of one pair at a tolerance, and what happens at other speeds."""
     if pair.scene.wall:  # the normal motion does not depend on the tangential one
         scene = without_spins(pair.scene)
         aside = nondimensionalise(scene, n.speed, _SLIDES)
-        return lambda rtol: replace(sequence_of(scene, aside, rtol), groups=n.groups), partial(courses_of, scene, aside)
+        return lambda rtol: replace(sequence_of(aside, rtol), groups=n.groups), partial(courses_of, scene, aside)
     restitution = load(select_model(pair.scene, True, space=True)).names("outputs").index("restitution")
 
     def courses(factors: np.ndarray) -> list[Course]:

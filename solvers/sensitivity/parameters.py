@@ -22,6 +22,8 @@ from ..scene.schema import DEFAULTS, FIELDS, MEETING, SPEEDS, SPINS
 
 SIDEWAYS = ("impact.angle", *SPINS)
 IMPACT = ("impact.speed", "impact.stokes", "impact.angle")
+Row = Mapping[str, float | None]
+"""A number for each parameter; None where it is not defined."""
 SCALES = ("length", "time", "rate", "energy")
 RELATIVE = "impact.relative_speed"
 

@@ -10,7 +10,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from ..formatting.style import NOTE, broken, picture, title
-from ..many.results import QUANTITIES
+from ..results import BY_DEFAULT
 from ..scene.held import AXIS_LABELS
 
 if TYPE_CHECKING:
@@ -61,7 +61,7 @@ def _across(data: xarray.Dataset) -> tuple[np.ndarray, str]:
 def draw_band(data: xarray.Dataset) -> Figure:
     """A result with bands of two first-order standard deviations and of the samples' 2.5 to 97.5 %."""
     over = str(next(iter(data.dims)))
-    of = next(name for name in QUANTITIES if name in data)
+    of = next(name for name in BY_DEFAULT if name in data)
     x = np.degrees(data[over].values) if over == "impact.angle" else data[over].values
     y, spread, low, high = data[of].values, 2 * data.first_order.values, data.low.values, data.high.values
     x, y, spread, low, high = broken(data.outcome.values, x, y, spread, low, high)

@@ -10,7 +10,7 @@ import numpy as np
 
 from ..collision.by_kernel import sequence_of
 from ..engines.casadi.sequence import EventSequence
-from ..model.dimensionless import DimensionlessGroups, nondimensionalise
+from ..model import dimensionless
 from ..scene.quantities import normal_speed
 from ..scene.scene import Scene
 from .parameters import RELATIVE, Kind, kind_of, parameter_map, references
@@ -35,7 +35,7 @@ class Problem:
     """A collision, the parameters to differentiate in, and their reference values."""
 
     scene: Scene
-    n: DimensionlessGroups
+    n: dimensionless.Problem
     wrt: tuple[str, ...]
     kind: Kind
     reference: np.ndarray
@@ -44,12 +44,18 @@ class Problem:
     def of(cls, scene: Scene, speed: float, angle: float, wrt: tuple[str, ...], hold: str) -> Problem:
         """The problem of a scene's collision at a normal speed (m/s) and angle (rad)."""
         kind = kind_of(scene, hold)
-        return cls(scene, nondimensionalise(scene, speed, angle), wrt, kind, references(scene, kind, speed, angle))
+        return cls(
+            scene,
+            dimensionless.nondimensionalise(scene, speed, angle),
+            wrt,
+            kind,
+            references(scene, kind, speed, angle),
+        )
 
     @cached_property
     def path(self) -> EventSequence:
         """The phases and events of the collision; ComputationError if its outcome is not decided."""
-        return sequence_of(self.scene, self.n, LOCATED)
+        return sequence_of(self.n, LOCATED)
 
     def tilted(self) -> Problem:
         """The collision at a tiny angle: it has the derivatives that a head-on one has by its sideways motion."""

@@ -10,10 +10,11 @@ from ...generated.automaton import STICK
 from ..formatting.markdown import numbers_aligned
 from ..formatting.notebook import view
 from ..host.pictures import Drawn
+from ..results import DEFINITIONS
 from ..scene.held import NAMES
 from ..scene.origin import origin
 from ..scene.schema import SPEEDS
-from .results import DIFFERENTIATED, Row
+from .parameters import Row
 
 if TYPE_CHECKING:
     import xarray
@@ -96,7 +97,7 @@ class Sensitivities(Drawn):
             "hold": self.hold,
             "nearest": near,
             "rtol": self.rtol,
-            "units": {name: DIFFERENTIATED[name].unit for name in self.value}
+            "units": {name: DEFINITIONS[name].unit for name in self.value}
             | {name: self.scene.fields[name].unit or "1" for name in self.parameters},
             **origin(self.scene),
         }
@@ -140,7 +141,7 @@ class Sensitivities(Drawn):
         coordinates: dict[str, Any] = {
             "quantity": list(self.value),
             "parameter": list(self.parameters),
-            "units": ("quantity", [DIFFERENTIATED[name].unit for name in self.value]),
+            "units": ("quantity", [DEFINITIONS[name].unit for name in self.value]),
             "reference": ("parameter", list(self.reference.values())),
         }
         attributes = {"outcome": self.outcome, "method": self.method, "engine": self.engine, "hold": self.hold}
@@ -164,7 +165,7 @@ class Sensitivities(Drawn):
         largest = {p: max((abs(self.elasticity[y][p] or 0.0) for y in names), default=0.0) for p in self.parameters}
         order = sorted(self.parameters, key=lambda p: -largest[p])
         head = ["", *names]
-        units = ["value", *(_number(self.value[y], DIFFERENTIATED[y].unit) for y in names)]
+        units = ["value", *(_number(self.value[y], DEFINITIONS[y].unit) for y in names)]
         rows = [[p, *(self._cell(y, p) for y in names)] for p in order]
         title = "elasticities d ln y/d ln p (* dy/dp where y or p is zero)"
         lines = numbers_aligned([head, units, *rows])
@@ -186,10 +187,7 @@ class Sensitivities(Drawn):
     def _repr_html_(self) -> str:
         from ..collision.text import name_of
 
-        head = [
-            "parameter",
-            *(f"{name} = {_number(self.value[name], DIFFERENTIATED[name].unit)}" for name in self.value),
-        ]
+        head = ["parameter", *(f"{name} = {_number(self.value[name], DEFINITIONS[name].unit)}" for name in self.value)]
         rows = [[p, *(self._cell(y, p) for y in self.value)] for p in self.parameters]
         title = f"{name_of(self.scene)}, {self.outcome}: elasticities d ln y/d ln p"
         near = [f"nearest: {self.near}"] if self.near else []

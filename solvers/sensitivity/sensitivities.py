@@ -10,6 +10,7 @@ from ..engines.choice import gradient_engine
 from ..engines.settings import check_engine, check_rtol
 from ..errors import ComputationError, InputError
 from ..host.arguments import check_name
+from ..results import DEFINITIONS, SPENT, TANGENTS, check_differentiated
 from ..scene.held import held_quantity
 from ..scene.scene import Scene
 from . import by_casadi, by_kernel
@@ -17,7 +18,6 @@ from .boundary_distance import checked, courses_of, explained
 from .parameters import SIDEWAYS, check_wrt
 from .problem import Problem, Query, Slopes
 from .result import Sensitivities
-from .results import DIFFERENTIATED, SPENT, check_quantities, computed
 
 METHODS = ("forward", "adjoint")
 
@@ -69,7 +69,7 @@ def sensitivities(
         >>> found.gradient["restitution"]["bridge.surface_tension"] < 0
         True
     """
-    of, method = check_quantities(of), check_method(method)
+    of, method = check_differentiated(of), check_method(method)
     rtol, requested = check_rtol(rtol), check_engine(engine)
     if requested == "taylor" and method != "forward":
         raise InputError("method", method, "forward with engine taylor", "is not the kernel's")
@@ -84,13 +84,13 @@ def sensitivities(
     except ComputationError as error:
         raise explained(courses, error, rtol) from None
     near = checked(courses, separated, rtol)
-    todo = tuple(name for name in computed(of) if problem.defined(name))
-    odd = np.array([DIFFERENTIATED[name].odd for name in todo], dtype=bool)
+    todo = tuple(name for name in _computed(of) if problem.defined(name))
+    odd = np.array([DEFINITIONS[name].odd for name in todo], dtype=bool)
     sideways = np.isin(names, SIDEWAYS)
     tilts = bool(todo and sideways.any() and odd.any()) and not n.oblique
     plugin = requested or "rosenbrock"
     if requested is None and method == "forward":
-        plugin = gradient_engine(loaded, of, by_kernel.KNOWN, {n.oblique, n.oblique or tilts})
+        plugin = gradient_engine(loaded, of, TANGENTS, {n.oblique, n.oblique or tilts})
     query = Query(todo, method, rtol, near)
     slopes, plugin = _slopes(problem, query, plugin) if todo else (None, plugin)
     if tilts and slopes is not None:
@@ -121,6 +121,11 @@ def _slopes(problem: Problem, query: Query, engine: str) -> tuple[Slopes, str]:
         engine = "rosenbrock" if engine == "taylor" else engine
         slopes = by_casadi.slopes(problem, query, engine)
     return Slopes(slopes.value, slopes.first / problem.units()), engine
+
+
+def _computed(of: Sequence[str]) -> tuple[str, ...]:
+    """The results to compute for these; the residual requires all terms of the ledger."""
+    return tuple(dict.fromkeys(part for name in of for part in _parts(name)))
 
 
 def _combined(

@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 
 from ..collision.text import name_of
 from ..formatting.style import LONGEST, picture, plain_text, title
-from .results import DIFFERENTIATED
+from ..results import DEFINITIONS
 
 _UP, _DOWN, _INK = "#2a6f97", "#c1554a", "#222222"
 _MOST = 16  # most bars in a panel
@@ -76,7 +76,7 @@ def _panel(axis: Any, result: Any, name: str, order: Sequence[str]) -> None:
             text, (value, bar.get_y() + bar.get_height() / 2), (3 * side, 0), textcoords="offset points",
             ha="left" if side > 0 else "right", va="center", fontsize=7.5, color=_INK,
         )  # fmt: skip
-    unit = DIFFERENTIATED[name].unit
+    unit = DEFINITIONS[name].unit
     axis.set_title(f"{name.replace('_', ' ')}\n{result.value[name]:.4g}{'' if unit == '1' else ' ' + unit}", color=_INK)
     axis.tick_params(axis="y", length=0)
 

@@ -13,9 +13,9 @@ from ..errors import InputError
 from ..host.arguments import check_function, check_mapping, check_name, check_whole
 from ..host.pictures import register
 from ..host.progress import Progress
-from ..many.batch import checked_numbers
+from ..many.arguments import checked_numbers
 from ..many.collide_many import collide_many
-from ..many.results import QUANTITIES as MANY
+from ..results import BY_DEFAULT, attributes
 from ..scene.held import held_quantity, impact_value
 from ..scene.quantities import normal_speed
 from ..scene.scene import Scene
@@ -126,7 +126,7 @@ def band(
     import xarray as xr
 
     register()
-    over, of = check_name(over, MEETING, "over"), check_name(of, tuple(MANY), "of")
+    over, of = check_name(over, MEETING, "over"), check_name(of, BY_DEFAULT, "of")
     loaded = Scene.load(scene)
     check_mapping(uncertainty, "uncertainty", "standard deviations by dotted name")
     where = checked_numbers(over, values).reshape(-1)
@@ -159,7 +159,7 @@ def band(
     unit = FIELDS[over].unit or "1"
     return xr.Dataset(
         {
-            of: (over, gradients.value.values[0], {"units": MANY[of][0], "long_name": MANY[of][1]}),
+            of: (over, gradients.value.values[0], attributes(of)),
             "first_order": (over, np.sqrt(((gradients.gradient.values[0] * spreads) ** 2).sum(axis=1))),
             "low": (over, low),
             "high": (over, high),

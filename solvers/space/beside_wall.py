@@ -76,7 +76,7 @@ def planar_by_replay(impacts: Impacts, plugin: str, rtol: float, ledger: bool) -
             model = load(select_model(scene, True, full=ledger))
             extras = extras_of(model) if ledger else ()
             try:
-                path, replay = replayed(partial(sequence_of, scene, n), model.choice, extras, plugin, rtol)
+                path, replay = replayed(partial(sequence_of, n), model.choice, extras, plugin, rtol)
             except Stopped as stopped:
                 raise n.in_si(stopped.error(plugin, model)) from None
         except WetDoubletError as error:

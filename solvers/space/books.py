@@ -6,13 +6,10 @@ import numpy as np
 
 from ..collision.outcome import open_beyond
 from ..model.model import Model
+from ..results import TERMS as OF_KERNEL
 from ..scene.scene import Scene
 
-TERMS = (
-    "initial", "final", "normal_lubrication", "tangential_lubrication", "capillary", "attraction", "dry_contact",
-    "dry_friction",
-)  # fmt: skip
-_OF_KERNEL = ("initial", "final", "normal", "tangential", "capillary", "attraction", "dry", "friction")
+TERMS = tuple(name for name in OF_KERNEL if name != "strings")
 _INITIAL, _FINAL, _SHEAR = (TERMS.index(name) for name in ("initial", "final", "tangential_lubrication"))
 OPEN = "the energy ledger is open: try a smaller rtol, or another engine"
 GREW = "energy has grown: errors have added up over a long trajectory; try a smaller rtol, or another engine"
@@ -22,7 +19,7 @@ TRANSVERSE = [_INITIAL, _FINAL, _SHEAR]
 
 def of_kernel(books: np.ndarray) -> np.ndarray:
     """The terms of ledgers by the kernel, (collisions, terms)."""
-    return np.stack([books[name] for name in _OF_KERNEL], axis=-1)
+    return np.stack([books[name] for name in map(OF_KERNEL.get, TERMS)], axis=-1)
 
 
 def extras_of(model: Model) -> tuple[str, ...]:

@@ -18,7 +18,7 @@ from ..engines.casadi.sequence import EventSequence, sequence
 from ..engines.taylor.in_space import recorded_in_space
 from ..engines.taylor.undecided import undecided
 from ..errors import ComputationError, WetDoubletError
-from ..model.dimensionless import DimensionlessGroups, nondimensionalise
+from ..model.dimensionless import Problem, nondimensionalise
 from ..model.model import Model, load, select_model
 from ..scene.groups import si_values
 from .books import OPEN, extras_of, is_open, of_casadi
@@ -42,7 +42,7 @@ def pairs_by_replay(pairs: Pairs, plugin: str, rtol: float, ledger: bool = False
     return ends
 
 
-def sequence_in_space(pair: Pairs, n: DimensionlessGroups, rtol: float) -> EventSequence:
+def sequence_in_space(pair: Pairs, n: Problem, rtol: float) -> EventSequence:
     """The phases and events of one pair that turns, as the kernel finds them in the laboratory's axes."""
     model = load(select_model(pair.scene, True, space=True))
     answer, log = recorded_in_space(pair.scene, vectors_of(pair), -pair.opening, rtol)
@@ -66,7 +66,7 @@ def own_axes(pair: Pairs) -> np.ndarray:
     return np.stack([normal, second, np.cross(normal, second)])
 
 
-def groups_of(pair: Pairs, axes: np.ndarray) -> DimensionlessGroups:
+def groups_of(pair: Pairs, axes: np.ndarray) -> Problem:
     """The groups of one pair, with the components of vectors along these axes."""
     speed = -float(pair.opening[0])
     n = nondimensionalise(pair.scene, speed, 0.0)
@@ -100,7 +100,7 @@ def groups_of(pair: Pairs, axes: np.ndarray) -> DimensionlessGroups:
 def _end(pair: Pairs, plugin: str, rtol: float, ledger: bool) -> Ends:
     turns, axes = not pair.head_on[0], own_axes(pair)
     n = groups_of(pair, axes) if turns else nondimensionalise(without_spins(pair.scene), -float(pair.opening[0]), 0.0)
-    found = partial(sequence_in_space, pair, n) if turns else partial(sequence_of, without_spins(pair.scene), n)
+    found = partial(sequence_in_space, pair, n) if turns else partial(sequence_of, n)
     choice = select_model(pair.scene, turns, full=ledger, space=turns)
     model = load(choice)
     extras = (EXTRAS if turns else ()) + (extras_of(model) if ledger else ())

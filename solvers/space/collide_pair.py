@@ -13,8 +13,8 @@ from ..errors import InputError
 from ..host.arguments import check_flag
 from ..host.cores import usable_cores
 from ..host.pictures import register
-from ..many.results import attributes, outcome_attributes
 from ..model.validity import sentences_of_many, warn
+from ..results import attributes, outcome_attributes
 from ..scene.groups import si_values
 from ..scene.scene import Scene
 from .beside_wall import Planar, beside_wall, planar_by_kernel, planar_by_replay
@@ -29,20 +29,26 @@ if TYPE_CHECKING:
 
 _FURTHEST = 1e100  # products and quotients of several groups then stay within a double's range
 AXES = ("x", "y", "z")
-NUMBERS = {
-    "restitution": ("1", "normal restitution e_n"),
-    "slip_restitution": ("1", "relative velocity of the surfaces at the contact, after over before"),
-    "time": ("s", "time from initial contact to separation; of a stick 0"),
-    "gap": ("m", "gap at that time"),
-    "until": ("s", "where the integration of a stick stopped"),
+
+
+def _vector(unit: str, meaning: str, *dims: str) -> tuple[tuple[str, ...], dict[str, Any]]:
+    return (*dims, "axis"), {"units": unit, "long_name": meaning}
+
+
+NUMBERS: dict[str, dict[str, Any]] = {
+    "restitution": attributes("restitution"),
+    "slip_restitution": attributes("slip_restitution"),
+    "time": {"units": "s", "long_name": "time from initial contact to separation; of a stick 0"},
+    "gap": {"units": "m", "long_name": "gap at that time"},
+    "until": attributes("until"),
 }
 VECTORS = {
-    "position": (("axis",), "m", "from the first centre to the second, or to the wall's surface"),
-    "normal": (("axis",), "1", "direction of the position"),
-    "velocities": (("particle", "axis"), "m/s", "velocities of the centres; the second beside a wall is the wall's"),
-    "spins": (("particle", "axis"), "rad/s", "angular velocities"),
-    "centre_velocity": (("axis",), "m/s", "velocity of the centre of mass, or of the wall"),
-    "angular_velocity": (("axis",), "rad/s", "rigid rotation of a doublet that sticks"),
+    "position": _vector("m", "from the first centre to the second, or to the wall's surface"),
+    "normal": _vector("1", "direction of the position"),
+    "velocities": _vector("m/s", "velocities of the centres; the second beside a wall is the wall's", "particle"),
+    "spins": _vector("rad/s", "angular velocities", "particle"),
+    "centre_velocity": _vector("m/s", "velocity of the centre of mass, or of the wall"),
+    "angular_velocity": _vector("rad/s", "rigid rotation of a doublet that sticks"),
 }
 
 
@@ -231,13 +237,13 @@ def _dataset(
         "certified": (dims, ends.certified, {"long_name": "the stick is proved"}),
         "reason": (dims, ends.reason.astype(str), {"long_name": "why it failed"}),
     }
-    found |= {name: (dims, made[name], {"units": u, "long_name": what}) for name, (u, what) in NUMBERS.items()}
+    found |= {name: (dims, made[name], about) for name, about in NUMBERS.items()}
     if ledger:
         terms = named(pairs.scene, ends.energy)
         found |= {f"energy.{key}": (dims, column, attributes(f"energy.{key}")) for key, column in terms.items()}
-    for name, (more, unit, what) in VECTORS.items():
+    for name, (more, about) in VECTORS.items():
         values = np.where(failed.reshape(-1, *[1] * len(more)), np.nan, made[name])
-        found[name] = (*dims, *more), values, {"units": unit, "long_name": what}
+        found[name] = (*dims, *more), values, about
     shaped = {
         name: (own, values.reshape((*pairs.shape, *values.shape[1:])), notes)
         for name, (own, values, notes) in found.items()

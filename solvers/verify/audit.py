@@ -50,7 +50,7 @@ def stick_audit(
         integrated += 1
         try:
             n = nondimensionalise(scene, scene.speed_of(stokes), angle)
-            answer = run(scene, n, _RTOL).answers[0]
+            answer = run(n, _RTOL).answers[0]
         except WetDoubletError:
             continue  # failures are reported with the sample
         if answer["outcome"] > 0:
@@ -58,7 +58,7 @@ def stick_audit(
         certified, end = bool(answer["certified"]), float(answer["time"])
         sticks, proved, settled = sticks + 1, proved + certified, settled + (not certified)
         try:
-            on = run(scene, n, _RTOL, until=end + LONG).answers[0]
+            on = run(n, _RTOL, until=end + LONG).answers[0]
         except ComputationError as failure:
             where = escaped if SEPARATES in failure.message else unfinished
             where.append(f"{place(stokes, angle)}, decided at {end:.3g} x0/v0: {failure.message}")

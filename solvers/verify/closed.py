@@ -13,7 +13,7 @@ import numpy as np
 from ..collision.collide import collide
 from ..engines.casadi.integrators import IntegrationFailed, Tolerance, plain, tolerance_for
 from ..errors import ComputationError
-from ..model.dimensionless import DimensionlessGroups, nondimensionalise
+from ..model.dimensionless import Problem, nondimensionalise
 from ..model.model import load, select_model
 from ..model.phases import Flow, Region
 from ..scene.contact import contact_gap
@@ -125,7 +125,7 @@ def _approach(bare: Scene, stokes: float, engine: str, plain: Integrators) -> tu
     return max(errors), place(stokes, 0.0, engine, "approach")
 
 
-def _rebound(n: DimensionlessGroups, glass: str) -> float:
+def _rebound(n: Problem, glass: str) -> float:
     """The first gap on approach at which a rebound criterion is met, by a scan and bisection of the closed form."""
     stokes, limit = n.groups["stokes"], n.groups["glass_number"]
     contact = contact_gap(n.groups)
@@ -151,7 +151,7 @@ def _rebound(n: DimensionlessGroups, glass: str) -> float:
     return outer
 
 
-def _oblique(scene: Scene) -> DimensionlessGroups:
+def _oblique(scene: Scene) -> Problem:
     """Dimensionless groups of the scene's impact, or of an oblique one if it is head-on."""
     return nondimensionalise(scene, scene.speed_of(stokes_of(scene)), scene.angle or _ANGLE)
 
@@ -226,8 +226,6 @@ def swinging(scene: Scene, engine: str, plain: Integrators = plain) -> tuple[flo
     return worst
 
 
-def _integrated(
-    plain: Integrators, flow: Flow, engine: str, n: DimensionlessGroups, start: np.ndarray, time: float
-) -> np.ndarray:
+def _integrated(plain: Integrators, flow: Flow, engine: str, n: Problem, start: np.ndarray, time: float) -> np.ndarray:
     p = flow.model.group_values(n.groups)
     return plain(flow, engine, tolerance_for(RTOL, engine, n.groups))(start, p, time)

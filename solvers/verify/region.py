@@ -10,7 +10,7 @@ import xarray
 
 from ..collision.collide import collide
 from ..many.collide_many import collide_many
-from ..many.results import FAILED
+from ..results import FAILED
 from ..scene.scene import Scene
 from .budget import LOSSES, TERMS, budgeted, first_rotation
 from .conserved import RESIDUAL, agreement

@@ -16,7 +16,7 @@ from ..errors import ComputationError
 from ..host.environment import one_core
 from ..host.progress import Progress
 from ..many.collide_many import collide_many
-from ..many.results import FAILED
+from ..results import FAILED
 from ..scene.scene import Scene
 
 TOLERANCES = tuple(10.0**-k for k in range(4, 13))

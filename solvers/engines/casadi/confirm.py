@@ -41,7 +41,7 @@ def confirm(path: EventSequence, steps: Steps, choice: ModelKey, plugin: str, rt
                 reached = plain(flow, plugin, tolerance)(start, p, float(row["length"]))
             except IntegrationFailed as failure:
                 raise Stopped(f"gave up ({failure})", phase, float(row["time"]), start) from None
-            allowed = _APART * rtol * np.maximum(np.abs(end), _SCALE)
+            allowed = _APART * rtol * np.maximum(np.maximum(np.abs(start), np.abs(end)), _SCALE)
             if not (np.abs(reached - end) <= allowed).all():
                 raise Stopped("does not agree with a step of the kernel", phase, float(row["time"]), start)
         first, duration = float(rows[0]["time"]), phase_run.duration

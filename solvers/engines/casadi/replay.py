@@ -183,13 +183,15 @@ class _Run:
             phase = self._sided(phase)
             flow = Flow(self.choice, phase.region, self.extras)
             solution = _Solution(self, flow, phase)
+            if self.model.kinks:  # first of all, as behind a kink the solution is another
+                kink = solution.crossing(left, solution.end(left)[1], step.event)
+                if kink is not None and kink.event in self.model.kinks:
+                    duration, y, _ = solution.onto(kink.event, kink.part * left, moved=True)
+                    self._record(phase, kink.event, flow, duration, y)
+                    left -= duration
+                    continue
             duration, y, states = (left, *solution.end(left)) if step.event is None else solution.onto(step.event, left)
             crossing = solution.crossing(duration, states, step.event)
-            if crossing is not None and crossing.event in self.model.kinks:
-                duration, y, _ = solution.onto(crossing.event, crossing.part * duration)
-                self._record(phase, crossing.event, flow, duration, y)
-                left -= duration
-                continue
             if crossing is not None:
                 time = self.at.time + crossing.part * duration
                 raise Stopped(
@@ -296,8 +298,12 @@ class _Solution:
             self.run.tolerance.relative, landed,
         )  # fmt: skip
 
-    def onto(self, event: str, expected: float) -> tuple[float, np.ndarray, np.ndarray]:
-        """Duration and state on an event's surface, and the states at `POINTS` up to nearly there."""
+    def onto(self, event: str, expected: float, moved: bool = False) -> tuple[float, np.ndarray, np.ndarray]:
+        """Duration and state on an event's surface, and the states at `POINTS` up to nearly there.
+
+        Arguments:
+            moved: the duration is expected only about.
+        """
         run = self.run
         if event not in guards(self.flow, run.path.watch)[1]:
             raise Stopped(f"has no event {event} in this phase", self.phase, run.at.time, run.at.y, missed=True)
@@ -314,7 +320,7 @@ class _Solution:
             if landed_close and abs(float(miss[0])) <= max(_MISSES * scale, _ROUNDING):
                 if float(_slope(self.flow, run.path.watch, event)(landed, parameters)) > _RISES * scale / duration:
                     break  # the event was found in the backward direction: the engine's own event is earlier
-                if abs(duration + shift - expected) > max(_MOVED * expected, _MOVED_LEAST):
+                if not moved and abs(duration + shift - expected) > max(_MOVED * expected, _MOVED_LEAST):
                     break
                 return duration + shift, landed, states
             if abs(shift) > nearer / 2:

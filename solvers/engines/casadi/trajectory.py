@@ -8,7 +8,7 @@ import numpy as np
 import xarray as xr
 
 from ...errors import ComputationError
-from ...model.dimensionless import DimensionlessGroups
+from ...model.dimensionless import Problem
 from ...model.model import Model
 from ...scene.scene import Scene
 from .integrators import IntegrationFailed, Tolerance, plain
@@ -88,7 +88,7 @@ def stretch(piece: Piece, model: Model, replayed: Replay, p: np.ndarray, plugin:
 def dataset(
     stretches: Sequence[Stretch],
     model: Model,
-    n: DimensionlessGroups,
+    n: Problem,
     first: np.ndarray,
     attrs: Mapping[str, str | float] | None = None,
 ) -> xr.Dataset:

@@ -9,6 +9,8 @@ from functools import cache
 
 import numpy as np
 
+from ...results import DEFINITIONS
+
 BUFFER = np.dtype([("at", np.uintp), ("bytes", "i8")], align=True)
 SHOWN, SHOWN_IN_SPACE = 5, 13  # results of a collision: the outputs of its structure; in space also of a stick
 _ANSWER = [
@@ -60,8 +62,8 @@ TASK = np.dtype(
     ],
     align=True,
 )
-MORE_RESULTS = 3  # that have derivatives besides the outputs: time, smallest gap, angle turned
-RESULTS = SHOWN + MORE_RESULTS
+MORE_RESULTS = ("time", "smallest_gap", "turned")  # that have derivatives, in columns after those of the outputs
+RESULTS = SHOWN + len(MORE_RESULTS)
 MOST_STEPS = 300  # most steps of a trajectory with an adjoint sweep
 OWN_LEDGER = np.dtype([*LEDGER.descr, ("own_events", "f8")], align=True)  # of a model that declares events
 _STRUCTURES = {"buffer": BUFFER, "answer": ANSWER, "happening": HAPPENING, "ledger": LEDGER, "nearness": NEARNESS}
@@ -109,6 +111,20 @@ def step_row(library: ctypes.CDLL) -> np.dtype:
     )
     assert row.itemsize == size
     return row
+
+
+def result(answers: np.ndarray, name: str) -> np.ndarray:
+    """A dimensionless result of answers, by name."""
+    place = DEFINITIONS[name].place
+    values: np.ndarray = answers[place] if isinstance(place, str) else answers["shown"][:, place]
+    return values
+
+
+def derivative_column(name: str) -> int:
+    """Column of a result among those that the kernel differentiates."""
+    place = DEFINITIONS[name].place
+    assert place is not None
+    return SHOWN + MORE_RESULTS.index(place) if isinstance(place, str) else place
 
 
 @cache

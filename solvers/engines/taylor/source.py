@@ -95,7 +95,7 @@ def files(variant: Variant, emitted: tuple[str, ...]) -> dict[str, str]:
         "WITH_LIMIT": int(variant.limit),
         "DRIFTS": int(slots.get("arm", "midgap") != "midgap"),  # the angular momentum
         "SHOWN": SHOWN_IN_SPACE if variant.space else SHOWN,
-        "RESULTS": 1 if variant.backward else MORE_RESULTS + (SHOWN_IN_SPACE if variant.space else SHOWN),
+        "RESULTS": 1 if variant.backward else len(MORE_RESULTS) + (SHOWN_IN_SPACE if variant.space else SHOWN),
         "MOST_STEPS": MOST_STEPS,
         "MIDGAP_ARM": int(slots.get("arm") == "midgap"),
     }

@@ -13,11 +13,10 @@ from ...scene.scene import Scene
 from ..settings import KERNEL_STEPS
 from .build import kernel, kernel_supports
 from .call import Impacts, task
-from .layout import ANSWER, MOST_STEPS, NEARNESS, RESULTS, names, number
+from .layout import ANSWER, MOST_STEPS, NEARNESS, RESULTS, names
 from .orders import order_backward, order_for
 from .source import Variant
 
-COLUMNS = {"time": 5, "smallest_gap": 6, "turned": 7}  # after the outputs
 CHATTERS, GRIPS = 5, 10  # boundaries: of a trajectory with resting contact; of a rebound with friction
 DISTANCES = {  # boundaries whose measure is a distance reported by `sensitivities`
     7: ("glass criterion met at initial contact", "impact.stokes"),
@@ -38,14 +37,12 @@ class Carried:
         near: (collisions, 3), for separated doublets: the least measure of the distance to a boundary, that boundary
             (runtime/tangents.h), and the least measure of those not in DISTANCES.
         quantities: names in the vocabulary, in the order of `slopes`.
-        by_energy: sticks are decided by the energy certificate.
     """
 
     answers: np.ndarray
     slopes: np.ndarray
     near: np.ndarray
     quantities: tuple[str, ...]
-    by_energy: bool
 
 
 def run_tangent(
@@ -93,7 +90,7 @@ def run_tangent(
         one.buffer("near", near[part])
         one.run()
     measures = near.view("f8").reshape(count, -1)
-    return Carried(answers, slopes, measures, quantities, bool(number(library, "proved_by_energy")))
+    return Carried(answers, slopes, measures, quantities)
 
 
 def variant_of(

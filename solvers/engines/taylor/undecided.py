@@ -21,18 +21,21 @@ def no_kernel(why: str = "is not shipped, and no C compiler answers here") -> Co
     )
 
 
-def undecided(answer: Mapping[str, Any], states: tuple[str, ...], declared: str = "") -> ComputationError:
+def undecided(
+    answer: Mapping[str, Any], states: tuple[str, ...], declared: str = "", resting: bool = False
+) -> ComputationError:
     """The error for an answer without an outcome, dimensionless.
 
     Arguments:
         answer: of the kernel; its `shown` has the state that was reached.
         states: names of the model's states.
         declared: the last declared event that happened, by its word.
+        resting: it rests on the solids.
     """
     state = {"gap": float(answer["final_gap"])}
     state |= {name: float(value) for name, value in zip(states[1:], answer["shown"], strict=False)}
     gap, velocity = state["gap"], state[states[1]]
-    phase = Phase(int(gap < 1), 0, OPENING if velocity > 0 else CLOSING, resting=velocity == 0 and answer["events"] > 0)
+    phase = Phase(int(gap < 1), 0, OPENING if velocity > 0 else CLOSING, resting=resting)
     spent = f"{answer['steps']} steps with {answer['events']} events have not decided the outcome"
     why = RESTS if phase.resting else CREEPS
     message, advice = {

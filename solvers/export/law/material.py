@@ -133,6 +133,7 @@ def results(numbers: Iterable[Number], entries: Iterable[Number] = ()) -> tuple[
         Status.CHATTER: "not decided: the pair goes in and out of contact again and again",
         Status.TOO_OBLIQUE: "the centrifugal force is too large beside the approach to be resolved",
         Status.WITHIN_ROUNDING: "not decided: the pair separates so slowly that rounding decides",
+        Status.UNDECLARED: "a declared event creates energy that it does not declare",
         Status.ESCAPED: "a pair that was proved to stick has separated: please report it",
     }
     statuses = [Result(0, _OK, "decided")]

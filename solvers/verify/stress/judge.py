@@ -14,7 +14,7 @@ from ...engines.taylor.source import Variant
 from ...engines.taylor.undecided import CHATTERS, SEPARATES
 from ...errors import ComputationError, ModelWarning
 from ...many.collide_many import collide_many
-from ...model.dimensionless import DimensionlessGroups, nondimensionalise
+from ...model.dimensionless import Problem, nondimensionalise
 from ...model.validity import remarks
 from ...scene.scene import Scene
 from ..audit import LONG
@@ -29,7 +29,7 @@ _STEP = 1e-6  # relative step in St for the conditioning
 _PARTICULAR = re.compile(r" = .* is (?=above|below)| \(.*")  # value and source of a remark
 
 
-def _dimensionless(scene: Scene) -> DimensionlessGroups:
+def _dimensionless(scene: Scene) -> Problem:
     return nondimensionalise(scene, *scene.need_impact())
 
 
@@ -69,7 +69,7 @@ def fast_kernel(scene: Scene) -> Variant:
 
 def chained(scene: Scene, rtol: float, plugin: str = "cvodes") -> Result:
     """Result as by `collide` with its ledger."""
-    one = by_replay(scene, _dimensionless(scene), rtol, plugin, True, False)
+    one = by_replay(_dimensionless(scene), rtol, plugin, True, False)
     more: dict[str, float] = {}
     if one.energy is not None:
         terms = one.energy.to_dict()
@@ -209,8 +209,8 @@ def _audited(case: Case, first: str) -> list[Issue]:
     A trajectory that is not certified has another outcome, which its error near a boundary may explain.
     """
     try:
-        ended = recorded(case.scene, _dimensionless(case.scene), RTOL).answers["time"][0]
-        recorded(case.scene, _dimensionless(case.scene), RTOL, until=float(ended) + LONG)
+        ended = recorded(_dimensionless(case.scene), RTOL).answers["time"][0]
+        recorded(_dimensionless(case.scene), RTOL, until=float(ended) + LONG)
     except ComputationError as error:
         if SEPARATES not in str(error):
             return []  # it continued until the kernel gave up

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from wetdoublet.solvers.model.dimensionless import DimensionlessGroups, nondimensionalise
+from wetdoublet.solvers.model.dimensionless import Problem, nondimensionalise
 from wetdoublet.solvers.scene.scene import Scene
 
 
@@ -22,6 +22,6 @@ class Answer:
     restitution: float
 
 
-def dimensionless(scene: Scene, impact: Impact) -> DimensionlessGroups:
+def dimensionless(scene: Scene, impact: Impact) -> Problem:
     """Dimensionless groups of a scene's collision."""
     return nondimensionalise(scene, scene.speed_of(impact.stokes), impact.angle)

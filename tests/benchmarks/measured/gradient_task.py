@@ -10,7 +10,7 @@ from functools import cached_property
 import numpy as np
 from wetdoublet.solvers.errors import ComputationError
 from wetdoublet.solvers.many.collide_many import collide_many
-from wetdoublet.solvers.model.dimensionless import DimensionlessGroups
+from wetdoublet.solvers.model.dimensionless import Problem
 from wetdoublet.solvers.model.model import load, select_model
 from wetdoublet.solvers.scene.scene import Scene
 from wetdoublet.solvers.sensitivity.parameters import Kind, kind_of, known, parameter_map, references
@@ -54,7 +54,7 @@ class Gradients:
         return kind_of(self.scene, _HOLD)
 
     @cached_property
-    def numbers(self) -> list[DimensionlessGroups]:
+    def numbers(self) -> list[Problem]:
         """The collisions without dimensions."""
         return [dimensionless(self.scene, each) for each in self.impacts]
 

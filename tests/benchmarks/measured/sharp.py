@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 from wetdoublet.generated.automaton import CRITERIA
-from wetdoublet.solvers.model.dimensionless import DimensionlessGroups
+from wetdoublet.solvers.model.dimensionless import Problem
 from wetdoublet.solvers.scene.scene import Scene
 
 from .gradient_task import Gradients
@@ -51,7 +51,7 @@ class _Trajectory:
         return rebounds if event in CRITERIA else edge if event == "film_edge" else ends
 
 
-def long_double(scene: Scene, numbers: Sequence[DimensionlessGroups], rtol: float) -> np.ndarray:
+def long_double(scene: Scene, numbers: Sequence[Problem], rtol: float) -> np.ndarray:
     """e_n of collisions that separate, by heyoka's Taylor integrator in 80-bit numbers; NaN where one does not."""
     import heyoka
 

@@ -40,8 +40,11 @@ def test_margins(name: str):
     The largest pressure is taken at nine places of each step, which it is nearer to than to one part in a hundred.
     """
     angle = math.radians(LINES[name][0])
-    scene = Scene.load(name).with_entries({"particles.youngs_modulus": None, "particles.poisson_ratio": None})
-    stokes = LINES[name][1] * np.geomspace(1.1, 100, 12)
+    tables = Scene.load(name).to_dict()
+    for entry in ("youngs_modulus", "poisson_ratio"):
+        del tables["particles"][entry]
+    scene = Scene.from_dict(tables)
+    stokes = LINES[name][1] * np.geomspace(1.1, 10, 12)  # faster ones are not slowed before they are close to touch
     seen = SceneSampler(scene, RTOL)(np.full(stokes.size, angle), stokes)
     assert ((seen["criterion"] > 0) == (seen["reversal"] >= 0)).all()
     given = scene.entries

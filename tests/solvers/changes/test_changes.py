@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from wetdoublet.solvers import ComputationError, Scene, boundary, boundary_sensitivities, collide_many
+from wetdoublet.solvers import Scene, boundary, boundary_sensitivities, collide_many
 from wetdoublet.solvers.changes.brackets import Brackets, bisect, enclose, locate
 from wetdoublet.solvers.changes.experiment import Experiment, Rows
 from wetdoublet.solvers.changes.lines import Lines
@@ -151,12 +151,3 @@ def test_a_boundary_at_initial_contact_has_slopes() -> None:
     critical = [each.changes[0][0].stokes / each.scene.stokes_per_speed for each in ends]
     difference = (critical[0] - critical[1]) / (2e-4 * viscosity)
     assert slopes(experiment, lines, changes)[0, 0] == pytest.approx(difference, rel=1e-4)
-
-
-def test_without_a_kernel_an_experiment_says_so(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The error names what is missing."""
-    monkeypatch.setattr("wetdoublet.solvers.changes.experiment.run_kernel", lambda *_, **__: None)
-    scene = Scene.load("granulation")
-    experiment = Rows(scene, (), {}, 1, 1e-9).unchecked(np.zeros(0))
-    with pytest.raises(ComputationError, match="compiled kernel"):
-        experiment.outcomes(np.zeros(1, int), np.ones(1), np.zeros(1))

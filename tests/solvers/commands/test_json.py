@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 from wetdoublet.solvers import Scene, collide
-from wetdoublet.solvers.collision.outcome import UNITS
+from wetdoublet.solvers.results import UNITS
 
 from ...helpers.command import run
 

@@ -17,7 +17,7 @@ from wetdoublet.solvers import (
     regime_map,
     sensitivities,
 )
-from wetdoublet.solvers.many.batch import checked_numbers
+from wetdoublet.solvers.many.arguments import checked_numbers
 from wetdoublet.solvers.scene.units import quantity
 
 

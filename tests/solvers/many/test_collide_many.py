@@ -13,11 +13,11 @@ from wetdoublet.solvers import ModelWarning, Scene, collide, collide_many, gradi
 from wetdoublet.solvers.errors import ComputationError, InputError
 from wetdoublet.solvers.host.compiler import compiler
 from wetdoublet.solvers.many import alone, compute
-from wetdoublet.solvers.many.results import QUANTITIES, RESULTS, REVERSALS
 from wetdoublet.solvers.model.dimensionless import nondimensionalise
+from wetdoublet.solvers.results import BY_DEFAULT, REQUESTED, REVERSALS
 
 PRESETS = {"granulation": (0.005, 0.5), "pendulum": (0.1, 10.0), "granulation-dry-bridge": (0.005, 0.5)}
-EVERYTHING = tuple(QUANTITIES)
+EVERYTHING = tuple(BY_DEFAULT)
 
 
 def impacts(preset, count, seed):
@@ -37,10 +37,10 @@ def test_a_failure_is_marked_and_the_rest_go_on(monkeypatch):
         nondimensionalise(scene, scene.speed_of(0.03), 1.0).groups["stokes"]: ZeroDivisionError("oops"),
     }
 
-    def integrated(scene, n, *rest):
-        if n.groups["stokes"] in bad:
-            raise bad[n.groups["stokes"]]
-        return real(scene, n, *rest)
+    def integrated(problem, *rest):
+        if problem.groups["stokes"] in bad:
+            raise bad[problem.groups["stokes"]]
+        return real(problem, *rest)
 
     real = alone.integrated
     plain = collide_many(scene, stokes=[0.01, 0.2], angle=1.0, engine="rosenbrock")
@@ -152,7 +152,7 @@ def test_vary():
 def test_every_result_is_that_of_collide(preset, engine):
     """All that may be asked for, terms of the ledger included, is what `collide` gives; NaN stands for None."""
     stokes, angle = [0.004, 0.05, 0.4, 0.4], np.radians([60, 75, 20, 0])
-    asked = [name for name in RESULTS if name not in ("outcome", "certified", "reason", "validity")]
+    asked = [name for name in REQUESTED if name not in ("outcome", "certified", "reason", "validity")]
     data = collide_many(preset, stokes=stokes, angle=angle, engine=engine, of=asked)
     for k in range(4):
         one = collide(preset, stokes=stokes[k], angle=angle[k], engine=engine)

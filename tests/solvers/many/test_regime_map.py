@@ -13,8 +13,8 @@ from wetdoublet.solvers.errors import ComputationError, InputError
 from wetdoublet.solvers.many import alone
 from wetdoublet.solvers.many.plot_map import draw_map
 from wetdoublet.solvers.many.regime_map import write
-from wetdoublet.solvers.many.results import QUANTITIES
 from wetdoublet.solvers.many.text_map import failures, table
+from wetdoublet.solvers.results import BY_DEFAULT
 
 from ...helpers.command import run
 
@@ -34,10 +34,10 @@ def unlucky(monkeypatch):
     """Let the collisions of one Stokes number, 0.1, fail."""
     real = alone.integrated
 
-    def integrated(scene, n, *rest):
-        if abs(n.groups["stokes"] - 0.1) < 1e-12:
+    def integrated(problem, *rest):
+        if abs(problem.groups["stokes"] - 0.1) < 1e-12:
             raise ComputationError("no luck", advice="none")
-        return real(scene, n, *rest)
+        return real(problem, *rest)
 
     monkeypatch.setattr(alone, "integrated", integrated)
 
@@ -52,9 +52,9 @@ def test_the_grid(data):
             stokes=STOKES[j],
             angle=ANGLE[i],
             vary={"liquid.viscosity": [1.0, 2.0][k]},
-            of=tuple(QUANTITIES),
+            of=tuple(BY_DEFAULT),
         )
-        for name in ("outcome", "certified", "reason", *QUANTITIES):
+        for name in ("outcome", "certified", "reason", *BY_DEFAULT):
             np.testing.assert_array_equal(cell[name].values, one[name].values[0])
     sticks = data.outcome == 0
     assert bool((data.restitution.where(sticks, 0.0) == 0).all())

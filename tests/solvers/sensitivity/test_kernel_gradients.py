@@ -8,9 +8,9 @@ from wetdoublet.solvers.engines.choice import gradient_engine
 from wetdoublet.solvers.engines.taylor.call import Impacts
 from wetdoublet.solvers.engines.taylor.tangent import run_tangent
 from wetdoublet.solvers.host.compiler import compiler
+from wetdoublet.solvers.results import TANGENTS
 from wetdoublet.solvers.scene.groups import si_values
 from wetdoublet.solvers.sensitivity import gradients_many as many
-from wetdoublet.solvers.sensitivity.by_kernel import KNOWN
 from wetdoublet.solvers.sensitivity.gradients_many import STICK
 
 pytestmark = [pytest.mark.skipif(compiler() is None, reason="no C compiler"), pytest.mark.slow]
@@ -106,12 +106,30 @@ def test_the_engine_that_is_chosen() -> None:
     assert found.engine == "taylor"
     assert gradients_many(scene, **asked, of=OF).engine.values.tolist() == ["taylor"]
     assert sensitivities(scene, OF, **asked, method="adjoint").engine == "rosenbrock"
-    assert gradient_engine(scene, (*OF, "energy.capillary"), KNOWN, (True,)) == "rosenbrock"
+    assert gradient_engine(scene, (*OF, "energy.capillary"), TANGENTS, (True,)) == "rosenbrock"
     plain = gradients_many(scene, **asked, of=OF, engine="rosenbrock")
     assert plain.engine.values.tolist() == ["rosenbrock"]
     for of in OF:
         own = plain.gradient.sel(quantity=of).values.item()
         assert found.gradient[of]["liquid.viscosity"] == pytest.approx(own, rel=1e-6)
+
+
+def test_a_partner_that_is_equal_varies_alone() -> None:
+    """The spin of one sphere depends on the other's size and mass: against differences of unequal pairs."""
+    scene = Scene.load("granulation")
+    size, mass = (2 * float(scene.material[name]) for name in ("reduced_radius", "reduced_mass"))
+    entries = {"partner.radius": size, "partner.mass": mass}
+    impact = {"speed": 0.14 / scene.stokes_per_speed, "angle": "40 deg"}
+    found = sensitivities(scene.with_entries(entries), ["final_spin"], [*entries], engine="taylor", **impact)
+    assert found.engine == "taylor"
+    for name, value in entries.items():
+
+        def at(part: float, name: str = name, value: float = value) -> float:
+            own = scene.with_entries(entries | {name: value * (1 + part)})
+            return float(collide(own, rtol=1e-12, ledger=False, **impact).final_spin)
+
+        expected = (at(1e-4) - at(-1e-4)) / 2e-4  # the error is 1e-8 of the third derivative
+        assert float(found.gradient["final_spin"][name] or 0) * value == pytest.approx(expected, rel=1e-5)
 
 
 def test_bad_input() -> None:

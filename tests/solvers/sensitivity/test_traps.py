@@ -80,7 +80,7 @@ class Differentiable:
     def of(cls, scene: Scene) -> Differentiable:
         n = nondimensionalise(scene, float(scene.speed or 0), float(scene.angle or 0))
         choice = select_model(scene, n.oblique)
-        path, replay = replayed(partial(sequence_of, scene, n), choice, (), "rosenbrock", 1e-10)
+        path, replay = replayed(partial(sequence_of, n), choice, (), "rosenbrock", 1e-10)
         function = trajectory(course_of(path, replay, choice), ("restitution",), "rosenbrock", replay.tolerance)
         p = load(choice).group_values(n.groups)
         return cls(function, p, np.array([piece.duration for piece in replay.pieces]))

@@ -127,12 +127,12 @@ def test_an_engine_that_does_not_converge_is_found(collisions) -> None:
     assert failures(order.convergence(collisions, TOLERANCES, collide=off)) == ["convergence, cvodes"]
 
 
-def overeager(scene, n, rtol, until=None):
+def overeager(n, rtol, until=None):
     """The kernel, with a proof that calls doublets stuck that separate."""
-    whole = recorded(scene, n, rtol)
+    whole = recorded(n, rtol)
     if until is not None and whole.answers["outcome"][0] > 0:
         raise ComputationError("a stick that is proved separates when it is followed on")
-    found = recorded(scene, n, rtol, until=until)
+    found = recorded(n, rtol, until=until)
     found.answers["outcome"], found.answers["certified"] = 0, 1
     return found
 

@@ -57,7 +57,8 @@ const int proved_by_energy = 0;
 #endif
 
 /* Integrates `count` collisions, with derivatives by the quantities if the kernel has them; output buffers must be
- * zeroed. A kernel with a limit follows one collision, a stick as well, up to `until`.
+ * zeroed. A kernel with a limit follows one collision, a stick as well, up to `until` if
+ * that is not zero.
  *
  * Returns null, or the reason why nothing was done.
  */
@@ -94,15 +95,19 @@ const char *collide(task *t)
     struct interrupted contact;
     memset(&contact, 0, sizeof contact);
     contact.limit = t->until;
-    q.contact = &contact;
+    if (t->until > 0.0) {
+        q.contact = &contact;
 #if WITH_LEDGER
-    q.books = &contact.book;
+        q.books = &contact.book;
 #endif
+    }
     run(&q);
-    answer_at_limit(&contact, q.answers);
+    if (q.contact) {
+        answer_at_limit(&contact, q.answers);
 #if WITH_LEDGER
-    *(ledger *)t->books.at = contact.book;
+        *(ledger *)t->books.at = contact.book;
 #endif
+    }
 #elif BACKWARD
     if (!there_and_back(&q))
         return "no memory for its tape";

@@ -14,7 +14,7 @@ from wetdoublet.generated import automaton as rules
 from wetdoublet.generated.automaton import CLOSING, OPENING, STICK
 from wetdoublet.solvers.engines.casadi.sequence import tangential_edge
 from wetdoublet.solvers.errors import ComputationError
-from wetdoublet.solvers.model.dimensionless import DimensionlessGroups
+from wetdoublet.solvers.model.dimensionless import Problem
 from wetdoublet.solvers.model.key import ModelKey
 from wetdoublet.solvers.model.model import Model, load, select_model
 from wetdoublet.solvers.model.phases import Flow, Phase
@@ -220,7 +220,7 @@ class Automaton:
         return slopes
 
 
-def automata(scene: Scene, numbers: Sequence[DimensionlessGroups], rtol: float) -> list[Automaton]:
+def automata(scene: Scene, numbers: Sequence[Problem], rtol: float) -> list[Automaton]:
     """Collisions of one structure, for peers that compile it; ComputationError if there are two."""
     model = load(select_model(scene, numbers[0].oblique))
     if len({number.oblique for number in numbers}) > 1:

@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
-from wetdoublet.solvers.model.dimensionless import DimensionlessGroups
+from wetdoublet.solvers.model.dimensionless import Problem
 from wetdoublet.solvers.model.key import ModelKey
 from wetdoublet.solvers.scene.scene import Scene
 
@@ -242,7 +242,7 @@ class Batch:
 
 
 def prepare(
-    scene: Scene, numbers: Sequence[DimensionlessGroups], rtol: float, inside: bool = False, watch: Inside | None = None
+    scene: Scene, numbers: Sequence[Problem], rtol: float, inside: bool = False, watch: Inside | None = None
 ) -> Batch:
     """An integrator for these collisions, compiled, with its queue.
 

@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 from wetdoublet.generated.automaton import CRITERIA
-from wetdoublet.solvers.model.dimensionless import DimensionlessGroups
+from wetdoublet.solvers.model.dimensionless import Problem
 from wetdoublet.solvers.model.key import ModelKey
 from wetdoublet.solvers.scene.scene import Scene
 
@@ -235,7 +235,7 @@ class Gradients(Batch):
 
 
 def prepare(
-    scene: Scene, numbers: Sequence[DimensionlessGroups], slopes: np.ndarray, rtol: float, watch: Inside | None = None
+    scene: Scene, numbers: Sequence[Problem], slopes: np.ndarray, rtol: float, watch: Inside | None = None
 ) -> Gradients:
     """An integrator for these collisions, all of which separate, compiled, with its queue.
 

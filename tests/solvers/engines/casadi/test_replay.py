@@ -14,8 +14,7 @@ from wetdoublet.solvers.engines.casadi.confirm import confirm
 from wetdoublet.solvers.engines.casadi.integrators import tolerance_for
 from wetdoublet.solvers.engines.casadi.replay import Stopped, replay
 from wetdoublet.solvers.engines.casadi.sequence import EventSequence
-from wetdoublet.solvers.model.dimensionless import DimensionlessGroups, nondimensionalise
-from wetdoublet.solvers.model.model import load, select_model
+from wetdoublet.solvers.model.dimensionless import Problem, nondimensionalise
 
 from ....helpers.data import DATA
 
@@ -32,7 +31,7 @@ SCENES: dict[str, Callable[[], Scene]] = {
     "tangential edge": lambda: hard("tangential force ends at two reduced radii"),
     "rolls": lambda: hard("rolls and slides at rest on strings"),
     "slides": lambda: hard("slides at rest and is released"),
-    "fell back": lambda: hard("below a separatrix"),
+    "fell back": lambda: hard("slide that begins with no slip"),
 }
 
 
@@ -47,10 +46,10 @@ def hard(name: str) -> Scene:
     return Scene.load(row["preset"]).with_entries(row["scene"]) if "preset" in row else Scene.from_dict(row["scene"])
 
 
-def recorded(scene: Scene) -> tuple[DimensionlessGroups, EventSequence]:
+def recorded(scene: Scene) -> tuple[Problem, EventSequence]:
     """The groups of a scene's collision, and its phases as the kernel finds them."""
     n = nondimensionalise(scene, *scene.need_impact())
-    return n, sequence_of(scene, n, RTOL)
+    return n, sequence_of(n, RTOL)
 
 
 def without(path: EventSequence, k: int) -> EventSequence:
@@ -96,7 +95,7 @@ def test_a_wrong_record_is_noticed(name: str, plugin: str) -> None:
     """The record is followed as it is; with an event taken out, moved or exchanged the replay stops there."""
     scene = SCENES[name]()
     n, path = recorded(scene)
-    choice, tolerance = select_model(scene, n.oblique, full=True, fold=True), tolerance_for(RTOL, plugin, n.groups)
+    choice, tolerance = n.key(full=True), tolerance_for(RTOL, plugin, n.groups)
     assert replay(path, choice, (), plugin, tolerance, RTOL).events
     followed_all_the_same = []
     for what, wrong in mutants(path):
@@ -119,9 +118,9 @@ def test_the_kernels_steps_are_confirmed_and_wrong_ones_are_not(name: str) -> No
     """The kernel's own trajectory agrees with CVODES step by step; with an event less it does not."""
     scene = SCENES[name]()
     n, path = recorded(scene)
-    steps = followed(scene, n, RTOL, None, ledger=True, trajectory=True).record.steps
+    steps = followed(n, RTOL, None, ledger=True, trajectory=True).record.steps
     assert steps is not None
-    choice = select_model(scene, n.oblique, full=True, fold=True)
+    choice = n.key(full=True)
     confirm(path, steps, choice, "cvodes", RTOL)
     for k in range(len(path.steps) - 1):
         rows = steps.rows.copy()
@@ -143,7 +142,7 @@ def test_an_engine_that_gives_up_says_where() -> None:
     """Three steps are too few: phase, time in s, state in SI and advice, in one line."""
     scene = impact("granulation", 0.03, "60 deg")
     n, path = recorded(scene)
-    model = load(select_model(scene, n.oblique, fold=True))
+    model = n.model()
     tolerance = replace(tolerance_for(RTOL, "cvodes", n.groups), steps=3)
     with pytest.raises(Stopped, match="gave up") as stopped:
         replay(path, model.choice, (), "cvodes", tolerance, RTOL)

@@ -1,139 +1,26 @@
-"""A validated batch of collisions: scene, impacts and varied entries, as SI arrays of one length."""
+"""Checks of the arguments of many impacts: speeds, angles and varied entries, as SI arrays."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
-from functools import lru_cache, partial
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from functools import partial
 from pathlib import Path
 from typing import Any, TypeVar
 
 import numpy as np
 
-from ..engines.settings import check_engine, check_rtol
 from ..errors import InputError
 from ..host.arguments import check_mapping, check_names
 from ..model.validity import NEEDS
+from ..results import MAPPED, VALIDITY
 from ..scene.held import HOLDS, held_quantity, held_text, impact_quantity, impact_value
-from ..scene.quantities import normal_speed
 from ..scene.scene import Scene
-from ..scene.schema import FIELDS, LEAST_ANGLE, MEETING, SPEEDS, SPINS, Field, unknown_entry
+from ..scene.schema import FIELDS, MEETING, SPEEDS, SPINS, Field, unknown_entry
 from ..scene.user_model import Package, fields, unknown
 from ..scene.values import array, carries_unit
-from .results import MAPPED, VALIDITY
 
 T = TypeVar("T")
-
-
-@dataclass(frozen=True)
-class Batch:
-    """A scene, its impacts, the entries that vary and the results to keep; SI arrays of one length.
-
-    Arguments:
-        stokes, speed: one of them; the other is None.
-        engine: the engine that computes the collisions, unless choices vary.
-        of: names of the results to keep.
-        texts: columns of entries that are choices; the batch is split by them before it is computed (`by_text`).
-        engines: the engine for each combination of these choices.
-    """
-
-    scene: Scene
-    stokes: np.ndarray | None
-    speed: np.ndarray | None
-    angle: np.ndarray
-    vary: dict[str, np.ndarray]
-    rtol: float
-    engine: str
-    of: tuple[str, ...]
-    texts: dict[str, np.ndarray] = field(default_factory=dict)
-    engines: Mapping[tuple[str, ...], str] = field(default_factory=dict)
-
-    @property
-    def size(self) -> int:
-        return int(self.angle.size)
-
-    def scene_of(self, k: int) -> Scene:
-        """The scene of collision k; InputError if the varied entries make it impossible."""
-        if not self.vary:
-            return self.scene
-        return _varied(self.scene, tuple((name, float(values[k])) for name, values in self.vary.items()))
-
-    def impact(self, k: int) -> tuple[Scene, float, float]:
-        """Scene, speed (m/s) and angle (rad) of collision k."""
-        scene = self.scene_of(k)
-        if self.speed is not None:
-            return scene, float(self.speed[k]), float(self.angle[k])
-        assert self.stokes is not None
-        return scene, scene.speed_of(float(self.stokes[k])), float(self.angle[k])
-
-    def part(self, which: np.ndarray) -> Batch:
-        """The batch of these collisions alone."""
-        return replace(
-            self,
-            stokes=None if self.stokes is None else self.stokes[which],
-            speed=None if self.speed is None else self.speed[which],
-            angle=self.angle[which],
-            vary={name: values[which] for name, values in self.vary.items()},
-            texts={name: values[which] for name, values in self.texts.items()},
-        )
-
-    def by_text(self) -> Iterator[tuple[np.ndarray, Batch | InputError]]:
-        """Indices of collisions with the same choices, and their batch, or the InputError of the scene."""
-        columns = np.array(list(self.texts.values())).T
-        for row in dict.fromkeys(map(tuple, columns.tolist())):
-            which = np.flatnonzero((columns == np.array(row)).all(axis=1))
-            try:
-                scene = self.scene.with_entries(dict(zip(self.texts, row, strict=True)))
-            except InputError as error:
-                yield which, error
-            else:
-                engine = self.engines.get(row, self.engine)
-                yield which, replace(self.part(which), scene=scene, texts={}, engine=engine)
-
-
-@lru_cache(maxsize=64)
-def _varied(scene: Scene, entries: tuple[tuple[str, float], ...]) -> Scene:
-    return scene.with_si(dict(entries))
-
-
-def validated_batch(
-    scene: Scene | str | Path,
-    impact: Mapping[str, Any],
-    vary: Mapping[str, Any],
-    rtol: float,
-    engine: str | None,
-    of: Sequence[str],
-) -> Batch:
-    """A validated `Batch`, its 1-D arrays broadcast to one length.
-
-    Arguments:
-        impact: `stokes`, `speed`, `relative_speed` and `angle`; None for the scene's.
-    """
-    kept = check_outputs(of)
-    loaded, columns, _ = checked_columns(scene, impact, vary)
-    chosen = check_engine(engine) or "taylor"
-    request = batch(loaded, of_one_length(columns), check_rtol(rtol), chosen, kept)
-    check_any_possible(request)
-    return request
-
-
-def batch(
-    scene: Scene,
-    columns: dict[str, np.ndarray],
-    rtol: float,
-    engine: str,
-    of: tuple[str, ...],
-    engines: Mapping[tuple[str, ...], str] | None = None,
-) -> Batch:
-    """A Batch of checked columns of one length, by dotted name; arguments as of `Batch`."""
-    angle, stokes = columns.pop("impact.angle"), columns.pop("impact.stokes", None)
-    angle = np.where(angle < LEAST_ANGLE, 0.0, angle)
-    relative = columns.pop("impact.relative_speed", None)
-    speed = columns.pop("impact.speed", None) if relative is None else normal_speed(relative, angle)
-    vary = {name: column for name, column in columns.items() if column.dtype.kind == "f"}
-    texts = {name: column for name, column in columns.items() if column.dtype.kind != "f"}
-    return Batch(scene, stokes, speed, angle, vary, rtol, engine, of, texts, engines or {})
 
 
 def of_one_length(arrays: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
@@ -277,12 +164,6 @@ def check_varies(
         raise InputError(label, name, "entries other than the impact's speed and angle", "has an argument of its own")
     if known[name].flag or (known[name].choices and not texts):
         raise InputError(label, name, "entries that are numbers", "is a choice")
-
-
-def check_any_possible(request: Batch) -> None:
-    """Raise InputError if the varied entries make every collision impossible; single ones are marked later."""
-    if request.vary and request.size:
-        first_accepted(partial(request.scene_of, k) for k in range(request.size))
 
 
 def checked_choices(name: str, values: Any, entry: Field) -> np.ndarray:

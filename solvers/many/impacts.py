@@ -1,11 +1,12 @@
-"""A scan: collisions over several dimensions, over which its arguments are broadcast as by numpy or xarray."""
+"""Many impacts as one table, over the dimensions over which numpy or xarray broadcasts their columns."""
 
 from __future__ import annotations
 
 import hashlib
 import math
-from collections.abc import Hashable, Mapping
-from dataclasses import dataclass, field, replace
+from collections.abc import Hashable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property, lru_cache, partial
 from importlib.metadata import version
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -13,120 +14,181 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...generated import scaling
+from ..engines.settings import check_engine, check_rtol
 from ..errors import InputError
 from ..formatting.labelled import Column, labelled
 from ..host.pictures import register
 from ..model.validity import flag_attributes, warn
+from ..results import FAILED, REQUESTED, VALIDITY, attributes, outcome_attributes
+from ..scene.quantities import normal_speed
 from ..scene.scene import Scene
-from ..scene.schema import MEETING
-from .batch import Batch, batch, check_any_possible, of_one_length
-from .results import FAILED, RESULTS, VALIDITY, Block, attributes, outcome_attributes
+from ..scene.schema import LEAST_ANGLE, MEETING
+from .arguments import check_outputs, checked_columns, first_accepted, of_one_length
+from .results import Block
 
 if TYPE_CHECKING:
     import xarray
 
 Dims = tuple[Hashable, ...]
 Place = tuple[slice, ...]
-LABELS = {
-    "stokes": {"units": "1", "long_name": "Stokes number"},
-    "speed": {"units": "m/s", "long_name": "normal approach speed"},
-    "relative_speed": {"units": "m/s", "long_name": "magnitude of the relative velocity"},
-    "angle": {"units": "rad", "long_name": "impact angle"},
-}
+LISTED: Dims = ("collision",)
+"""The dimension of impacts that are given in one, without a name."""
 
 
-@dataclass
-class Scan:
-    """Collisions of one scene over several dimensions.
+@dataclass(frozen=True)
+class Impacts:
+    """Many impacts: a scene, what differs from one to the next, and the results that are requested.
 
     Arguments:
-        columns: dotted name of an argument -> its dimensions, and its checked values (SI) along these.
-        engine: the requested engine; None for the best of each scene.
+        columns: dotted name of an entry -> its dimensions, and its checked values along these: SI, or names of choices.
         held: which quantity of the scene's impact all collisions share, in words.
         beside: further coordinates, of DataArrays among the arguments.
-        engines: the engine for each combination of choices (`check`).
     """
 
     scene: Scene
+    columns: Mapping[str, tuple[Dims, np.ndarray]]
     dims: Dims
     shape: tuple[int, ...]
-    columns: Mapping[str, tuple[Dims, np.ndarray]]
     rtol: float
-    engine: str | None
-    of: tuple[str, ...]
+    engine: str
+    of: tuple[str, ...] = ()
     held: str = ""
     beside: xarray.Dataset | None = None
-    engines: dict[tuple[str, ...], str] = field(default_factory=dict)
+
+    @classmethod
+    def listed(
+        cls, scene: Scene, columns: Mapping[str, np.ndarray], rtol: float, engine: str, of: tuple[str, ...] = ()
+    ) -> Impacts:
+        """Impacts in one dimension, from columns of one length."""
+        size = next(iter(columns.values())).size
+        along = {name: (LISTED, values) for name, values in columns.items()}
+        return cls(scene, along, LISTED, (size,), rtol, engine, of)
 
     @property
     def size(self) -> int:
         return math.prod(self.shape)
 
-    @property
-    def answered_by(self) -> str:
-        """The engines that compute the collisions, as text."""
-        return ", ".join(dict.fromkeys(self.engines.values())) or self.engine or "rosenbrock"
-
     def order(self) -> np.ndarray:
         return np.arange(self.size)
 
-    def part(self, at: Place) -> Scan:
-        """A block of the scan."""
+    def _flat(self, name: str) -> np.ndarray | None:
+        """The values of an entry for all impacts, in one dimension; None if it is no column."""
+        if name not in self.columns:
+            return None
+        dims, values = self.columns[name]
+        if dims == self.dims:
+            return values.ravel()
+        full = values.transpose([dims.index(dim) for dim in self.dims if dim in dims])
+        full = full.reshape([n if dim in dims else 1 for dim, n in zip(self.dims, self.shape, strict=True)])
+        return np.broadcast_to(full, self.shape).ravel()
+
+    @cached_property
+    def angle(self) -> np.ndarray:
+        angle = np.asarray(self._flat("impact.angle"))
+        return np.where(angle < LEAST_ANGLE, 0.0, angle)
+
+    @cached_property
+    def stokes(self) -> np.ndarray | None:
+        return self._flat("impact.stokes")
+
+    @cached_property
+    def speed(self) -> np.ndarray | None:
+        """Normal speeds, m/s; None where Stokes numbers are given."""
+        relative = self._flat("impact.relative_speed")
+        return self._flat("impact.speed") if relative is None else np.asarray(normal_speed(relative, self.angle))
+
+    def _entries(self, numbers: bool) -> dict[str, np.ndarray]:
+        names = (name for name, (_, values) in self.columns.items() if (values.dtype.kind == "f") == numbers)
+        return {name: np.asarray(self._flat(name)) for name in names if name not in MEETING}
+
+    @cached_property
+    def vary(self) -> dict[str, np.ndarray]:
+        """Entries that are numbers, beside the impact's."""
+        return self._entries(numbers=True)
+
+    @cached_property
+    def texts(self) -> dict[str, np.ndarray]:
+        """Entries that are choices; the impacts are split by them before they are computed (`by_text`)."""
+        return self._entries(numbers=False)
+
+    def scene_of(self, k: int) -> Scene:
+        """The scene of impact k; InputError if the varied entries make it impossible."""
+        if not self.vary:
+            return self.scene
+        return _varied(self.scene, tuple((name, float(values[k])) for name, values in self.vary.items()))
+
+    def impact(self, k: int) -> tuple[Scene, float, float]:
+        """Scene, speed (m/s) and angle (rad) of impact k."""
+        scene = self.scene_of(k)
+        if self.speed is not None:
+            return scene, float(self.speed[k]), float(self.angle[k])
+        assert self.stokes is not None
+        return scene, scene.speed_of(float(self.stokes[k])), float(self.angle[k])
+
+    def part(self, which: np.ndarray) -> Impacts:
+        """These impacts alone, in one dimension."""
+        columns = {name: (LISTED, np.asarray(self._flat(name))[which]) for name in self.columns}
+        return replace(self, columns=columns, dims=LISTED, shape=which.shape, beside=None)
+
+    def block(self, at: Place) -> Impacts:
+        """A block of the impacts, with their dimensions."""
         columns = {
-            name: (column_dims, values[tuple(at[self.dims.index(dim)] for dim in column_dims)])
-            for name, (column_dims, values) in self.columns.items()
+            name: (dims, values[tuple(at[self.dims.index(dim)] for dim in dims)])
+            for name, (dims, values) in self.columns.items()
         }
         return replace(self, shape=tuple(one.stop - one.start for one in at), columns=columns, beside=None)
 
-    def batch(self) -> Batch:
-        """All collisions, in one dimension."""
-        columns = {}
-        for name, (column_dims, values) in self.columns.items():
-            if column_dims == self.dims:
-                columns[name] = values.ravel()
-                continue
-            full = values.transpose([column_dims.index(dim) for dim in self.dims if dim in column_dims])
-            full = full.reshape([n if dim in column_dims else 1 for dim, n in zip(self.dims, self.shape, strict=True)])
-            columns[name] = np.broadcast_to(full, self.shape).ravel()
-        engine = self.engines.get((), "rosenbrock")
-        return batch(self.scene, columns, self.rtol, engine, self.of, self.engines)
+    def by_text(self) -> Iterator[tuple[np.ndarray, Impacts | InputError]]:
+        """Indices of impacts with the same choices, and these impacts, or the InputError of the scene."""
+        columns = np.array(list(self.texts.values())).T
+        for row in dict.fromkeys(map(tuple, columns.tolist())):
+            which = np.flatnonzero((columns == np.array(row)).all(axis=1))
+            try:
+                scene = self.scene.with_entries(dict(zip(self.texts, row, strict=True)))
+            except InputError as error:
+                yield which, error
+            else:
+                part = self.part(which)
+                numbers = {name: column for name, column in part.columns.items() if name not in self.texts}
+                yield which, replace(part, scene=scene, columns=numbers)
+
+    def check_possible(self) -> None:
+        """InputError if the varied entries make every collision impossible; single ones are marked later."""
+        if self.vary and self.size:
+            first_accepted(partial(self.scene_of, k) for k in range(self.size))
 
     def check(self) -> None:
-        """Determine the engines; InputError if the entries that vary make every scene impossible.
+        """Raise InputError if the entries that vary make every scene impossible.
 
         Warnings about scenes are given here, not by the processes that compute them.
         """
         if not set(self.columns) - {*MEETING}:  # one scene
             warn(self.scene)
-            self.engines[()] = self.engine or "taylor"
             return
-        varied = {dim for name, (column_dims, _) in self.columns.items() if name not in MEETING for dim in column_dims}
+        varied = {dim for name, (dims, _) in self.columns.items() if name not in MEETING for dim in dims}
         lengths = zip(self.dims, self.shape, strict=True)
-        scenes = self.part(tuple(slice(0, size if dim in varied else min(size, 1)) for dim, size in lengths)).batch()
-        errors = []
-        for where, part in scenes.by_text() if scenes.texts else ((np.arange(1), scenes),):
+        scenes = self.block(tuple(slice(0, size if dim in varied else min(size, 1)) for dim, size in lengths))
+        errors, possible = [], False
+        for _, part in scenes.by_text() if scenes.texts else ((np.arange(1), scenes),):
             try:
                 if isinstance(part, InputError):
                     raise part
-                check_any_possible(part)
-                choices = tuple(str(values[where[0]]) for values in scenes.texts.values())
-                self.engines[choices] = self.engine or "taylor"
+                part.check_possible()
+                possible = True
                 warn(part.scene)
             except InputError as error:
                 errors.append(error)
-        if errors and not self.engines:
+        if errors and not possible:
             raise errors[0]
 
-    def coordinates(self, request: Batch) -> dict[str, Column]:
+    def coordinates(self) -> dict[str, Column]:
         """Impacts and entries that vary, each over its own dimensions; `beside` excepted."""
         labels: dict[str, tuple[np.ndarray | None, Mapping[str, Any]]] = {
-            "stokes": (request.stokes, LABELS["stokes"]),
-            "speed": (request.speed, LABELS["speed"]),
-            "angle": (request.angle, LABELS["angle"]),
+            name: (getattr(self, name), attributes(name)) for name in ("stokes", "speed", "angle")
         }
         fields = self.scene.fields
-        labels |= {name: (values, {"units": fields[name].unit or "1"}) for name, values in request.vary.items()}
-        labels |= {name: (values, {"long_name": fields[name].what}) for name, values in request.texts.items()}
+        labels |= {name: (values, {"units": fields[name].unit or "1"}) for name, values in self.vary.items()}
+        labels |= {name: (values, {"long_name": fields[name].what}) for name, values in self.texts.items()}
         coordinates: dict[str, Column] = {}
         for label, (flat, attrs) in labels.items():
             if flat is not None:  # a speed that follows from other arguments has all dimensions
@@ -139,14 +201,14 @@ class Scan:
         attrs = {
             "scene": self.scene.to_toml(),
             "rtol": self.rtol,
-            "engine": self.answered_by,
+            "engine": self.engine,
             "held": self.held,
             "model": self.scene.package and self.scene.package.text,
         }
         return {name: value for name, value in attrs.items() if value not in ("", None)}
 
-    def dataset(self, results: Block, request: Batch | None = None) -> xarray.Dataset:
-        """Results as a labelled Dataset; `request` is the batch of the scan, if the caller has it."""
+    def dataset(self, results: Block) -> xarray.Dataset:
+        """Results as a labelled Dataset."""
         import xarray as xr
 
         register()
@@ -163,8 +225,8 @@ class Scan:
         variables: Any = {
             name: (self.dims, values.reshape(self.shape), attrs) for name, (values, attrs) in columns.items()
         }
-        coordinates, about = self.coordinates(request or self.batch()), self.about()
-        if self.dims == ("collision",) and self.beside is None:
+        coordinates, about = self.coordinates(), self.about()
+        if self.dims == LISTED and self.beside is None:
             return labelled(variables, coordinates, about)
         data = xr.Dataset(variables, coordinates, about)
         if self.beside is None:
@@ -182,11 +244,37 @@ class Scan:
             "columns": columns,
             "shape": self.shape,
             "rtol": self.rtol,
-            "engine": self.answered_by,
+            "engine": self.engine,
             "of": sorted(set(self.of)),
             **software(),
             "model": self.scene.package and self.scene.package.digest,
         }
+
+
+@lru_cache(maxsize=64)
+def _varied(scene: Scene, entries: tuple[tuple[str, float], ...]) -> Scene:
+    return scene.with_si(dict(entries))
+
+
+def listed(
+    scene: Scene | str | Path,
+    impact: Mapping[str, Any],
+    vary: Mapping[str, Any],
+    rtol: float,
+    engine: str | None,
+    of: Sequence[str],
+) -> Impacts:
+    """Validated impacts in one dimension, of 1-D arrays broadcast to one length.
+
+    Arguments:
+        impact: `stokes`, `speed`, `relative_speed` and `angle`; None for the scene's.
+    """
+    names = check_outputs(of)
+    loaded, columns, _ = checked_columns(scene, impact, vary)
+    chosen = check_engine(engine) or "taylor"
+    impacts = Impacts.listed(loaded, of_one_length(columns), check_rtol(rtol), chosen, names)
+    impacts.check_possible()
+    return impacts
 
 
 def software() -> dict[str, str]:
@@ -203,7 +291,7 @@ def _digest(values: np.ndarray) -> str:
 def laid_out(
     arrays: Mapping[str, np.ndarray], arguments: Mapping[str, Any]
 ) -> tuple[Dims, tuple[int, ...], dict[str, tuple[Dims, np.ndarray]], xarray.Dataset | None]:
-    """Dimensions, shape, columns and further coordinates of a scan, with its arguments broadcast.
+    """Dimensions, shape, columns and further coordinates of many impacts, with their arguments broadcast.
 
     The dimension is `collision` if all arguments have at most one dimension, without a name.
 
@@ -219,7 +307,7 @@ def laid_out(
     if not any(dims_of.values()) and all(array.ndim < 2 for array in arrays.values()):
         columns = of_one_length(arrays)
         size = next(iter(columns.values())).size
-        return ("collision",), (size,), {name: (("collision",), values) for name, values in columns.items()}, None
+        return LISTED, (size,), {name: (LISTED, values) for name, values in columns.items()}, None
     sizes: dict[Hashable, int] = {}
     for name, column_dims in dims_of.items():
         for dim, size in zip(column_dims, arrays[name].shape, strict=True):
@@ -247,7 +335,7 @@ def laid_out(
 def _check_dims(dims: Dims, dims_of: Mapping[str, Dims]) -> None:
     """InputError for a dimension with the name of a result, or of an argument that has other dimensions too."""
     for dim in dims:
-        if dim in RESULTS:
+        if dim in REQUESTED:
             raise InputError("dims", dim, "dimensions that are not named as a result", "is the name of a result")
     for name, column_dims in dims_of.items():
         label = name.removeprefix("impact.")
