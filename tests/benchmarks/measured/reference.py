@@ -6,7 +6,6 @@ from importlib.util import find_spec
 
 from wetdoublet.solvers.collision.collide import collide
 from wetdoublet.solvers.errors import ComputationError
-from wetdoublet.solvers.model.model import load, select_model
 from wetdoublet.solvers.scene.scene import Scene
 
 from .answers import Answer, Impact, dimensionless
@@ -51,13 +50,11 @@ def reference(scene: Scene, impact: Impact) -> Reference:
 
     The others, Rosenbrock and CVODES at tolerances as tight as they take, say how far it can be trusted.
     """
-    n = dimensionless(scene, impact)
     touch = collide(scene, stokes=impact.stokes, angle=impact.angle, engine="taylor", ledger=False)
     answers = {"rosenbrock": _replayed(scene, impact, "rosenbrock")}
     if touch.until != 0:
         if find_spec("scipy"):
-            model = load(select_model(scene, n.oblique))
-            answers = {"DOP853": ScipyAutomaton(model, n.groups, RTOL, "DOP853").run()} | answers
+            answers = {"DOP853": ScipyAutomaton(dimensionless(scene, impact), RTOL, "DOP853").run()} | answers
         answers["cvodes"] = _replayed(scene, impact, "cvodes")
     computed = {name: answer for name, answer in answers.items() if answer is not None}
     outcomes = {name: answer.outcome for name, answer in computed.items()}

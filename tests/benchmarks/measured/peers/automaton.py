@@ -16,10 +16,9 @@ from wetdoublet.solvers.engines.casadi.sequence import tangential_edge
 from wetdoublet.solvers.errors import ComputationError
 from wetdoublet.solvers.model.dimensionless import Problem
 from wetdoublet.solvers.model.key import ModelKey
-from wetdoublet.solvers.model.model import Model, load, select_model
+from wetdoublet.solvers.model.model import Model, load
 from wetdoublet.solvers.model.phases import Flow, Phase
 from wetdoublet.solvers.scene.contact import contact_gap, contact_word
-from wetdoublet.solvers.scene.scene import Scene
 
 from ..answers import Answer
 
@@ -67,7 +66,8 @@ def proving(choice: ModelKey) -> Function:
 class Automaton:
     """One collision; `run` follows it by a subclass's integrator. `y` has the works of attractions behind the state."""
 
-    def __init__(self, model: Model, groups: dict[str, float], rtol: float) -> None:
+    def __init__(self, problem: Problem, rtol: float) -> None:
+        model, groups = problem.model(), problem.groups
         rupture = groups["rupture_gap"] if model.bridge else 1.0
         if model.friction or model.own_events or tangential_edge(model, groups) < rupture:
             raise ComputationError("peers have no friction, no declared events, no tangential edge within reach")
@@ -220,9 +220,8 @@ class Automaton:
         return slopes
 
 
-def automata(scene: Scene, numbers: Sequence[Problem], rtol: float) -> list[Automaton]:
+def automata(problems: Sequence[Problem], rtol: float) -> list[Automaton]:
     """Collisions of one structure, for peers that compile it; ComputationError if there are two."""
-    model = load(select_model(scene, numbers[0].oblique))
-    if len({number.oblique for number in numbers}) > 1:
+    if len({problem.key() for problem in problems}) > 1:
         raise ComputationError("head-on and oblique collisions are different structures")
-    return [Automaton(model, number.groups, rtol) for number in numbers]
+    return [Automaton(problem, rtol) for problem in problems]

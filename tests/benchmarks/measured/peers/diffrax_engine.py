@@ -26,7 +26,7 @@ def collisions(scene: Scene, impacts: Sequence[Impact], rtol: float) -> Bulk:
 
     jax.config.update("jax_enable_x64", True)
     numbers = [dimensionless(scene, impact) for impact in impacts]
-    followed = automata(scene, numbers, rtol)
+    followed = automata(numbers, rtol)
     choice, names = followed[0].model.choice, tuple(followed[0].model.groups)
     begun = starts(followed, names)
     states, parameters = (np.array([getattr(each, name) for each in begun]) for name in ("state", "parameters"))

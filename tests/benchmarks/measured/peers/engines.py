@@ -12,7 +12,6 @@ from wetdoublet.solvers.collision.collide import collide
 from wetdoublet.solvers.engines.settings import CASADI_ENGINES
 from wetdoublet.solvers.host.compiler import compiler
 from wetdoublet.solvers.many.collide_many import collide_many
-from wetdoublet.solvers.model.model import load, select_model
 from wetdoublet.solvers.scene.scene import Scene
 
 from ..answers import Answer, Impact, dimensionless
@@ -142,7 +141,6 @@ def _peer(method: str, scene: Scene, impacts: Sequence[Impact], rtol: float) -> 
     """The same collision by a method of scipy."""
 
     def one(k: int) -> Answer:
-        n = dimensionless(scene, impacts[k])
-        return ScipyAutomaton(load(select_model(scene, n.oblique)), n.groups, rtol, method).run()
+        return ScipyAutomaton(dimensionless(scene, impacts[k]), rtol, method).run()
 
     return one

@@ -241,9 +241,7 @@ class Batch:
         return lambda _ta, _sign, lane: self.ended(lane, separated)
 
 
-def prepare(
-    scene: Scene, numbers: Sequence[Problem], rtol: float, inside: bool = False, watch: Inside | None = None
-) -> Batch:
+def prepare(numbers: Sequence[Problem], rtol: float, inside: bool = False, watch: Inside | None = None) -> Batch:
     """An integrator for these collisions, compiled, with its queue.
 
     Arguments:
@@ -253,7 +251,7 @@ def prepare(
 
     ComputationError as of `automata`.
     """
-    followed = automata(scene, numbers, rtol)
+    followed = automata(numbers, rtol)
     proved = followed[0].proof
     equations = system(followed[0].model.choice, [each.groups for each in numbers], proved, inside)
     batch = Batch(dry=numbers[0].groups["dry_restitution"], film=len(equations.varying))
@@ -288,4 +286,4 @@ def collisions(
     scene: Scene, impacts: Sequence[Impact], rtol: float, inside: bool = False, watch: Inside | None = None
 ) -> Batch:
     """The batch of a scene's impacts; as `prepare`."""
-    return prepare(scene, [dimensionless(scene, impact) for impact in impacts], rtol, inside=inside, watch=watch)
+    return prepare([dimensionless(scene, impact) for impact in impacts], rtol, inside=inside, watch=watch)

@@ -17,7 +17,6 @@ import numpy as np
 from wetdoublet.generated.automaton import CRITERIA
 from wetdoublet.solvers.model.dimensionless import Problem
 from wetdoublet.solvers.model.key import ModelKey
-from wetdoublet.solvers.scene.scene import Scene
 
 from .automaton import Automaton, automata
 from .heyoka_callbacks import Inside
@@ -234,9 +233,7 @@ class Gradients(Batch):
         return found
 
 
-def prepare(
-    scene: Scene, numbers: Sequence[Problem], slopes: np.ndarray, rtol: float, watch: Inside | None = None
-) -> Gradients:
+def prepare(numbers: Sequence[Problem], slopes: np.ndarray, rtol: float, watch: Inside | None = None) -> Gradients:
     """An integrator for these collisions, all of which separate, compiled, with its queue.
 
     Arguments:
@@ -247,7 +244,7 @@ def prepare(
     """
     import heyoka
 
-    followed = automata(scene, numbers, rtol)
+    followed = automata(numbers, rtol)
     criteria = [name for name in CRITERIA if name != "elastic" or numbers[0].groups["elastic_gap"] != 0.0]
     equations = variational(followed[0].model.choice, criteria)
     batch = Gradients(film=len(equations.groups), equations=equations, slopes=slopes)

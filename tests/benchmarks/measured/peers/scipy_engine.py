@@ -16,7 +16,7 @@ import numpy as np
 from casadi import SX, Function, densify, jacobian, jtimes, vertcat
 from wetdoublet.solvers.engines.casadi.integrators import tolerance_for
 from wetdoublet.solvers.host.buffered import Buffered
-from wetdoublet.solvers.model.model import Model
+from wetdoublet.solvers.model.dimensionless import Problem
 from wetdoublet.solvers.model.phases import Flow, WatchedEvents, event_table, expressions
 
 from .automaton import CERTIFIED, Automaton, Hit, proof_of, proving
@@ -68,10 +68,10 @@ def equations(flow: Flow) -> Equations:
 class ScipyAutomaton(Automaton):
     """A collision by a method of `solve_ivp`."""
 
-    def __init__(self, model: Model, groups: dict[str, float], rtol: float, method: str) -> None:
-        super().__init__(model, groups, rtol)
+    def __init__(self, problem: Problem, rtol: float, method: str) -> None:
+        super().__init__(problem, rtol)
         self.method = method
-        tolerance = tolerance_for(self.rtol, "rosenbrock", groups)
+        tolerance = tolerance_for(self.rtol, "rosenbrock", problem.groups)
         relative = max(tolerance.relative, _TIGHTEST)
         self.options: dict[str, Any] = {"method": method, "rtol": relative, "atol": tolerance.absolute}
 
