@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Automaton sha256 90498b3db377b83820431858c35fad21cbb346718f97c2416b4cc7b1c711689e
+# Automaton sha256 74c3db73d2eb50ddc059f841912c1d34d2b981ebebe0f1c5a6d9d8d7681dd77f
 """A collision as a hybrid automaton: events, their guards and effects, rules, words, outcomes."""
 
 from __future__ import annotations
@@ -101,7 +101,7 @@ class Status(IntEnum):
     CHATTER = 4  # the budget of steps is exhausted after more than CHATTER_PHASES phases
     TOO_OBLIQUE = 5  # the centrifugal force is beyond MOST_OBLIQUE
     ESCAPED = 6  # a stick that is proved separates when it is followed on: a defect
-    WITHIN_ROUNDING = 7  # the doublet separates at less than LEAST_PARTING, or by less than LEAST_MOMENTUM
+    WITHIN_ROUNDING = 7  # the doublet separates at less than LEAST_PARTING
     UNDECLARED = 8  # a declared event creates kinetic energy that it does not declare
 
 
@@ -133,7 +133,6 @@ TUMBLES = 0.001  # in space: a doublet tumbles as one body where all other motio
 TURNLESS = 3.552713678800501e-15  # in space: a component that is a smaller part of the largest vector of its kind is rounding, and where all are, nothing rotates
 LEAST_SLIP = 1e-12  # in the scale of tangential speeds: below it at initial contact no ratio of slips is formed
 LEAST_PARTING = 1.4210854715202004e-14  # in the scale of tangential speeds times sqrt(x0/a): a slower separation is what rounding of the angular momentum alone sets off, and decides nothing
-LEAST_MOMENTUM = 5.960464477539063e-08  # of the parts of the angular momentum: rounding of less changes what it sets off by more than as much
 LEAST_DEPTH = 1e-40  # least gap, relative to the present one, of the film certificate without contact
 
 
@@ -170,51 +169,6 @@ def is_on_edge(gap: float, edge: float) -> bool:
 def is_too_oblique(obliquity: float, aspect: float) -> bool:
     """True if the centrifugal force reverses the motion within rounding."""
     return obliquity*obliquity*aspect/16 > MOST_OBLIQUE
-
-
-def is_below_barrier(energy: Any, height: Any, margin: Any, largest: Any, drift: Any) -> Any:
-    """True if the energy is below a barrier ahead, lowered by what a drift of angular momentum may do."""
-    return energy < height - margin*(largest + abs(height)) - drift
-
-
-def attraction_holds(gap: Any, contact: Any, margin: Any, hold: Any, rebound: Any, escape: Any, energy: Any) -> Any:
-    """True if the attraction lets no maximum of the gap exceed the one before."""
-    return gap >= contact*(1 - margin) and hold > 0 and rebound < -margin*hold and escape < -margin*energy
-
-
-def spins_down(gap: Any, contact: Any, margin: Any, momentum: Any, negligible: Any, rate: Any, stays: Any, error: Any, orbital_momentum: Any, inside: Any, apart: Any) -> Any:
-    """True if without angular momentum, or without orbital momentum, the film keeps the doublet."""
-    return gap >= contact*(1 - margin) and (momentum <= negligible and rate > 0 and stays < -error or orbital_momentum == 0 and inside < 0 and apart < -error)
-
-
-def is_stopped(excess: Any, error: Any) -> Any:
-    """True if the film takes more than what drives a motion."""
-    return excess + error < 0
-
-
-def points_inward(outward: Any, pull: Any, margin: Any) -> Any:
-    """True if all forces but that of the film point inward."""
-    return outward - pull + margin*(outward + pull) < 0
-
-
-def rests_for_good(reaction: Any, margin: Any, largest: Any) -> Any:
-    """True if the reaction of a resting doublet stays inward at the largest momentum that slip allows."""
-    return reaction > margin*largest
-
-
-def stays_below(needed: Any, margin: Any, size: Any) -> Any:
-    """True if the energy does not suffice for a gap ahead."""
-    return needed < -margin*size
-
-
-def comes_back(outward: Any, lost: Any, margin: Any) -> Any:
-    """True if a rebound loses more than the rotation gives on the way back to the maximum."""
-    return outward < lost*(1 - margin)
-
-
-def tumbles_for_good(rest: Any, rigid: Any, work: Any, height: Any, margin: Any, largest: Any) -> Any:
-    """True if a doublet that tumbles as one body is held with all momentum across the line of centres."""
-    return rest < TUMBLES*rigid and rest + rigid + work < height - margin*(largest + abs(height))
 
 
 class Event(NamedTuple):

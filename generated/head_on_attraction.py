@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 60197623b057cc840cf6d5086e09cb8cdd00dcad9290bc40cd1da02abd0ede5d
+# Equations sha256 c718b77e0591ffafa8532f01ad54b35566bef442777464c9bad766fb45d08b2a
 """Head-on doublet with another attraction.
 
 Time in x0/v0. States (per unit):
@@ -22,7 +22,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from casadi import fmax, sqrt
 from .head_on import (
     energies, events, outputs, rebound, rebound_loss, restitution_ceiling, rigid_rotation, start,
 )
@@ -35,11 +34,10 @@ GROUPS = ("stokes", "adhesion", "glass_number", "elastic_gap", "rough_gap", "dry
 SLOTS = ("film", "glass", "attraction")
 FUNCTIONS = (
     "right_hand_side", "inward_force", "events", "rebound", "start", "energies", "energy_rates",
-    "rebound_loss", "outputs", "approach_step", "approach_force", "effective_potential", "rigid_rotation",
-    "restitution_ceiling",
+    "rebound_loss", "outputs", "effective_potential", "rigid_rotation", "restitution_ceiling",
 )
 REGIONAL = ("right_hand_side", "energy_rates")
-DIGEST = "60197623b057cc840cf6d5086e09cb8cdd00dcad9290bc40cd1da02abd0ede5d"
+DIGEST = "c718b77e0591ffafa8532f01ad54b35566bef442777464c9bad766fb45d08b2a"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -91,44 +89,6 @@ def energy_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear:
     return {
         "normal_lubrication": film_force*normal_velocity,
         "attraction": attraction_force*normal_velocity,
-    }
-
-
-def approach_step(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Bounds over the next part of the film, from a gap and a bound of the closing speed there (the normal
-    velocity): the part's end, the largest speed there and within it.
-
-    Total operations: 32
-    """
-    gap = state["gap"]
-    normal_velocity = state["normal_velocity"]
-    stokes = groups["stokes"]
-    adhesion = groups["adhesion"]
-    elastic_gap = groups["elastic_gap"]
-    rough_gap = groups["rough_gap"]
-    part_ratio = fmax(fmax(0.01, elastic_gap), rough_gap)**(1/24)
-    deeper = gap*part_ratio
-    largest_force = fmax(0, adhesion*laws.attraction.force(deeper)/stokes)
-    path = gap - deeper
-    left = -normal_velocity - (laws.film.braking(deeper) - laws.film.braking(gap))/stokes
-    gain = largest_force*path/fmax(left, sqrt(2)*sqrt(largest_force)*sqrt(path)/2)
-    return {
-        "deeper_gap": deeper,
-        "slowed": gain + fmax(0, left),
-        "fastest": gain - normal_velocity,
-    }
-
-
-def approach_force(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Largest outward force before solid contact, over m v0^2/x0, for the rotation of this state.
-
-    Total operations: 5
-    """
-    gap = state["gap"]
-    stokes = groups["stokes"]
-    adhesion = groups["adhesion"]
-    return {
-        "outward": fmax(0, -adhesion*laws.attraction.force(gap)/stokes),
     }
 
 

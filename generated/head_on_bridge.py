@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 aa8a6a49ed3092c707d32a696bc8ab778106044d2bcd515b445a573c63cc1b6d
+# Equations sha256 1f44a1259a45572cf6def3abc32cbad9e13b200f1fbe8462be3b24ff9402c492
 """Head-on doublet with a liquid bridge.
 
 Time in x0/v0. States (per unit):
@@ -26,7 +26,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from casadi import fmax, sqrt
 from .head_on import energies, outputs, rebound, rebound_loss, restitution_ceiling, rigid_rotation, start
 
 
@@ -40,11 +39,10 @@ GROUPS = (
 SLOTS = ("film", "glass", "bridge")
 FUNCTIONS = (
     "right_hand_side", "inward_force", "events", "rebound", "start", "energies", "energy_rates",
-    "rebound_loss", "outputs", "approach_step", "approach_force", "effective_potential", "rigid_rotation",
-    "restitution_ceiling",
+    "rebound_loss", "outputs", "effective_potential", "rigid_rotation", "restitution_ceiling",
 )
 REGIONAL = ("right_hand_side", "energy_rates")
-DIGEST = "aa8a6a49ed3092c707d32a696bc8ab778106044d2bcd515b445a573c63cc1b6d"
+DIGEST = "1f44a1259a45572cf6def3abc32cbad9e13b200f1fbe8462be3b24ff9402c492"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -127,50 +125,6 @@ def energy_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear:
     return {
         "normal_lubrication": film_force*normal_velocity,
         "capillary": bridge_force*normal_velocity,
-    }
-
-
-def approach_step(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Bounds over the next part of the film, from a gap and a bound of the closing speed there (the normal
-    velocity): the part's end, the largest speed there and within it.
-
-    Total operations: 34
-    """
-    gap = state["gap"]
-    normal_velocity = state["normal_velocity"]
-    stokes = groups["stokes"]
-    aspect = groups["aspect"]
-    capillary = groups["capillary"]
-    volume = groups["volume"]
-    contact_angle = groups["contact_angle"]
-    elastic_gap = groups["elastic_gap"]
-    rough_gap = groups["rough_gap"]
-    part_ratio = fmax(fmax(0.01, elastic_gap), rough_gap)**(1/24)
-    deeper = gap*part_ratio
-    largest_force = fmax(0, laws.bridge.force(aspect*deeper/2, volume, contact_angle)/(capillary*stokes))
-    path = gap - deeper
-    left = -normal_velocity - (laws.film.braking(deeper) - laws.film.braking(gap))/stokes
-    gain = largest_force*path/fmax(left, sqrt(2)*sqrt(largest_force)*sqrt(path)/2)
-    return {
-        "deeper_gap": deeper,
-        "slowed": gain + fmax(0, left),
-        "fastest": gain - normal_velocity,
-    }
-
-
-def approach_force(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Largest outward force before solid contact, over m v0^2/x0, for the rotation of this state.
-
-    Total operations: 7
-    """
-    gap = state["gap"]
-    stokes = groups["stokes"]
-    aspect = groups["aspect"]
-    capillary = groups["capillary"]
-    volume = groups["volume"]
-    contact_angle = groups["contact_angle"]
-    return {
-        "outward": fmax(0, -laws.bridge.force(aspect*gap/2, volume, contact_angle)/(capillary*stokes)),
     }
 
 

@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 8bcb15982ee6a13e5f01a59bcc2dd3366f1a502f1022a631c0005de1c8c4e704
+# Equations sha256 92d19310ee834292a10323a1e38e930c3aa34e3da0a9e790e510df0d1df884d3
 """Head-on doublet with a liquid bridge and another attraction.
 
 Time in x0/v0. States (per unit):
@@ -27,7 +27,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from casadi import fmax, sqrt
 from .head_on import energies, outputs, rebound, rebound_loss, restitution_ceiling, rigid_rotation, start
 from .head_on_bridge import events
 
@@ -42,11 +41,10 @@ GROUPS = (
 SLOTS = ("film", "glass", "bridge", "attraction")
 FUNCTIONS = (
     "right_hand_side", "inward_force", "events", "rebound", "start", "energies", "energy_rates",
-    "rebound_loss", "outputs", "approach_step", "approach_force", "effective_potential", "rigid_rotation",
-    "restitution_ceiling",
+    "rebound_loss", "outputs", "effective_potential", "rigid_rotation", "restitution_ceiling",
 )
 REGIONAL = ("right_hand_side", "energy_rates")
-DIGEST = "8bcb15982ee6a13e5f01a59bcc2dd3366f1a502f1022a631c0005de1c8c4e704"
+DIGEST = "92d19310ee834292a10323a1e38e930c3aa34e3da0a9e790e510df0d1df884d3"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -114,54 +112,6 @@ def energy_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear:
         "normal_lubrication": film_force*normal_velocity,
         "capillary": bridge_force*normal_velocity,
         "attraction": attraction_force*normal_velocity,
-    }
-
-
-def approach_step(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Bounds over the next part of the film, from a gap and a bound of the closing speed there (the normal
-    velocity): the part's end, the largest speed there and within it.
-
-    Total operations: 38
-    """
-    gap = state["gap"]
-    normal_velocity = state["normal_velocity"]
-    stokes = groups["stokes"]
-    aspect = groups["aspect"]
-    capillary = groups["capillary"]
-    volume = groups["volume"]
-    contact_angle = groups["contact_angle"]
-    adhesion = groups["adhesion"]
-    elastic_gap = groups["elastic_gap"]
-    rough_gap = groups["rough_gap"]
-    part_ratio = fmax(fmax(0.01, elastic_gap), rough_gap)**(1/24)
-    deeper = gap*part_ratio
-    largest_force = (
-        fmax(0, adhesion*laws.attraction.force(deeper)/stokes + laws.bridge.force(aspect*deeper/2, volume, contact_angle)/(capillary*stokes))
-    )
-    path = gap - deeper
-    left = -normal_velocity - (laws.film.braking(deeper) - laws.film.braking(gap))/stokes
-    gain = largest_force*path/fmax(left, sqrt(2)*sqrt(largest_force)*sqrt(path)/2)
-    return {
-        "deeper_gap": deeper,
-        "slowed": gain + fmax(0, left),
-        "fastest": gain - normal_velocity,
-    }
-
-
-def approach_force(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Largest outward force before solid contact, over m v0^2/x0, for the rotation of this state.
-
-    Total operations: 11
-    """
-    gap = state["gap"]
-    stokes = groups["stokes"]
-    aspect = groups["aspect"]
-    capillary = groups["capillary"]
-    volume = groups["volume"]
-    contact_angle = groups["contact_angle"]
-    adhesion = groups["adhesion"]
-    return {
-        "outward": fmax(0, -adhesion*laws.attraction.force(gap)/stokes - laws.bridge.force(aspect*gap/2, volume, contact_angle)/(capillary*stokes)),
     }
 
 

@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 3c04831f7bfa91bb38951f67d68c794c5f93ad2fa51f08eb371301858303f887
+# Equations sha256 e17832a8b9d2a2fe1720dd71b78c10cc2d1b90130e38967ab272f1de5354c4be
 """Head-on doublet with a liquid bridge, a film whose rim follows the bridge's volume.
 
 Time in x0/v0. States (per unit):
@@ -26,9 +26,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from casadi import fmax, sqrt
 from .head_on import energies, outputs, rebound, rebound_loss, restitution_ceiling, rigid_rotation, start
-from .head_on_bridge import approach_force, effective_potential, inward_force
+from .head_on_bridge import effective_potential, inward_force
 
 
 Values = Mapping[str, Any]
@@ -41,11 +40,10 @@ GROUPS = (
 SLOTS = ("film", "glass", "bridge")
 FUNCTIONS = (
     "right_hand_side", "inward_force", "events", "rebound", "start", "energies", "energy_rates",
-    "rebound_loss", "outputs", "approach_step", "approach_force", "effective_potential", "rigid_rotation",
-    "restitution_ceiling",
+    "rebound_loss", "outputs", "effective_potential", "rigid_rotation", "restitution_ceiling",
 )
 REGIONAL = ("right_hand_side", "energy_rates")
-DIGEST = "3c04831f7bfa91bb38951f67d68c794c5f93ad2fa51f08eb371301858303f887"
+DIGEST = "e17832a8b9d2a2fe1720dd71b78c10cc2d1b90130e38967ab272f1de5354c4be"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -110,35 +108,4 @@ def energy_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear:
     return {
         "normal_lubrication": film_force*normal_velocity,
         "capillary": bridge_force*normal_velocity,
-    }
-
-
-def approach_step(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Bounds over the next part of the film, from a gap and a bound of the closing speed there (the normal
-    velocity): the part's end, the largest speed there and within it.
-
-    Total operations: 34
-    """
-    gap = state["gap"]
-    normal_velocity = state["normal_velocity"]
-    stokes = groups["stokes"]
-    aspect = groups["aspect"]
-    capillary = groups["capillary"]
-    volume = groups["volume"]
-    contact_angle = groups["contact_angle"]
-    elastic_gap = groups["elastic_gap"]
-    rough_gap = groups["rough_gap"]
-    part_ratio = fmax(fmax(0.01, elastic_gap), rough_gap)**(1/24)
-    deeper = gap*part_ratio
-    largest_force = fmax(0, laws.bridge.force(aspect*deeper/2, volume, contact_angle)/(capillary*stokes))
-    path = gap - deeper
-    left = (
-        - normal_velocity
-        - (laws.film.braking(deeper, aspect, volume) - laws.film.braking(gap, aspect, volume))/stokes
-    )
-    gain = largest_force*path/fmax(left, sqrt(2)*sqrt(largest_force)*sqrt(path)/2)
-    return {
-        "deeper_gap": deeper,
-        "slowed": gain + fmax(0, left),
-        "fastest": gain - normal_velocity,
     }

@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 d68b1f7509fb15f9965792079c3472947e8f89a562656ee118741d7c1ecd4306
+# Equations sha256 f712b9a202542a68cc8d1bc30ee218f28e929c94fc29aa51eee284e74d094124
 """Oblique doublet with a film only.
 
 Time in x0/v0. States (per unit):
@@ -27,7 +27,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from casadi import fabs, fmax, fmin
+from casadi import fabs
 from .head_on import rebound_loss
 
 
@@ -42,10 +42,10 @@ SLOTS = ("film", "glass", "shear", "arm")
 FUNCTIONS = (
     "right_hand_side", "resting_rates", "turning_rate", "inward_force", "events", "rebound", "start",
     "energies", "energy_rates", "rebound_loss", "angular_momentum", "outputs", "surface_slip",
-    "spin_down_margins", "effective_potential", "rigid_rotation", "restitution_ceiling",
+    "effective_potential", "rigid_rotation", "restitution_ceiling",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "d68b1f7509fb15f9965792079c3472947e8f89a562656ee118741d7c1ecd4306"
+DIGEST = "f712b9a202542a68cc8d1bc30ee218f28e929c94fc29aa51eee284e74d094124"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -292,43 +292,6 @@ def surface_slip(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     lever = laws.arm.lever(distance)
     return {
         "surface_slip": distance*orbital_rate - 2*lever*spin,
-    }
-
-
-def spin_down_margins(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Margins of the spin-down certificate (lever arm at mid-gap, a shear that falls with the gap, L = 0): stays
-    < 0 and rate > 0 exclude separation; momentum is |L| over its parts at the start, beyond rounding. So do
-    apart < 0 and inside < 0 where J = 0.
-
-    Total operations: 95
-    """
-    gap = state["gap"]
-    normal_velocity = state["normal_velocity"]
-    orbital_momentum = state["orbital_momentum"]
-    spin = state["spin"]
-    stokes = groups["stokes"]
-    aspect = groups["aspect"]
-    obliquity = groups["obliquity"]
-    initial_turning = groups["initial_turning"]
-    initial_spin = groups["initial_spin"]
-    elastic_gap = groups["elastic_gap"]
-    rough_gap = groups["rough_gap"]
-    dry_restitution = groups["dry_restitution"]
-    distance = aspect*gap + 4
-    orbital_rate = orbital_momentum/distance**2
-    shear_end = laws.shear.edge(aspect)
-    beyond = gap/2 + fmin(1, shear_end)/2
-    contact = fmax(elastic_gap, rough_gap)
-    near = aspect*contact - aspect*gap + distance
-    far = aspect*beyond - aspect*gap + distance
-    leak = laws.shear.log_factor(beyond, aspect)
-    rate = aspect*leak*(5*far*near + 32)/(12*far*stokes)
-    return {
-        "stays": 2*aspect*distance**2*stokes*(distance**2*obliquity**2*orbital_rate**2/32 + 0.2*obliquity**2*spin**2)/(near**3*rate) + stokes*fmax(normal_velocity, -dry_restitution*normal_velocity) + laws.film.stopping(beyond) - laws.film.stopping(gap),
-        "rate": rate,
-        "apart": fmax(stokes*fmax(normal_velocity, -dry_restitution*normal_velocity) - laws.film.stopping(gap), laws.film.stopping(gap) - normal_velocity*stokes - laws.film.stopping(shear_end)),
-        "inside": shear_end - gap,
-        "momentum": fmax(0, fmax(-6.4*initial_spin - initial_turning*(aspect + 4)**2, 6.4*initial_spin + initial_turning*(aspect + 4)**2)/(initial_turning*(aspect + 4)**2 + fmax(-6.4*initial_spin, 6.4*initial_spin)) - 3.552713678800501e-15),
     }
 
 

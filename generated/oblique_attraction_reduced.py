@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 3f1eba34db8f5b26f0b27a50e32e50686f3fbaceaafb72459921ba7899a296c1
+# Equations sha256 49ee3bbf352eb6230e127b85e604ded4d7583755d29b99b61b2376382420af10
 """Oblique doublet with another attraction, spin eliminated through the conserved angular momentum.
 
 Time in x0/v0. States (per unit):
@@ -27,12 +27,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from casadi import fmax
 from .head_on import rebound_loss
-from .head_on_attraction import approach_step, energy_rates
+from .head_on_attraction import energy_rates
 from .oblique import restitution_ceiling, turning_rate
 from .oblique_attraction import events, inward_force
-from .oblique_bridge_reduced import orbital_margins
 from .oblique_reduced import energies, outputs, rebound, resting_rates, rigid_rotation, start, surface_slip
 
 
@@ -46,12 +44,11 @@ GROUPS = (
 SLOTS = ("film", "glass", "shear", "attraction")
 FUNCTIONS = (
     "right_hand_side", "resting_rates", "turning_rate", "inward_force", "events", "rebound", "start",
-    "energies", "energy_rates", "rebound_loss", "outputs", "surface_slip", "attraction_margins",
-    "approach_step", "approach_force", "orbital_margins", "effective_potential", "rigid_rotation",
-    "restitution_ceiling",
+    "energies", "energy_rates", "rebound_loss", "outputs", "surface_slip", "effective_potential",
+    "rigid_rotation", "restitution_ceiling",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "3f1eba34db8f5b26f0b27a50e32e50686f3fbaceaafb72459921ba7899a296c1"
+DIGEST = "49ee3bbf352eb6230e127b85e604ded4d7583755d29b99b61b2376382420af10"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -83,63 +80,6 @@ def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, she
         "gap": normal_velocity,
         "normal_velocity": centrifugal_force - attraction_force - film_force,
         "orbital_momentum": -distance*shear_force,
-    }
-
-
-def attraction_margins(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Margins of the attraction certificate (lever arm at mid-gap, forces that decrease with the gap): hold > 0,
-    escape < 0 and rebound < 0 exclude separation.
-
-    Total operations: 43
-    """
-    gap = state["gap"]
-    normal_velocity = state["normal_velocity"]
-    orbital_momentum = state["orbital_momentum"]
-    stokes = groups["stokes"]
-    aspect = groups["aspect"]
-    obliquity = groups["obliquity"]
-    initial_turning = groups["initial_turning"]
-    initial_spin = groups["initial_spin"]
-    adhesion = groups["adhesion"]
-    elastic_gap = groups["elastic_gap"]
-    rough_gap = groups["rough_gap"]
-    dry_restitution = groups["dry_restitution"]
-    momentum = 6.4*initial_spin + initial_turning*(aspect + 4)**2
-    contact = fmax(elastic_gap, rough_gap)
-    nearest = aspect*contact + 4
-    farthest = aspect + 4
-    spun_up = farthest**2*momentum/(farthest**2 + 6.4)
-    largest_momentum = fmax(fmax(fmax(-orbital_momentum, orbital_momentum), -spun_up), spun_up)
-    least_attraction = adhesion*laws.attraction.force(1)/stokes
-    hold = least_attraction - aspect*largest_momentum**2*obliquity**2/(16*nearest**3)
-    return {
-        "hold": hold,
-        "escape": fmax(normal_velocity, -dry_restitution*normal_velocity)**2/2 - hold*(1 - gap),
-        "rebound": dry_restitution**2*least_attraction - hold,
-    }
-
-
-def approach_force(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Largest outward force before solid contact, over m v0^2/x0, for the rotation of this state.
-
-    Total operations: 42
-    """
-    gap = state["gap"]
-    orbital_momentum = state["orbital_momentum"]
-    stokes = groups["stokes"]
-    aspect = groups["aspect"]
-    obliquity = groups["obliquity"]
-    initial_turning = groups["initial_turning"]
-    initial_spin = groups["initial_spin"]
-    adhesion = groups["adhesion"]
-    elastic_gap = groups["elastic_gap"]
-    rough_gap = groups["rough_gap"]
-    distance = aspect*gap + 4
-    orbital_rate = orbital_momentum/distance**2
-    momentum = 6.4*initial_spin + initial_turning*(aspect + 4)**2
-    spin = 5*momentum/32 - 5*orbital_momentum/32
-    return {
-        "outward": fmax(0, 2*aspect*distance**2*(distance**2*obliquity**2*orbital_rate**2/32 + 0.2*obliquity**2*spin**2)/(aspect*fmax(elastic_gap, rough_gap) - aspect*gap + distance)**3 - adhesion*laws.attraction.force(gap)/stokes),
     }
 
 

@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 13b4fe32c6a11cc3ccc28956ab63b503cccccb851151525fbb25da0cc4578506
+# Equations sha256 7b13822886c0a0cd318bb26aa39a2ea38059bb141d57846e79c10126e187aed1
 """Oblique doublet with a liquid bridge.
 
 Time in x0/v0. States (per unit):
@@ -31,9 +31,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from casadi import fmax, fmin
 from .head_on import rebound_loss
-from .head_on_bridge import approach_step
 from .oblique import (
     angular_momentum, energies, outputs, rebound, resting_rates, restitution_ceiling, rigid_rotation, start,
     surface_slip, turning_rate,
@@ -51,11 +49,10 @@ SLOTS = ("film", "glass", "shear", "arm", "bridge")
 FUNCTIONS = (
     "right_hand_side", "resting_rates", "turning_rate", "inward_force", "events", "rebound", "start",
     "energies", "energy_rates", "rebound_loss", "angular_momentum", "outputs", "surface_slip",
-    "attraction_margins", "approach_step", "approach_force", "orbital_margins", "effective_potential",
-    "rigid_rotation", "restitution_ceiling",
+    "effective_potential", "rigid_rotation", "restitution_ceiling",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "13b4fe32c6a11cc3ccc28956ab63b503cccccb851151525fbb25da0cc4578506"
+DIGEST = "7b13822886c0a0cd318bb26aa39a2ea38059bb141d57846e79c10126e187aed1"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -176,86 +173,6 @@ def energy_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear:
         "normal_lubrication": film_force*normal_velocity,
         "capillary": bridge_force*normal_velocity,
         "tangential_lubrication": obliquity**2*shear_force*(distance*orbital_rate - 2*lever*spin)/16,
-    }
-
-
-def attraction_margins(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Margins of the attraction certificate (lever arm at mid-gap, forces that decrease with the gap): hold > 0,
-    escape < 0 and rebound < 0 exclude separation.
-
-    Total operations: 43
-    """
-    gap = state["gap"]
-    normal_velocity = state["normal_velocity"]
-    orbital_momentum = state["orbital_momentum"]
-    spin = state["spin"]
-    stokes = groups["stokes"]
-    aspect = groups["aspect"]
-    obliquity = groups["obliquity"]
-    capillary = groups["capillary"]
-    volume = groups["volume"]
-    contact_angle = groups["contact_angle"]
-    elastic_gap = groups["elastic_gap"]
-    rough_gap = groups["rough_gap"]
-    rupture_gap = groups["rupture_gap"]
-    dry_restitution = groups["dry_restitution"]
-    momentum = orbital_momentum + 6.4*spin
-    contact = fmax(elastic_gap, rough_gap)
-    nearest = aspect*contact + 4
-    farthest = aspect*rupture_gap + 4
-    spun_up = farthest**2*momentum/(farthest**2 + 6.4)
-    largest_momentum = fmax(fmax(fmax(-orbital_momentum, orbital_momentum), -spun_up), spun_up)
-    least_attraction = laws.bridge.force(aspect*rupture_gap/2, volume, contact_angle)/(capillary*stokes)
-    hold = least_attraction - aspect*largest_momentum**2*obliquity**2/(16*nearest**3)
-    return {
-        "hold": hold,
-        "escape": fmax(normal_velocity, -dry_restitution*normal_velocity)**2/2 - hold*(rupture_gap - gap),
-        "rebound": dry_restitution**2*least_attraction - hold,
-    }
-
-
-def approach_force(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Largest outward force before solid contact, over m v0^2/x0, for the rotation of this state.
-
-    Total operations: 33
-    """
-    gap = state["gap"]
-    orbital_momentum = state["orbital_momentum"]
-    spin = state["spin"]
-    stokes = groups["stokes"]
-    aspect = groups["aspect"]
-    obliquity = groups["obliquity"]
-    capillary = groups["capillary"]
-    volume = groups["volume"]
-    contact_angle = groups["contact_angle"]
-    elastic_gap = groups["elastic_gap"]
-    rough_gap = groups["rough_gap"]
-    distance = aspect*gap + 4
-    orbital_rate = orbital_momentum/distance**2
-    return {
-        "outward": fmax(0, 2*aspect*distance**2*(distance**2*obliquity**2*orbital_rate**2/32 + 0.2*obliquity**2*spin**2)/(aspect*fmax(elastic_gap, rough_gap) - aspect*gap + distance)**3 - laws.bridge.force(aspect*gap/2, volume, contact_angle)/(capillary*stokes)),
-    }
-
-
-def orbital_margins(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Margins of the orbital-momentum certificate: slip omega - xi and J^2/(2 r^2) at this gap, and the slip
-    energy; energies over m v0^2.
-
-    Total operations: 52
-    """
-    gap = state["gap"]
-    orbital_momentum = state["orbital_momentum"]
-    spin = state["spin"]
-    aspect = groups["aspect"]
-    obliquity = groups["obliquity"]
-    distance = aspect*gap + 4
-    orbital_rate = orbital_momentum/distance**2
-    slip = orbital_rate - spin
-    rotation_energy_unit = obliquity**2/16
-    return {
-        "slip": slip,
-        "orbital_energy": orbital_momentum**2*rotation_energy_unit/(2*distance**2),
-        "slip_energy": rotation_energy_unit*(0.15625 + 1/distance**2)*(fmax(fmin(0, distance**2*(orbital_momentum + 6.4*spin)/(distance**2 + 6.4)), fmin(orbital_momentum, fmax(0, distance**2*(orbital_momentum + 6.4*spin)/(distance**2 + 6.4)))) - distance**2*(orbital_momentum + 6.4*spin)/(distance**2 + 6.4))**2/2,
     }
 
 

@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 5d175eedf8997fe0f3a5bf51fd75879b4f33d2f2d076257267d56eda1990db8b
+# Equations sha256 8a86210bf05873627b38f5f9d9fd2b93cbdc15568a211d6ba62da6b5218141fe
 """Oblique doublet with a liquid bridge and another attraction.
 
 Time in x0/v0. States (per unit):
@@ -32,14 +32,11 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from casadi import fmax
 from .head_on import rebound_loss
-from .head_on_bridge_attraction import approach_step
 from .oblique import (
     angular_momentum, energies, outputs, rebound, resting_rates, restitution_ceiling, rigid_rotation, start,
     surface_slip, turning_rate,
 )
-from .oblique_bridge import orbital_margins
 
 
 Values = Mapping[str, Any]
@@ -53,11 +50,10 @@ SLOTS = ("film", "glass", "shear", "arm", "bridge", "attraction")
 FUNCTIONS = (
     "right_hand_side", "resting_rates", "turning_rate", "inward_force", "events", "rebound", "start",
     "energies", "energy_rates", "rebound_loss", "angular_momentum", "outputs", "surface_slip",
-    "attraction_margins", "approach_step", "approach_force", "orbital_margins", "effective_potential",
-    "rigid_rotation", "restitution_ceiling",
+    "effective_potential", "rigid_rotation", "restitution_ceiling",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "5d175eedf8997fe0f3a5bf51fd75879b4f33d2f2d076257267d56eda1990db8b"
+DIGEST = "8a86210bf05873627b38f5f9d9fd2b93cbdc15568a211d6ba62da6b5218141fe"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -187,69 +183,6 @@ def energy_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear:
         "capillary": bridge_force*normal_velocity,
         "attraction": attraction_force*normal_velocity,
         "tangential_lubrication": obliquity**2*shear_force*(distance*orbital_rate - 2*lever*spin)/16,
-    }
-
-
-def attraction_margins(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Margins of the attraction certificate (lever arm at mid-gap, forces that decrease with the gap): hold > 0,
-    escape < 0 and rebound < 0 exclude separation.
-
-    Total operations: 47
-    """
-    gap = state["gap"]
-    normal_velocity = state["normal_velocity"]
-    orbital_momentum = state["orbital_momentum"]
-    spin = state["spin"]
-    stokes = groups["stokes"]
-    aspect = groups["aspect"]
-    obliquity = groups["obliquity"]
-    capillary = groups["capillary"]
-    volume = groups["volume"]
-    contact_angle = groups["contact_angle"]
-    adhesion = groups["adhesion"]
-    elastic_gap = groups["elastic_gap"]
-    rough_gap = groups["rough_gap"]
-    rupture_gap = groups["rupture_gap"]
-    dry_restitution = groups["dry_restitution"]
-    momentum = orbital_momentum + 6.4*spin
-    contact = fmax(elastic_gap, rough_gap)
-    nearest = aspect*contact + 4
-    farthest = aspect*rupture_gap + 4
-    spun_up = farthest**2*momentum/(farthest**2 + 6.4)
-    largest_momentum = fmax(fmax(fmax(-orbital_momentum, orbital_momentum), -spun_up), spun_up)
-    least_attraction = (
-        adhesion*laws.attraction.force(rupture_gap)/stokes
-        + laws.bridge.force(aspect*rupture_gap/2, volume, contact_angle)/(capillary*stokes)
-    )
-    hold = least_attraction - aspect*largest_momentum**2*obliquity**2/(16*nearest**3)
-    return {
-        "hold": hold,
-        "escape": fmax(normal_velocity, -dry_restitution*normal_velocity)**2/2 - hold*(rupture_gap - gap),
-        "rebound": dry_restitution**2*least_attraction - hold,
-    }
-
-
-def approach_force(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Largest outward force before solid contact, over m v0^2/x0, for the rotation of this state.
-
-    Total operations: 37
-    """
-    gap = state["gap"]
-    orbital_momentum = state["orbital_momentum"]
-    spin = state["spin"]
-    stokes = groups["stokes"]
-    aspect = groups["aspect"]
-    obliquity = groups["obliquity"]
-    capillary = groups["capillary"]
-    volume = groups["volume"]
-    contact_angle = groups["contact_angle"]
-    adhesion = groups["adhesion"]
-    elastic_gap = groups["elastic_gap"]
-    rough_gap = groups["rough_gap"]
-    distance = aspect*gap + 4
-    orbital_rate = orbital_momentum/distance**2
-    return {
-        "outward": fmax(0, 2*aspect*distance**2*(distance**2*obliquity**2*orbital_rate**2/32 + 0.2*obliquity**2*spin**2)/(aspect*fmax(elastic_gap, rough_gap) - aspect*gap + distance)**3 - adhesion*laws.attraction.force(gap)/stokes - laws.bridge.force(aspect*gap/2, volume, contact_angle)/(capillary*stokes)),
     }
 
 

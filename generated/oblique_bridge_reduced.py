@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 a100df1bc970fe527bdd9f8a323ea7b2a5602318c66dfcd0f8400dfd4ea5aba1
+# Equations sha256 d76574b5e8c063dadf18b6548bec1ce80c072871f4d8b39da6f2629f44e895ac
 """Oblique doublet with a liquid bridge, spin eliminated through the conserved angular momentum.
 
 Time in x0/v0. States (per unit):
@@ -30,9 +30,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from casadi import fmax, fmin
 from .head_on import rebound_loss
-from .head_on_bridge import approach_step, energy_rates
+from .head_on_bridge import energy_rates
 from .oblique import restitution_ceiling, turning_rate
 from .oblique_bridge import events, inward_force
 from .oblique_reduced import energies, outputs, rebound, resting_rates, rigid_rotation, start, surface_slip
@@ -48,12 +47,11 @@ GROUPS = (
 SLOTS = ("film", "glass", "shear", "bridge")
 FUNCTIONS = (
     "right_hand_side", "resting_rates", "turning_rate", "inward_force", "events", "rebound", "start",
-    "energies", "energy_rates", "rebound_loss", "outputs", "surface_slip", "attraction_margins",
-    "approach_step", "approach_force", "orbital_margins", "effective_potential", "rigid_rotation",
-    "restitution_ceiling",
+    "energies", "energy_rates", "rebound_loss", "outputs", "surface_slip", "effective_potential",
+    "rigid_rotation", "restitution_ceiling",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "a100df1bc970fe527bdd9f8a323ea7b2a5602318c66dfcd0f8400dfd4ea5aba1"
+DIGEST = "d76574b5e8c063dadf18b6548bec1ce80c072871f4d8b39da6f2629f44e895ac"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -87,93 +85,6 @@ def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, she
         "gap": normal_velocity,
         "normal_velocity": centrifugal_force - bridge_force - film_force,
         "orbital_momentum": -distance*shear_force,
-    }
-
-
-def attraction_margins(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Margins of the attraction certificate (lever arm at mid-gap, forces that decrease with the gap): hold > 0,
-    escape < 0 and rebound < 0 exclude separation.
-
-    Total operations: 46
-    """
-    gap = state["gap"]
-    normal_velocity = state["normal_velocity"]
-    orbital_momentum = state["orbital_momentum"]
-    stokes = groups["stokes"]
-    aspect = groups["aspect"]
-    obliquity = groups["obliquity"]
-    initial_turning = groups["initial_turning"]
-    initial_spin = groups["initial_spin"]
-    capillary = groups["capillary"]
-    volume = groups["volume"]
-    contact_angle = groups["contact_angle"]
-    elastic_gap = groups["elastic_gap"]
-    rough_gap = groups["rough_gap"]
-    rupture_gap = groups["rupture_gap"]
-    dry_restitution = groups["dry_restitution"]
-    momentum = 6.4*initial_spin + initial_turning*(aspect + 4)**2
-    contact = fmax(elastic_gap, rough_gap)
-    nearest = aspect*contact + 4
-    farthest = aspect*rupture_gap + 4
-    spun_up = farthest**2*momentum/(farthest**2 + 6.4)
-    largest_momentum = fmax(fmax(fmax(-orbital_momentum, orbital_momentum), -spun_up), spun_up)
-    least_attraction = laws.bridge.force(aspect*rupture_gap/2, volume, contact_angle)/(capillary*stokes)
-    hold = least_attraction - aspect*largest_momentum**2*obliquity**2/(16*nearest**3)
-    return {
-        "hold": hold,
-        "escape": fmax(normal_velocity, -dry_restitution*normal_velocity)**2/2 - hold*(rupture_gap - gap),
-        "rebound": dry_restitution**2*least_attraction - hold,
-    }
-
-
-def approach_force(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Largest outward force before solid contact, over m v0^2/x0, for the rotation of this state.
-
-    Total operations: 44
-    """
-    gap = state["gap"]
-    orbital_momentum = state["orbital_momentum"]
-    stokes = groups["stokes"]
-    aspect = groups["aspect"]
-    obliquity = groups["obliquity"]
-    initial_turning = groups["initial_turning"]
-    initial_spin = groups["initial_spin"]
-    capillary = groups["capillary"]
-    volume = groups["volume"]
-    contact_angle = groups["contact_angle"]
-    elastic_gap = groups["elastic_gap"]
-    rough_gap = groups["rough_gap"]
-    distance = aspect*gap + 4
-    orbital_rate = orbital_momentum/distance**2
-    momentum = 6.4*initial_spin + initial_turning*(aspect + 4)**2
-    spin = 5*momentum/32 - 5*orbital_momentum/32
-    return {
-        "outward": fmax(0, 2*aspect*distance**2*(distance**2*obliquity**2*orbital_rate**2/32 + 0.2*obliquity**2*spin**2)/(aspect*fmax(elastic_gap, rough_gap) - aspect*gap + distance)**3 - laws.bridge.force(aspect*gap/2, volume, contact_angle)/(capillary*stokes)),
-    }
-
-
-def orbital_margins(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Margins of the orbital-momentum certificate: slip omega - xi and J^2/(2 r^2) at this gap, and the slip
-    energy; energies over m v0^2.
-
-    Total operations: 63
-    """
-    gap = state["gap"]
-    orbital_momentum = state["orbital_momentum"]
-    aspect = groups["aspect"]
-    obliquity = groups["obliquity"]
-    initial_turning = groups["initial_turning"]
-    initial_spin = groups["initial_spin"]
-    distance = aspect*gap + 4
-    orbital_rate = orbital_momentum/distance**2
-    momentum = 6.4*initial_spin + initial_turning*(aspect + 4)**2
-    spin = 5*momentum/32 - 5*orbital_momentum/32
-    slip = orbital_rate - spin
-    rotation_energy_unit = obliquity**2/16
-    return {
-        "slip": slip,
-        "orbital_energy": orbital_momentum**2*rotation_energy_unit/(2*distance**2),
-        "slip_energy": rotation_energy_unit*(0.15625 + 1/distance**2)*(fmax(fmin(0, distance**2*(orbital_momentum + 6.4*spin)/(distance**2 + 6.4)), fmin(orbital_momentum, fmax(0, distance**2*(orbital_momentum + 6.4*spin)/(distance**2 + 6.4)))) - distance**2*(orbital_momentum + 6.4*spin)/(distance**2 + 6.4))**2/2,
     }
 
 

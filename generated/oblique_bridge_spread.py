@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 c10955cdc862fe4f5d7e20f712ae54c54979df8e88be0be8c7e2dde3e5ecd52b
+# Equations sha256 b0bdfd1f51599e5bb85585e153030ee959b24bb1914331caf73822e0bc316654
 """Oblique doublet with a liquid bridge, a film whose rim follows the bridge's volume.
 
 Time in x0/v0. States (per unit):
@@ -32,14 +32,11 @@ from collections.abc import Mapping
 from typing import Any
 
 from .head_on import rebound_loss
-from .head_on_bridge_spread import approach_step
 from .oblique import (
     angular_momentum, energies, outputs, rebound, resting_rates, restitution_ceiling, rigid_rotation, start,
     surface_slip, turning_rate,
 )
-from .oblique_bridge import (
-    approach_force, attraction_margins, effective_potential, inward_force, orbital_margins,
-)
+from .oblique_bridge import effective_potential, inward_force
 
 
 Values = Mapping[str, Any]
@@ -53,11 +50,10 @@ SLOTS = ("film", "glass", "shear", "arm", "bridge")
 FUNCTIONS = (
     "right_hand_side", "resting_rates", "turning_rate", "inward_force", "events", "rebound", "start",
     "energies", "energy_rates", "rebound_loss", "angular_momentum", "outputs", "surface_slip",
-    "attraction_margins", "approach_step", "approach_force", "orbital_margins", "effective_potential",
-    "rigid_rotation", "restitution_ceiling",
+    "effective_potential", "rigid_rotation", "restitution_ceiling",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "c10955cdc862fe4f5d7e20f712ae54c54979df8e88be0be8c7e2dde3e5ecd52b"
+DIGEST = "b0bdfd1f51599e5bb85585e153030ee959b24bb1914331caf73822e0bc316654"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:

@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 1a3b06f0146b514ad023be84fb375211c7dff97cfa02a1b6fda16d5ec140aa90
+# Equations sha256 0495f055c068bc82762d36c67f166c2d4f2bf5f0ed2243051f98e045990ed00a
 """Oblique doublet with a liquid bridge, a film whose rim follows the bridge's volume, spin eliminated through
 the conserved angular momentum.
 
@@ -32,10 +32,10 @@ from collections.abc import Mapping
 from typing import Any
 
 from .head_on import rebound_loss
-from .head_on_bridge_spread import approach_step, energy_rates
+from .head_on_bridge_spread import energy_rates
 from .oblique import restitution_ceiling, turning_rate
 from .oblique_bridge import inward_force
-from .oblique_bridge_reduced import approach_force, attraction_margins, effective_potential, orbital_margins
+from .oblique_bridge_reduced import effective_potential
 from .oblique_bridge_spread import events
 from .oblique_reduced import energies, outputs, rebound, resting_rates, rigid_rotation, start, surface_slip
 
@@ -50,12 +50,11 @@ GROUPS = (
 SLOTS = ("film", "glass", "shear", "bridge")
 FUNCTIONS = (
     "right_hand_side", "resting_rates", "turning_rate", "inward_force", "events", "rebound", "start",
-    "energies", "energy_rates", "rebound_loss", "outputs", "surface_slip", "attraction_margins",
-    "approach_step", "approach_force", "orbital_margins", "effective_potential", "rigid_rotation",
-    "restitution_ceiling",
+    "energies", "energy_rates", "rebound_loss", "outputs", "surface_slip", "effective_potential",
+    "rigid_rotation", "restitution_ceiling",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "1a3b06f0146b514ad023be84fb375211c7dff97cfa02a1b6fda16d5ec140aa90"
+DIGEST = "0495f055c068bc82762d36c67f166c2d4f2bf5f0ed2243051f98e045990ed00a"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:

@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 46118bb2dc6284791f81f98bd8d94fd9c262addfee5c79d3f7874b0e8dd047ad
+# Equations sha256 b9392dec2c7467dbdd26610e36fd665a49ae84909d899d43c604bd2324bc0a52
 """Oblique doublet with a liquid bridge and pendulum strings.
 
 Time in x0/v0. States (per unit):
@@ -34,10 +34,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from casadi import fmax, pi, sin
+from casadi import pi, sin
 from .head_on import rebound_loss
 from .oblique import angular_momentum, outputs, surface_slip, turning_rate
-from .oblique_bridge import energy_rates, orbital_margins
+from .oblique_bridge import energy_rates
 from .oblique_strings import energies, rebound, resting_rates, start
 
 
@@ -53,10 +53,9 @@ SLOTS = ("film", "glass", "shear", "arm", "bridge", "strings")
 FUNCTIONS = (
     "right_hand_side", "resting_rates", "turning_rate", "inward_force", "events", "rebound", "start",
     "energies", "energy_rates", "rebound_loss", "angular_momentum", "outputs", "surface_slip",
-    "attraction_margins", "orbital_margins",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "46118bb2dc6284791f81f98bd8d94fd9c262addfee5c79d3f7874b0e8dd047ad"
+DIGEST = "b9392dec2c7467dbdd26610e36fd665a49ae84909d899d43c604bd2324bc0a52"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -171,49 +170,4 @@ def events(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
         "release": bridge_force - centrifugal_force + string_pull,
         "half_turn": pi - rotation,
         "unwinding": orbital_momentum,
-    }
-
-
-def attraction_margins(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Margins of the attraction certificate (lever arm at mid-gap, forces that decrease with the gap): hold > 0,
-    escape < 0 and rebound < 0 exclude separation.
-
-    Total operations: 79
-    """
-    gap = state["gap"]
-    normal_velocity = state["normal_velocity"]
-    orbital_momentum = state["orbital_momentum"]
-    spin = state["spin"]
-    rotation = state["rotation"]
-    stokes = groups["stokes"]
-    aspect = groups["aspect"]
-    obliquity = groups["obliquity"]
-    capillary = groups["capillary"]
-    volume = groups["volume"]
-    contact_angle = groups["contact_angle"]
-    weight = groups["weight"]
-    string_ratio = groups["string_ratio"]
-    elastic_gap = groups["elastic_gap"]
-    rough_gap = groups["rough_gap"]
-    rupture_gap = groups["rupture_gap"]
-    dry_restitution = groups["dry_restitution"]
-    momentum = orbital_momentum + 6.4*spin
-    contact = fmax(elastic_gap, rough_gap)
-    nearest = aspect*contact + 4
-    farthest = aspect*rupture_gap + 4
-    spun_up = farthest**2*momentum/(farthest**2 + 6.4)
-    largest_momentum = fmax(fmax(fmax(-orbital_momentum, orbital_momentum), -spun_up), spun_up)
-    least_attraction = laws.bridge.force(aspect*rupture_gap/2, volume, contact_angle)/(capillary*stokes)
-    hold = (
-        - aspect*largest_momentum**2*obliquity**2/(16*nearest**3)
-        + least_attraction
-        + weight*(aspect*contact + 8*sin(rotation/2)**2)*laws.strings.stiffness(string_ratio, aspect**2*contact**2/4 + 4*(aspect*contact + 4)*sin(rotation/2)**2)
-    )
-    largest_pull = (
-        weight*(aspect*rupture_gap + 8)*laws.strings.stiffness(string_ratio, aspect**2*rupture_gap**2/4 + 4*aspect*rupture_gap + 16)
-    )
-    return {
-        "hold": hold,
-        "escape": fmax(normal_velocity, -dry_restitution*normal_velocity)**2/2 - hold*(rupture_gap - gap),
-        "rebound": dry_restitution**2*(largest_pull + least_attraction) - hold,
     }

@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 c749bab93ec6d395ce2f0c14a1ffbd4e1a6110275a20a5b9969f786cedf7e8f1
+# Equations sha256 976a04ccd7cb0cf3348ee00ca6d8bbdeb693798dbcbb1cf6a5130eaf0daba20f
 """Oblique unequal doublet with a film only.
 
 Time in x0/v0. States (per unit):
@@ -31,7 +31,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from casadi import fabs, fmax, fmin
+from casadi import fabs
 from .head_on import rebound_loss
 
 
@@ -46,10 +46,10 @@ SLOTS = ("film", "glass", "shear", "arm")
 FUNCTIONS = (
     "right_hand_side", "resting_rates", "turning_rate", "inward_force", "events", "rebound", "start",
     "energies", "energy_rates", "rebound_loss", "angular_momentum", "outputs", "surface_slip",
-    "spin_down_margins", "effective_potential", "rigid_rotation",
+    "effective_potential", "rigid_rotation",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "c749bab93ec6d395ce2f0c14a1ffbd4e1a6110275a20a5b9969f786cedf7e8f1"
+DIGEST = "976a04ccd7cb0cf3348ee00ca6d8bbdeb693798dbcbb1cf6a5130eaf0daba20f"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -362,54 +362,6 @@ def surface_slip(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     lever = laws.arm.lever(4*distance/centres)/2
     return {
         "surface_slip": distance*orbital_rate - lever*(partner_radius*partner_spin + radius*spin),
-    }
-
-
-def spin_down_margins(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Margins of the spin-down certificate (lever arm at mid-gap, a shear that falls with the gap, L = 0): stays
-    < 0 and rate > 0 exclude separation; momentum is |L| over its parts at the start, beyond rounding. So do
-    apart < 0 and inside < 0 where J = 0.
-
-    Total operations: 165
-    """
-    gap = state["gap"]
-    normal_velocity = state["normal_velocity"]
-    orbital_momentum = state["orbital_momentum"]
-    spin = state["spin"]
-    partner_spin = state["partner_spin"]
-    stokes = groups["stokes"]
-    aspect = groups["aspect"]
-    obliquity = groups["obliquity"]
-    initial_turning = groups["initial_turning"]
-    initial_spin = groups["initial_spin"]
-    initial_partner_spin = groups["initial_partner_spin"]
-    radius_ratio = groups["radius_ratio"]
-    mass_ratio = groups["mass_ratio"]
-    elastic_gap = groups["elastic_gap"]
-    rough_gap = groups["rough_gap"]
-    dry_restitution = groups["dry_restitution"]
-    centres = (radius_ratio + 1)**2/radius_ratio
-    distance = aspect*gap + centres
-    orbital_rate = orbital_momentum/distance**2
-    radius = (radius_ratio + 1)/radius_ratio
-    partner_radius = radius_ratio + 1
-    spin_inertia = 0.4*(mass_ratio + 1)*(radius_ratio + 1)**2/(mass_ratio*radius_ratio**2)
-    partner_inertia = 0.4*(mass_ratio + 1)*(radius_ratio + 1)**2
-    shear_end = laws.shear.edge(aspect)
-    beyond = gap/2 + fmin(1, shear_end)/2
-    contact = fmax(elastic_gap, rough_gap)
-    near = aspect*contact - aspect*gap + distance
-    far = aspect*beyond - aspect*gap + distance
-    leak = laws.shear.log_factor(beyond, aspect)
-    rate = (
-        2*aspect*leak*near*partner_radius**2*radius**2*(far*near + partner_inertia + spin_inertia)/(centres*stokes*(2*far*near*partner_inertia*radius**2 + 2*far*near*partner_radius**2*spin_inertia + 2*partner_inertia*partner_radius**2*spin_inertia + partner_inertia*partner_radius*radius*spin_inertia + 2*partner_inertia*radius**2*spin_inertia))
-    )
-    return {
-        "stays": 2*aspect*distance**2*stokes*(distance**2*obliquity**2*orbital_rate**2/(2*centres**2) + obliquity**2*partner_inertia*partner_spin**2/(2*centres**2) + obliquity**2*spin**2*spin_inertia/(2*centres**2))/(near**3*rate) + stokes*fmax(normal_velocity, -dry_restitution*normal_velocity) + laws.film.stopping(beyond) - laws.film.stopping(gap),
-        "rate": rate,
-        "apart": fmax(stokes*fmax(normal_velocity, -dry_restitution*normal_velocity) - laws.film.stopping(gap), laws.film.stopping(gap) - normal_velocity*stokes - laws.film.stopping(shear_end)),
-        "inside": shear_end - gap,
-        "momentum": fmax(0, fmax(-initial_partner_spin*partner_inertia - initial_spin*spin_inertia - initial_turning*(aspect + centres)**2, initial_partner_spin*partner_inertia + initial_spin*spin_inertia + initial_turning*(aspect + centres)**2)/(initial_turning*(aspect + centres)**2 + fmax(-initial_partner_spin*partner_inertia, initial_partner_spin*partner_inertia) + fmax(-initial_spin*spin_inertia, initial_spin*spin_inertia)) - 3.552713678800501e-15),
     }
 
 

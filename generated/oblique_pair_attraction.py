@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 e8e4e1de3a98363cf3265025c9849e727610ca14c79b01971bbc3ea75dd7c839
+# Equations sha256 28a27df0c9f1731d1f9677ed43884a7f0d4586db62df14aa0c7abf0c12b55d20
 """Oblique unequal doublet with another attraction.
 
 Time in x0/v0. States (per unit):
@@ -32,9 +32,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from casadi import fmax
 from .head_on import rebound_loss
-from .head_on_attraction import approach_step
 from .oblique_pair import (
     angular_momentum, energies, outputs, rebound, resting_rates, rigid_rotation, start, surface_slip,
     turning_rate,
@@ -52,10 +50,10 @@ SLOTS = ("film", "glass", "shear", "arm", "attraction")
 FUNCTIONS = (
     "right_hand_side", "resting_rates", "turning_rate", "inward_force", "events", "rebound", "start",
     "energies", "energy_rates", "rebound_loss", "angular_momentum", "outputs", "surface_slip",
-    "approach_step", "approach_force", "effective_potential", "rigid_rotation",
+    "effective_potential", "rigid_rotation",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "e8e4e1de3a98363cf3265025c9849e727610ca14c79b01971bbc3ea75dd7c839"
+DIGEST = "28a27df0c9f1731d1f9677ed43884a7f0d4586db62df14aa0c7abf0c12b55d20"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -189,33 +187,6 @@ def energy_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear:
         "normal_lubrication": film_force*normal_velocity,
         "attraction": attraction_force*normal_velocity,
         "tangential_lubrication": obliquity**2*(distance**2*orbital_rate*shear_force - distance*(partner_spin*partner_torque + spin*torque))/(centres**2*distance),
-    }
-
-
-def approach_force(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Largest outward force before solid contact, over m v0^2/x0, for the rotation of this state.
-
-    Total operations: 62
-    """
-    gap = state["gap"]
-    orbital_momentum = state["orbital_momentum"]
-    spin = state["spin"]
-    partner_spin = state["partner_spin"]
-    stokes = groups["stokes"]
-    aspect = groups["aspect"]
-    obliquity = groups["obliquity"]
-    adhesion = groups["adhesion"]
-    radius_ratio = groups["radius_ratio"]
-    mass_ratio = groups["mass_ratio"]
-    elastic_gap = groups["elastic_gap"]
-    rough_gap = groups["rough_gap"]
-    centres = (radius_ratio + 1)**2/radius_ratio
-    distance = aspect*gap + centres
-    orbital_rate = orbital_momentum/distance**2
-    spin_inertia = 0.4*(mass_ratio + 1)*(radius_ratio + 1)**2/(mass_ratio*radius_ratio**2)
-    partner_inertia = 0.4*(mass_ratio + 1)*(radius_ratio + 1)**2
-    return {
-        "outward": fmax(0, 2*aspect*distance**2*(distance**2*obliquity**2*orbital_rate**2/(2*centres**2) + obliquity**2*partner_inertia*partner_spin**2/(2*centres**2) + obliquity**2*spin**2*spin_inertia/(2*centres**2))/(aspect*fmax(elastic_gap, rough_gap) - aspect*gap + distance)**3 - adhesion*laws.attraction.force(gap)/stokes),
     }
 
 

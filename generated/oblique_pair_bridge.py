@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 2d9c65af5e74fb948a6a135cce87e1d39544f97357dec9985b1a5beb9c7c1bbd
+# Equations sha256 cd6b3dfc3d43b159777b2c9bec395e2a2b999863d4b2fed80be7531228ccbb8b
 """Oblique unequal doublet with a liquid bridge.
 
 Time in x0/v0. States (per unit):
@@ -35,9 +35,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from casadi import fmax
 from .head_on import rebound_loss
-from .head_on_bridge import approach_step
 from .oblique_pair import (
     angular_momentum, energies, outputs, rebound, resting_rates, rigid_rotation, start, surface_slip,
     turning_rate,
@@ -56,10 +54,10 @@ SLOTS = ("film", "glass", "shear", "arm", "bridge")
 FUNCTIONS = (
     "right_hand_side", "resting_rates", "turning_rate", "inward_force", "events", "rebound", "start",
     "energies", "energy_rates", "rebound_loss", "angular_momentum", "outputs", "surface_slip",
-    "approach_step", "approach_force", "effective_potential", "rigid_rotation",
+    "effective_potential", "rigid_rotation",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "2d9c65af5e74fb948a6a135cce87e1d39544f97357dec9985b1a5beb9c7c1bbd"
+DIGEST = "cd6b3dfc3d43b159777b2c9bec395e2a2b999863d4b2fed80be7531228ccbb8b"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -203,35 +201,6 @@ def energy_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear:
         "normal_lubrication": film_force*normal_velocity,
         "capillary": bridge_force*normal_velocity,
         "tangential_lubrication": obliquity**2*(distance**2*orbital_rate*shear_force - distance*(partner_spin*partner_torque + spin*torque))/(centres**2*distance),
-    }
-
-
-def approach_force(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Largest outward force before solid contact, over m v0^2/x0, for the rotation of this state.
-
-    Total operations: 64
-    """
-    gap = state["gap"]
-    orbital_momentum = state["orbital_momentum"]
-    spin = state["spin"]
-    partner_spin = state["partner_spin"]
-    stokes = groups["stokes"]
-    aspect = groups["aspect"]
-    obliquity = groups["obliquity"]
-    capillary = groups["capillary"]
-    volume = groups["volume"]
-    contact_angle = groups["contact_angle"]
-    radius_ratio = groups["radius_ratio"]
-    mass_ratio = groups["mass_ratio"]
-    elastic_gap = groups["elastic_gap"]
-    rough_gap = groups["rough_gap"]
-    centres = (radius_ratio + 1)**2/radius_ratio
-    distance = aspect*gap + centres
-    orbital_rate = orbital_momentum/distance**2
-    spin_inertia = 0.4*(mass_ratio + 1)*(radius_ratio + 1)**2/(mass_ratio*radius_ratio**2)
-    partner_inertia = 0.4*(mass_ratio + 1)*(radius_ratio + 1)**2
-    return {
-        "outward": fmax(0, 2*aspect*distance**2*(distance**2*obliquity**2*orbital_rate**2/(2*centres**2) + obliquity**2*partner_inertia*partner_spin**2/(2*centres**2) + obliquity**2*spin**2*spin_inertia/(2*centres**2))/(aspect*fmax(elastic_gap, rough_gap) - aspect*gap + distance)**3 - laws.bridge.force(aspect*gap/2, volume, contact_angle)/(capillary*stokes)),
     }
 
 

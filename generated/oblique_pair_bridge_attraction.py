@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 44327ddb15260f0de424f66f007fa153ea9e40ecf33c3253b03cabf4366850c6
+# Equations sha256 df680ce368d977dc979db51a7fc827d3af1572659f66e7c53c2aec02bdc5cee8
 """Oblique unequal doublet with a liquid bridge and another attraction.
 
 Time in x0/v0. States (per unit):
@@ -36,9 +36,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from casadi import fmax
 from .head_on import rebound_loss
-from .head_on_bridge_attraction import approach_step
 from .oblique_pair import (
     angular_momentum, energies, outputs, rebound, resting_rates, rigid_rotation, start, surface_slip,
     turning_rate,
@@ -57,10 +55,10 @@ SLOTS = ("film", "glass", "shear", "arm", "bridge", "attraction")
 FUNCTIONS = (
     "right_hand_side", "resting_rates", "turning_rate", "inward_force", "events", "rebound", "start",
     "energies", "energy_rates", "rebound_loss", "angular_momentum", "outputs", "surface_slip",
-    "approach_step", "approach_force", "effective_potential", "rigid_rotation",
+    "effective_potential", "rigid_rotation",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "44327ddb15260f0de424f66f007fa153ea9e40ecf33c3253b03cabf4366850c6"
+DIGEST = "df680ce368d977dc979db51a7fc827d3af1572659f66e7c53c2aec02bdc5cee8"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -213,36 +211,6 @@ def energy_rates(state: Values, groups: Values, laws: Any, film: int = 1, shear:
         "capillary": bridge_force*normal_velocity,
         "attraction": attraction_force*normal_velocity,
         "tangential_lubrication": obliquity**2*(distance**2*orbital_rate*shear_force - distance*(partner_spin*partner_torque + spin*torque))/(centres**2*distance),
-    }
-
-
-def approach_force(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Largest outward force before solid contact, over m v0^2/x0, for the rotation of this state.
-
-    Total operations: 68
-    """
-    gap = state["gap"]
-    orbital_momentum = state["orbital_momentum"]
-    spin = state["spin"]
-    partner_spin = state["partner_spin"]
-    stokes = groups["stokes"]
-    aspect = groups["aspect"]
-    obliquity = groups["obliquity"]
-    capillary = groups["capillary"]
-    volume = groups["volume"]
-    contact_angle = groups["contact_angle"]
-    adhesion = groups["adhesion"]
-    radius_ratio = groups["radius_ratio"]
-    mass_ratio = groups["mass_ratio"]
-    elastic_gap = groups["elastic_gap"]
-    rough_gap = groups["rough_gap"]
-    centres = (radius_ratio + 1)**2/radius_ratio
-    distance = aspect*gap + centres
-    orbital_rate = orbital_momentum/distance**2
-    spin_inertia = 0.4*(mass_ratio + 1)*(radius_ratio + 1)**2/(mass_ratio*radius_ratio**2)
-    partner_inertia = 0.4*(mass_ratio + 1)*(radius_ratio + 1)**2
-    return {
-        "outward": fmax(0, 2*aspect*distance**2*(distance**2*obliquity**2*orbital_rate**2/(2*centres**2) + obliquity**2*partner_inertia*partner_spin**2/(2*centres**2) + obliquity**2*spin**2*spin_inertia/(2*centres**2))/(aspect*fmax(elastic_gap, rough_gap) - aspect*gap + distance)**3 - adhesion*laws.attraction.force(gap)/stokes - laws.bridge.force(aspect*gap/2, volume, contact_angle)/(capillary*stokes)),
     }
 
 

@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 e02115d0fe8ba7b40891b6bb0e1264f3062e62dc191cef33f9b341f5b749af2d
+# Equations sha256 428fc5da23e4c5159c5a8490392d1bc11651392b08346880d58fd835f58532a0
 """Oblique unequal doublet with a liquid bridge, a film whose rim follows the bridge's volume.
 
 Time in x0/v0. States (per unit):
@@ -36,12 +36,11 @@ from collections.abc import Mapping
 from typing import Any
 
 from .head_on import rebound_loss
-from .head_on_bridge_spread import approach_step
 from .oblique_pair import (
     angular_momentum, energies, outputs, rebound, resting_rates, rigid_rotation, start, surface_slip,
     turning_rate,
 )
-from .oblique_pair_bridge import approach_force, effective_potential, inward_force
+from .oblique_pair_bridge import effective_potential, inward_force
 
 
 Values = Mapping[str, Any]
@@ -56,10 +55,10 @@ SLOTS = ("film", "glass", "shear", "arm", "bridge")
 FUNCTIONS = (
     "right_hand_side", "resting_rates", "turning_rate", "inward_force", "events", "rebound", "start",
     "energies", "energy_rates", "rebound_loss", "angular_momentum", "outputs", "surface_slip",
-    "approach_step", "approach_force", "effective_potential", "rigid_rotation",
+    "effective_potential", "rigid_rotation",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "e02115d0fe8ba7b40891b6bb0e1264f3062e62dc191cef33f9b341f5b749af2d"
+DIGEST = "428fc5da23e4c5159c5a8490392d1bc11651392b08346880d58fd835f58532a0"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:

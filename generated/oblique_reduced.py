@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 ae5f8985ec4414f459305520c6c19f185437aca70e16ab5e65fa5d7a7da40327
+# Equations sha256 c04cf0ac049a4106c4d9829a05b9ff70dd9d8d57fa5442c27a78f869375084c0
 """Oblique doublet with a film only, spin eliminated through the conserved angular momentum.
 
 Time in x0/v0. States (per unit):
@@ -26,7 +26,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from casadi import fmax, fmin
 from .head_on import energy_rates, rebound_loss
 from .oblique import events, inward_force, restitution_ceiling, turning_rate
 
@@ -41,11 +40,11 @@ GROUPS = (
 SLOTS = ("film", "glass", "shear")
 FUNCTIONS = (
     "right_hand_side", "resting_rates", "turning_rate", "inward_force", "events", "rebound", "start",
-    "energies", "energy_rates", "rebound_loss", "outputs", "surface_slip", "spin_down_margins",
-    "effective_potential", "rigid_rotation", "restitution_ceiling",
+    "energies", "energy_rates", "rebound_loss", "outputs", "surface_slip", "effective_potential",
+    "rigid_rotation", "restitution_ceiling",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "ae5f8985ec4414f459305520c6c19f185437aca70e16ab5e65fa5d7a7da40327"
+DIGEST = "c04cf0ac049a4106c4d9829a05b9ff70dd9d8d57fa5442c27a78f869375084c0"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:
@@ -195,44 +194,6 @@ def surface_slip(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
     slip = orbital_rate - spin
     return {
         "surface_slip": distance*slip,
-    }
-
-
-def spin_down_margins(state: Values, groups: Values, laws: Any) -> dict[str, Any]:
-    """Margins of the spin-down certificate (lever arm at mid-gap, a shear that falls with the gap, L = 0): stays
-    < 0 and rate > 0 exclude separation; momentum is |L| over its parts at the start, beyond rounding. So do
-    apart < 0 and inside < 0 where J = 0.
-
-    Total operations: 106
-    """
-    gap = state["gap"]
-    normal_velocity = state["normal_velocity"]
-    orbital_momentum = state["orbital_momentum"]
-    stokes = groups["stokes"]
-    aspect = groups["aspect"]
-    obliquity = groups["obliquity"]
-    initial_turning = groups["initial_turning"]
-    initial_spin = groups["initial_spin"]
-    elastic_gap = groups["elastic_gap"]
-    rough_gap = groups["rough_gap"]
-    dry_restitution = groups["dry_restitution"]
-    distance = aspect*gap + 4
-    orbital_rate = orbital_momentum/distance**2
-    momentum = 6.4*initial_spin + initial_turning*(aspect + 4)**2
-    spin = 5*momentum/32 - 5*orbital_momentum/32
-    shear_end = laws.shear.edge(aspect)
-    beyond = gap/2 + fmin(1, shear_end)/2
-    contact = fmax(elastic_gap, rough_gap)
-    near = aspect*contact - aspect*gap + distance
-    far = aspect*beyond - aspect*gap + distance
-    leak = laws.shear.log_factor(beyond, aspect)
-    rate = aspect*leak*(5*far*near + 32)/(12*far*stokes)
-    return {
-        "stays": 2*aspect*distance**2*stokes*(distance**2*obliquity**2*orbital_rate**2/32 + 0.2*obliquity**2*spin**2)/(near**3*rate) + stokes*fmax(normal_velocity, -dry_restitution*normal_velocity) + laws.film.stopping(beyond) - laws.film.stopping(gap),
-        "rate": rate,
-        "apart": fmax(stokes*fmax(normal_velocity, -dry_restitution*normal_velocity) - laws.film.stopping(gap), laws.film.stopping(gap) - normal_velocity*stokes - laws.film.stopping(shear_end)),
-        "inside": shear_end - gap,
-        "momentum": fmax(0, fmax(-6.4*initial_spin - initial_turning*(aspect + 4)**2, 6.4*initial_spin + initial_turning*(aspect + 4)**2)/(initial_turning*(aspect + 4)**2 + fmax(-6.4*initial_spin, 6.4*initial_spin)) - 3.552713678800501e-15),
     }
 
 

@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 622d1f69c1595aa4e6628dc7cfe82cd4674f857f5362ce95b2a3a2d9c926ca70
+# Equations sha256 fdcdb7fc09adc02a9fc9a8d332b28eac8a62bc388f22889085f9cdc495a42d47
 """Oblique sphere-wall doublet with another attraction.
 
 Time in x0/v0. States (per unit):
@@ -29,7 +29,7 @@ from typing import Any
 
 from casadi import exp, sqrt
 from .head_on import rebound_loss
-from .head_on_attraction import approach_force, approach_step, effective_potential, inward_force
+from .head_on_attraction import effective_potential, inward_force
 from .oblique_wall import (
     energies, escape_energy, events, outputs, rebound, resting_rates, rigid_rotation, start, surface_slip,
 )
@@ -45,11 +45,11 @@ GROUPS = (
 SLOTS = ("film", "glass", "shear", "attraction")
 FUNCTIONS = (
     "right_hand_side", "resting_rates", "inward_force", "events", "rebound", "start", "energies",
-    "energy_rates", "rebound_loss", "outputs", "surface_slip", "approach_step", "approach_force",
-    "effective_potential", "rigid_rotation", "escape_energy",
+    "energy_rates", "rebound_loss", "outputs", "surface_slip", "effective_potential", "rigid_rotation",
+    "escape_energy",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "622d1f69c1595aa4e6628dc7cfe82cd4674f857f5362ce95b2a3a2d9c926ca70"
+DIGEST = "fdcdb7fc09adc02a9fc9a8d332b28eac8a62bc388f22889085f9cdc495a42d47"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:

@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 8d1a1f3ade6664b031cbea385ec316aeb84fc09b67a5347fec31659f918a215d
+# Equations sha256 59f22c08ccfef4f050c67262a0cca7d477920b7f4f900486819dfd84d0b69af8
 """Oblique sphere-wall doublet with a liquid bridge.
 
 Time in x0/v0. States (per unit):
@@ -32,7 +32,7 @@ from typing import Any
 
 from casadi import exp, sqrt
 from .head_on import rebound_loss
-from .head_on_bridge import approach_force, approach_step, effective_potential, inward_force
+from .head_on_bridge import effective_potential, inward_force
 from .oblique_wall import (
     energies, escape_energy, outputs, rebound, resting_rates, rigid_rotation, start, surface_slip,
 )
@@ -48,11 +48,11 @@ GROUPS = (
 SLOTS = ("film", "glass", "shear", "bridge")
 FUNCTIONS = (
     "right_hand_side", "resting_rates", "inward_force", "events", "rebound", "start", "energies",
-    "energy_rates", "rebound_loss", "outputs", "surface_slip", "approach_step", "approach_force",
-    "effective_potential", "rigid_rotation", "escape_energy",
+    "energy_rates", "rebound_loss", "outputs", "surface_slip", "effective_potential", "rigid_rotation",
+    "escape_energy",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "8d1a1f3ade6664b031cbea385ec316aeb84fc09b67a5347fec31659f918a215d"
+DIGEST = "59f22c08ccfef4f050c67262a0cca7d477920b7f4f900486819dfd84d0b69af8"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:

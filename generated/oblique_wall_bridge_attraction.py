@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 e7ac2d3693fe3edca4c25e16b46cfe2594b4f5d8ad66fb47f56e5fc594db7d50
+# Equations sha256 a406504d1d75acafddb65e7a400b157ebf9ddbc4f7ca8c11e3d6f65818975cf9
 """Oblique sphere-wall doublet with a liquid bridge and another attraction.
 
 Time in x0/v0. States (per unit):
@@ -33,7 +33,7 @@ from typing import Any
 
 from casadi import exp, sqrt
 from .head_on import rebound_loss
-from .head_on_bridge_attraction import approach_force, approach_step, effective_potential, inward_force
+from .head_on_bridge_attraction import effective_potential, inward_force
 from .oblique_wall import (
     energies, escape_energy, outputs, rebound, resting_rates, rigid_rotation, start, surface_slip,
 )
@@ -50,11 +50,11 @@ GROUPS = (
 SLOTS = ("film", "glass", "shear", "bridge", "attraction")
 FUNCTIONS = (
     "right_hand_side", "resting_rates", "inward_force", "events", "rebound", "start", "energies",
-    "energy_rates", "rebound_loss", "outputs", "surface_slip", "approach_step", "approach_force",
-    "effective_potential", "rigid_rotation", "escape_energy",
+    "energy_rates", "rebound_loss", "outputs", "surface_slip", "effective_potential", "rigid_rotation",
+    "escape_energy",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "e7ac2d3693fe3edca4c25e16b46cfe2594b4f5d8ad66fb47f56e5fc594db7d50"
+DIGEST = "a406504d1d75acafddb65e7a400b157ebf9ddbc4f7ca8c11e3d6f65818975cf9"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:

@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 ac90372d69b3e489304ecb1d0aee2ada68dddcbc419121382316b4881a8d853b
+# Equations sha256 4ce925e513de80c2a7a36dcd95f7616a4f7b71ab68f25c9f43fcddf464354147
 """Oblique sphere-wall doublet with a liquid bridge, a film whose rim follows the bridge's volume.
 
 Time in x0/v0. States (per unit):
@@ -32,8 +32,7 @@ from typing import Any
 
 from casadi import exp, sqrt
 from .head_on import rebound_loss
-from .head_on_bridge import approach_force, effective_potential, inward_force
-from .head_on_bridge_spread import approach_step
+from .head_on_bridge import effective_potential, inward_force
 from .oblique_wall import (
     energies, escape_energy, outputs, rebound, resting_rates, rigid_rotation, start, surface_slip,
 )
@@ -49,11 +48,11 @@ GROUPS = (
 SLOTS = ("film", "glass", "shear", "bridge")
 FUNCTIONS = (
     "right_hand_side", "resting_rates", "inward_force", "events", "rebound", "start", "energies",
-    "energy_rates", "rebound_loss", "outputs", "surface_slip", "approach_step", "approach_force",
-    "effective_potential", "rigid_rotation", "escape_energy",
+    "energy_rates", "rebound_loss", "outputs", "surface_slip", "effective_potential", "rigid_rotation",
+    "escape_energy",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "ac90372d69b3e489304ecb1d0aee2ada68dddcbc419121382316b4881a8d853b"
+DIGEST = "4ce925e513de80c2a7a36dcd95f7616a4f7b71ab68f25c9f43fcddf464354147"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:

@@ -1,4 +1,4 @@
-"""Special cases and symmetries of the full equations: reduced, head-on, reflected, beyond the reach of the shear."""
+"""Special cases and symmetries of the full equations: reduced, head-on and reflected."""
 
 from dataclasses import replace
 from operator import methodcaller
@@ -6,9 +6,8 @@ from operator import methodcaller
 import sympy as sp
 
 from ..equations.model import derive
-from ..physics.forces import FILM, SHEAR
 from ..physics.laws.base import filled
-from ..physics.structure import BRIDGED, Structure, structures
+from ..physics.structure import Structure, structures
 from ..vocabulary import quantities as q
 from .base import MIDGAP, SIZES, Evidence, check, special_case
 
@@ -50,7 +49,7 @@ def head_on_is_oblique_at_rest() -> Evidence:
 
 
 _TURNING = (q.orbital_momentum, q.spin, q.partner_spin)
-_EVEN = ("inward_force", "events", "energies", "energy_rates", "approach_force")
+_EVEN = ("inward_force", "events", "energies", "energy_rates")
 _ATTRACTED = Structure(oblique=True, bridge=True, strings=False, attraction=True)
 
 
@@ -66,28 +65,3 @@ def mirror() -> Evidence:
                 result = model.expanded(value, SIZES)
                 sign = -1 if name == "right_hand_side" and key in {state.name for state in reversed_} else 1
                 yield result - sign * result.subs(reversed_, simultaneous=True)
-
-
-_WITH_A_POTENTIAL = tuple(
-    replace(BRIDGED, bridge=not attraction, attraction=attraction, partner=partner)
-    for attraction in (False, True)
-    for partner in (BRIDGED.partner, "pair")
-)
-
-
-@check("floating", "beyond the shear: dJ/dt = 0, du/dt = -inward(x, J) - drag(x) u/St")
-def without_shear_energy_only_falls() -> Evidence:
-    """Without shear J is constant, and what remains of the motion is a fixed potential and a drag proportional to u.
-
-    So u^2/2 plus the potential of the inward force, which depends on the gap and J alone, only decreases.
-    """
-    of_gap_and_J = True
-    for structure in _WITH_A_POTENTIAL:
-        model = derive(structure)
-        rates = {state: rate.subs(SHEAR, 0) for state, rate in model.by_state("right_hand_side", SIZES).items()}
-        inward = model.expanded(model["inward_force"]["inward_force"], SIZES)
-        drag = -(rates[q.normal_velocity] + inward)
-        yield from (rates[q.gap] - q.normal_velocity, rates[q.orbital_momentum], drag.subs(FILM, 0))
-        yield from ((drag / (FILM * q.normal_velocity)).diff(q.normal_velocity), drag.diff(q.stokes) * q.stokes + drag)
-        of_gap_and_J &= not inward.free_symbols & (set(model.states) - {q.gap, q.orbital_momentum})
-    yield of_gap_and_J, "inward depends on another state"

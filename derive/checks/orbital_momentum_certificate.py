@@ -10,7 +10,7 @@ from ..physics.laws import LAWS
 from ..physics.laws.base import filled
 from ..physics.scaling import DISTANCE
 from ..physics.structure import BRIDGED
-from ..vocabulary.quantities import aspect, gap, obliquity, orbital_momentum, spin
+from ..vocabulary.quantities import aspect, gap, normal_velocity, obliquity, orbital_momentum, spin
 from .base import Check, Evidence, check, checks, no_negative, vanishing
 
 _FAR, _NEAR = sp.symbols("far near", positive=True)  # centre distances over a
@@ -121,11 +121,14 @@ def as_emitted() -> Evidence:
     """The emitted margins are this energy, in units of m v0^2, and the slip."""
     for structure in (BRIDGED, replace(BRIDGED, reduced=True)):
         model = derive(structure)
-        emitted = model.results("orbital_margins")
+        emitted = model.results("transferable")
+        held, needed, further = orbital.enclosed(structure)
         here, turning = model.expanded(DISTANCE), model.expanded(spin) if structure.reduced else spin
         unit = obliquity**2 / 16  # omega0 = v0 tan(theta0)/(4a)
         yield emitted["slip"] - (orbital_momentum / here**2 - turning)
-        yield emitted["orbital_energy"] - unit * orbital_momentum**2 / (2 * here**2)
+        orbit = unit * orbital_momentum**2 / (2 * here**2)
+        yield model.expanded(held) - normal_velocity**2 / 2 - orbit
+        yield model.expanded(needed.subs(dict(further))) - (orbit - emitted["slip_energy"])
         rigid = sp.cancel(orbital.rigid_momentum(here, orbital_momentum, turning))
         expected = orbital.clamped_slip_energy(here, orbital_momentum, rigid)
         yield _clamped(emitted["slip_energy"] / unit) - _clamped(expected)

@@ -122,7 +122,7 @@ def slip_energy_adds() -> Evidence:
     """The energy of a state is that of rigid rotation with its angular momentum plus that of its deviation from it.
 
     So at a given gap and angular momentum, J exceeds its value in rigid rotation by no more than its slip energy allows
-    (`solvers.certificates.barrier`, resting contact).
+    (resting contact).
     """
     for structure in (_PAIR, replace(_PAIR, partner="")):
         model = derive(structure)

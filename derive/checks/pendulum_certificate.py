@@ -160,8 +160,9 @@ def margins_are_the_lemmas() -> tuple[Check, ...]:
     `impulse` has its own check, `impulse_as_emitted`.
     """
     checks = []
+    margins = {key: value for each in pendulum.functions() for key, value in each[2].items()}
     for name, (bound, words) in _bounds().items():
-        emitted = _model().expanded(_model()["pendulum_margins"][name])
+        emitted = _model().expanded(margins[name])
         same = sp.expand(emitted - _model().expanded(bound)) == 0  # same Max and calls: no need to simplify
         figure = "identity" if same else f"emitted is {readable(emitted)}"
         checks.append(Check(f"margin of the stick proof: {name}", f"{name} = {words}", same, figure))
@@ -279,9 +280,65 @@ def impulse_as_emitted() -> Evidence:
         pull = pendulum.WEIGHING * (q.aspect * contact_gap + 4 * (1 - sp.cos(angle)))
         result = _integrand(later / q.obliquity, pendulum.NEAREST)
         total += sp.Max(0, sp.factor(result).subs(_PULL, pull))
-    emitted = model["pendulum_margins"]["impulse"]
+    emitted = model["pendulum_impulse"]["impulse"]
     first = {symbol: value for symbol, value in model.definitions if symbol.name == "contact"}
     parts = [sp.expand(part.subs(first)) for part in sp.Mul.make_args(emitted) if part != pendulum.WIDTH]
     ours = sorted((sp.expand(each.args[1]) for each in total.args), key=str)
     theirs = sorted((sp.expand(each.args[1]) for part in parts for each in sp.Add.make_args(part)), key=str)
     yield from [a - b for a, b in zip(ours, theirs, strict=True)]
+
+
+# ---- the bound of the closing speed from initial contact on
+
+
+@checks
+def braking_is_the_films() -> tuple[Check, ...]:
+    """What a film takes from an approach is the integral of its resistance from x0."""
+    checks = []
+    for law in LAWS["film"].values():
+        taken, resistance = (law[name](*law[name].arguments) for name in ("braking", "resistance"))
+        left = [taken.diff(q.gap) + resistance, taken.subs(q.gap, 1)]
+        checks.append(vanishing(f"braking: {law.name}", "dB/dx = -resistance, B(x0) = 0", left))
+    return tuple(checks)
+
+
+@check("approach: closing speed", "dw/dy <= P/w - g/St, and the bound of w rises as fast")
+def closing_speed() -> Evidence:
+    """dw/dy = (S_n - C)/w - g/St with C >= 0, and both comparison functions rise at least as fast.
+
+    Where a bound z is reached, it has to rise by P/z - g/St at least: P/left with z >= left, or P/sqrt(2 P y) with
+    z >= sqrt(2 P y). At left = sqrt(P y/2) both gains agree, so that the larger denominator takes the smaller gain.
+    """
+    model = _model()
+    rate = model.expanded(model["right_hand_side"]["normal_velocity"])
+    film, inward = model.expanded(FILM_FORCE), model.expanded(model["inward_force"]["inward_force"])
+    yield rate + film + inward
+    resistance = sp.Function("film.resistance", real=True)(*pendulum.braking(PENDULUM, q.gap).args)
+    yield film - FILM * q.normal_velocity * resistance / q.stokes
+    yield inward.subs(q.orbital_momentum, 0) - model.expanded(pull_at(q.gap, q.beta))
+    pull, depth, left = sp.symbols("pull depth left", positive=True)
+    straight, rooted = pull * depth / left, sp.sqrt(2 * pull * depth)
+    yield from (straight.diff(depth) * left - pull, rooted.diff(depth) * rooted - pull)
+    yield straight.subs(left, sp.sqrt(pull * depth / 2)) - rooted
+
+
+@check("approach: as emitted", "the step is the bound")
+def step_as_emitted() -> Evidence:
+    """The emitted step is this bound, with the largest pull, over a part of the film."""
+    model, deeper = _model(), pendulum.DEEPER
+    named = dict(model.definitions)
+    yield from (named[pendulum.LARGEST_PULL] - pull_at(sp.Integer(1), sp.pi), named[deeper] - q.gap * pendulum.RATIO)
+    yield named[pendulum.RATIO] ** 24 - sp.Max(contact_gap, sp.Rational(1, 100))
+    taken = pendulum.braking(PENDULUM, deeper) - pendulum.braking(PENDULUM, q.gap)
+    rest, work = -q.normal_velocity - taken / q.stokes, pendulum.LARGEST_PULL * (q.gap - deeper)
+    gain = work / sp.Max(rest, sp.sqrt(work / 2))
+    wanted = {
+        "deeper_gap": q.gap * pendulum.RATIO,
+        "slowed": sp.Max(rest, 0) + gain,
+        "fastest": gain - q.normal_velocity,
+    }
+    for name, value in wanted.items():
+        result = model["approach_step"][name]
+        for symbol in (pendulum.GAIN, pendulum.LEFT, pendulum.PATH):
+            result = result.subs(symbol, named[symbol])
+        yield result - value.subs(q.gap * pendulum.RATIO, deeper)

@@ -133,7 +133,7 @@ def excess_of_orbital_momentum() -> Evidence:
 
 @check("space: rebounds", "C' <= (sqrt C + sqrt(2 work/r))^2 (r/r')^4 for a smaller distance r'")
 def outward_at_smaller_gaps() -> Evidence:
-    """The bound of the centrifugal force by which `solvers.certificates.in_space` excludes that a gap is reached again.
+    """The bound of the centrifugal force that excludes that a gap is reached again.
 
     It is J^2/r^3 with |J| <= |L| r^2/I + r sqrt(2 D s), D the slip energy and s = (I_1 + I_2)/I < 1. While the gap
     closes from r to a smaller r', D grows by the work of the attractions at most, as L^2/(2 I) grows: the root of the
@@ -157,7 +157,7 @@ def outward_at_smaller_gaps() -> Evidence:
 
 @check("space: no return", "e^2 W < W - C depth if C < (1 - e^2) P and P falls with the gap")
 def rebounds_do_not_come_back() -> Evidence:
-    """The balance by which `solvers.certificates.in_space` excludes that a maximum of the gap is reached again.
+    """The balance that excludes that a maximum of the gap is reached again.
 
     Along the line of centres u^2/2 changes at the rate u (C - P - film), P the attraction and C the centrifugal force:
     what is not the inward force P - C is linear in u, a resistance, and only takes energy. From a maximum, the

@@ -56,7 +56,7 @@ def emitted(chosen: tuple[Structure, ...] | None = None) -> Mapping[str, str]:
         "references.py": references_module(),
         "taylor/automaton.h": automaton_header(provenance()),
         "taylor/criteria.h": criteria_header(provenance()),
-        "taylor/proofs.h": proofs_header(provenance()),
+        "taylor/proofs.h": proofs_header(),
         "taylor/guards.h": guards_header(provenance()),
         "taylor/effects.h": effects_header(provenance()),
         "py.typed": "",
@@ -123,7 +123,7 @@ def homes(models: Iterable[Model]) -> dict[str, str]:
     """Text of every Python function of several structures -> name of the first one, which defines it."""
     first: dict[str, str] = {}
     for model in models:
-        for function in model.functions:
+        for function in (each for each in model.functions if not each.certificate):
             first.setdefault("\n".join(function_lines(model, function.name, Printer())), model.structure.name)
     return first
 

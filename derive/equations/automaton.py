@@ -266,8 +266,7 @@ RULES = (
          "it slides in the direction of the slip, which may turn, and rolls where that is less than CREEP", ("rolls",),
          (("has_no_slip", "the surfaces do not slip", "abs(slip) < NO_SLIP"),
           ("friction_holds", "friction can hold the surfaces together", "abs(holding) <= limit"))),
-    Rule("parting", "the doublet ruptures at a normal velocity below LEAST_PARTING, or a film alone would keep it but "
-         "for an angular momentum below LEAST_MOMENTUM", "no outcome is decided",
+    Rule("parting", "the doublet ruptures at a normal velocity below LEAST_PARTING", "no outcome is decided",
          tests=(("is_within_rounding", "rounding of the angular momentum could have opened the doublet",
                  "normal_velocity < LEAST_PARTING*obliquity*sqrt(aspect)"),)),
     Rule("opening", "the doublet opens or rests on the edge of the film or of the tangential force",
@@ -281,39 +280,6 @@ RULES = (
 def arguments(test: str) -> tuple[str, ...]:
     """The quantities in an expression of a rule, in order of appearance; constants are upper case."""
     return tuple(dict.fromkeys(re.findall(r"\b(?!and\b|or\b|abs\b|sqrt\b)[a-z]\w*", test)))
-
-
-@dataclass(frozen=True)
-class Proof:
-    """The inequality of a stick proof between margins of the structures, the state and `margin`, their relative error.
-
-    Both engines have it as a function of the quantities in it. A comparison with NaN is false.
-    """
-
-    name: str
-    meaning: str
-    test: str
-
-
-PROOFS = (
-    Proof("is_below_barrier", "the energy is below a barrier ahead, lowered by what a drift of angular momentum may do",
-          "energy < height - margin*(largest + abs(height)) - drift"),
-    Proof("attraction_holds", "the attraction lets no maximum of the gap exceed the one before",
-          "gap >= contact*(1 - margin) and hold > 0 and rebound < -margin*hold and escape < -margin*energy"),
-    Proof("spins_down", "without angular momentum, or without orbital momentum, the film keeps the doublet",
-          ("gap >= contact*(1 - margin) and (momentum <= negligible and rate > 0 and stays < -error"
-           " or orbital_momentum == 0 and inside < 0 and apart < -error)")),
-    Proof("is_stopped", "the film takes more than what drives a motion", "excess + error < 0"),
-    Proof("points_inward", "all forces but that of the film point inward",
-          "outward - pull + margin*(outward + pull) < 0"),
-    Proof("rests_for_good", "the reaction of a resting doublet stays inward at the largest momentum that slip allows",
-          "reaction > margin*largest"),
-    Proof("stays_below", "the energy does not suffice for a gap ahead", "needed < -margin*size"),
-    Proof("comes_back", "a rebound loses more than the rotation gives on the way back to the maximum",
-          "outward < lost*(1 - margin)"),
-    Proof("tumbles_for_good", "a doublet that tumbles as one body is held with all momentum across the line of centres",
-          "rest < TUMBLES*rigid and rest + rigid + work < height - margin*(largest + abs(height))"),
-)  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -353,7 +319,7 @@ STATUSES = (
     Status("CHATTER", "the budget of steps is exhausted after more than CHATTER_PHASES phases"),
     Status("TOO_OBLIQUE", "the centrifugal force is beyond MOST_OBLIQUE"),
     Status("ESCAPED", "a stick that is proved separates when it is followed on: a defect"),
-    Status("WITHIN_ROUNDING", "the doublet separates at less than LEAST_PARTING, or by less than LEAST_MOMENTUM"),
+    Status("WITHIN_ROUNDING", "the doublet separates at less than LEAST_PARTING"),
     Status("UNDECLARED", "a declared event creates kinetic energy that it does not declare"),
 )
 
@@ -410,7 +376,5 @@ CONSTANTS = (
              "formed"),
     Constant("LEAST_PARTING", 2.0**-46, "in the scale of tangential speeds times sqrt(x0/a): a slower separation is "
              "what rounding of the angular momentum alone sets off, and decides nothing"),
-    Constant("LEAST_MOMENTUM", 2.0**-24, "of the parts of the angular momentum: rounding of less changes what it sets "
-             "off by more than as much"),
     Constant("LEAST_DEPTH", 1e-40, "least gap, relative to the present one, of the film certificate without contact"),
 )  # fmt: skip

@@ -31,7 +31,7 @@ class ModelFunction:
     Arguments:
         regional: it depends on the flags of film and shear.
         further: its arguments beside states, groups, laws and flags.
-        for_proof: margins of a stick certificate.
+        certificate: the name of the stick certificate whose margins it gives: emitted in C only.
     """
 
     name: str
@@ -39,7 +39,7 @@ class ModelFunction:
     outputs: tuple[tuple[str, sp.Expr], ...]
     regional: bool = False
     further: tuple[sp.Symbol, ...] = ()
-    for_proof: bool = False
+    certificate: str = ""
 
     @cached_property
     def by_name(self) -> dict[str, sp.Expr]:
@@ -146,7 +146,7 @@ def _certificates(structure: Structure) -> Emitted:
     for certificate in CERTIFICATES:
         if certificate.admits(structure):
             for name, doc, values in certificate.functions(structure):
-                yield name, doc, values, {"for_proof": True}
+                yield name, doc, values, {"certificate": certificate.name}
 
 
 def _least_energy(structure: Structure, states: tuple[sp.Symbol, ...]) -> Emitted:

@@ -229,7 +229,7 @@ def extended(model: Model, events: tuple[OwnEvent, ...]) -> Model:
     }  # fmt: skip
     functions = []
     for function in model.functions:
-        if function.for_proof:
+        if function.certificate:
             continue
         outputs = function.outputs + tuple((mark.name, value) for mark, value in more.get(function.name, {}).items())
         if function.name == "events":

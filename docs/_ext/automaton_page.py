@@ -5,6 +5,7 @@ from collections.abc import Iterable, Sequence
 from wetdoublet.derive.emit.document.document import watched
 from wetdoublet.derive.equations import automaton
 from wetdoublet.derive.equations.automaton import Event
+from wetdoublet.derive.equations.certificates.table import CERTIFICATES
 
 _INTRODUCTION = """A collision is integrated mode by mode. In each mode the equations are smooth. The first event ends
 the mode, is reported by its word, and has its effect; of events at the same time, the one further up in the table
@@ -55,11 +56,8 @@ def page() -> str:
             for each in automaton.RULES
         ],
     )
-    lines += ["", "A collision also ends where a certificate excludes separation; the stick is then `certified`."]
-    lines += ["", "## Stick proofs", ""]
-    lines += ["The inequalities by which certificates exclude separation; the margins in them are"]
-    lines += ["explained in [certificates](../explanation/certificates.md).", ""]
-    lines += _table(("inequality", "holds where"), [(f"`{each.test}`", each.meaning) for each in automaton.PROOFS])
+    lines += ["", "A collision also ends where a [certificate](../explanation/certificates.md) excludes separation;"]
+    lines += ["the stick is then `certified`."]
     lines += ["", "## Outcomes", ""]
     outcomes = [(f"`{each.word}`", str(k), each.condition) for k, each in enumerate(automaton.OUTCOMES)]
     lines += _table(("outcome", "number", "condition"), outcomes)
@@ -76,6 +74,15 @@ def page() -> str:
         ("name", "value", "meaning"), [(f"`{c.name}`", f"{c.value:g}", c.meaning) for c in automaton.CONSTANTS]
     )
     return "\n".join(lines) + "\n"
+
+
+def certificates() -> str:
+    """The table of the page on certificates."""
+    rows = [
+        (row.name, row.meaning, "; ".join(f"`{proof.test}`: {proof.meaning}" for proof in row.proofs))
+        for row in CERTIFICATES
+    ]
+    return "\n".join(_table(("certificate", "what holds the doublet", "inequalities"), rows)) + "\n"
 
 
 def _guard(event: Event) -> str:

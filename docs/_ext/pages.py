@@ -19,6 +19,7 @@ DOCS = Path(__file__).resolve().parents[1]
 def write(_app: Any = None, _config: Any = None) -> None:
     """Write all pages and drawings."""
     written = {**scene_entries.pages(), **laws.pages(), **api.pages(), "_emitted/automaton.md": automaton_page.page()}
+    written["_emitted/certificates.md"] = automaton_page.certificates()
     written["_emitted/site/explorer.html"] = explore(*PRESETS).html
     for name, text in written.items():
         path = DOCS / name

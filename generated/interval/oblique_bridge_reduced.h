@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 a100df1bc970fe527bdd9f8a323ea7b2a5602318c66dfcd0f8400dfd4ea5aba1 */
+ * Equations sha256 d76574b5e8c063dadf18b6548bec1ce80c072871f4d8b39da6f2629f44e895ac */
 
 enum { GAP, NORMAL_VELOCITY, ORBITAL_MOMENTUM, STATES };
 enum { OBLIQUE = 1, BRIDGE = 1, ATTRACTION = 0 };

@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 c1873e382ea8e1559419c138f28be986ce31199d599f9696d55ec5a8e9c9fa8c */
+ * Equations sha256 9c0c0ffb27a17979f3562663046278677d18eb4d8b7c0d9476875130197ccc53 */
 
 enum { GAP, NORMAL_VELOCITY, ORBITAL_MOMENTUM, SPIN, STATES };
 enum { OBLIQUE = 1, BRIDGE = 1, ATTRACTION = 0 };

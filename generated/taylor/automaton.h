@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Automaton sha256 90498b3db377b83820431858c35fad21cbb346718f97c2416b4cc7b1c711689e */
+ * Automaton sha256 74c3db73d2eb50ddc059f841912c1d34d2b981ebebe0f1c5a6d9d8d7681dd77f */
 
 #ifndef AUTOMATON_H
 #define AUTOMATON_H
@@ -54,7 +54,7 @@ enum {
     CHATTER, /* the budget of steps is exhausted after more than CHATTER_PHASES phases */
     TOO_OBLIQUE, /* the centrifugal force is beyond MOST_OBLIQUE */
     ESCAPED, /* a stick that is proved separates when it is followed on: a defect */
-    WITHIN_ROUNDING, /* the doublet separates at less than LEAST_PARTING, or by less than LEAST_MOMENTUM */
+    WITHIN_ROUNDING, /* the doublet separates at less than LEAST_PARTING */
     UNDECLARED, /* a declared event creates kinetic energy that it does not declare */
 };
 enum { LAST_ANSWER = PROVED_AT_TOUCH };
@@ -83,7 +83,6 @@ static const double TUMBLES = 0.001; /* in space: a doublet tumbles as one body 
 static const double TURNLESS = 3.552713678800501e-15; /* in space: a component that is a smaller part of the largest vector of its kind is rounding, and where all are, nothing rotates */
 static const double LEAST_SLIP = 1e-12; /* in the scale of tangential speeds: below it at initial contact no ratio of slips is formed */
 static const double LEAST_PARTING = 1.4210854715202004e-14; /* in the scale of tangential speeds times sqrt(x0/a): a slower separation is what rounding of the angular momentum alone sets off, and decides nothing */
-static const double LEAST_MOMENTUM = 5.960464477539063e-08; /* of the parts of the angular momentum: rounding of less changes what it sets off by more than as much */
 static const double LEAST_DEPTH = 1e-40; /* least gap, relative to the present one, of the film certificate without contact */
 
 /* Whether the gap is not below the rupture gap. */

@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Automaton sha256 90498b3db377b83820431858c35fad21cbb346718f97c2416b4cc7b1c711689e
+ * Automaton sha256 74c3db73d2eb50ddc059f841912c1d34d2b981ebebe0f1c5a6d9d8d7681dd77f
  *
  * The search for the events of a step. Included behind what it calls. */
 

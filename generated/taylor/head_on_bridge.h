@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 aa8a6a49ed3092c707d32a696bc8ab778106044d2bcd515b445a573c63cc1b6d */
+ * Equations sha256 1f44a1259a45572cf6def3abc32cbad9e13b200f1fbe8462be3b24ff9402c492 */
 
 /* Head-on doublet with a liquid bridge.
  *
@@ -74,7 +74,6 @@ typedef struct {
     vec scaled_gap_per_gap;
     vec bridge_force_per_bridge_force_law;
     vec normal_velocity_2_per_normal_velocity;
-    vec part_ratio;
     vec bridge_work_factor;
     film_resistance_constants film_resistance_law;
     bridge_force_constants bridge_force_law;
@@ -132,8 +131,6 @@ static inline void prepare(constants *c)
     c->scaled_gap_per_gap = 0.5*c->aspect;
     c->bridge_force_per_bridge_force_law = 1.0/(c->capillary*c->stokes);
     c->normal_velocity_2_per_normal_velocity = -c->dry_restitution;
-    c->part_ratio = vec_exp(0.041666666666666664*vec_log(vec_larger(vec_larger(splat(0.01), c->elastic_gap),
-        c->rough_gap)));
     c->bridge_work_factor = 2.0/(c->aspect*c->capillary*c->stokes);
     film_resistance_prepare(&c->film_resistance_law);
     bridge_force_prepare(&c->bridge_force_law, c->volume, c->contact_angle);
@@ -261,33 +258,6 @@ static inline vec potential_slope(const constants *c, const vec *y)
 }
 
 #define SLOW_MANIFOLD 0
-
-#if defined(FILM_BRAKING) && defined(GLASS_REACH) && defined(BRIDGE_FORCE_FALLS)
-#define APPROACH_BOUNDS 1
-/* Bounds over the next part of the film, from a gap and a bound of the closing speed there (the normal
- * velocity): the part's end, the largest speed there and within it. */
-static inline void approach_step(const constants *c, const vec *y, vec *deeper_gap, vec *slowed, vec *fastest)
-{
-    vec deeper = y[GAP]*c->part_ratio;
-    vec largest_force = vec_larger(splat(0.0), bridge_force_value(&c->bridge_force_law,
-        0.5*c->aspect*deeper)/(c->capillary*c->stokes));
-    vec path = y[GAP] - deeper;
-    vec left = -y[NORMAL_VELOCITY] - (film_braking(deeper) - film_braking(y[GAP]))/c->stokes;
-    vec gain = largest_force*path/vec_larger(left,
-        0.5*1.4142135623730951*vec_sqrt(largest_force)*vec_sqrt(path));
-    *deeper_gap = deeper;
-    *slowed = gain + vec_larger(splat(0.0), left);
-    *fastest = gain - y[NORMAL_VELOCITY];
-}
-/* Largest outward force before solid contact, over m v0^2/x0, for the rotation of this state. */
-static inline void approach_force(const constants *c, const vec *y, vec *outward)
-{
-    *outward = vec_larger(splat(0.0), -bridge_force_value(&c->bridge_force_law,
-        0.5*c->aspect*y[GAP])/(c->capillary*c->stokes));
-}
-#else
-#define APPROACH_BOUNDS 0
-#endif
 
 #if !CAPILLARY_STATE
 /* Capillary work up to a gap over m v0^2, from a fixed but arbitrary gap. */

@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 13b4fe32c6a11cc3ccc28956ab63b503cccccb851151525fbb25da0cc4578506 */
+ * Equations sha256 7b13822886c0a0cd318bb26aa39a2ea38059bb141d57846e79c10126e187aed1 */
 
 /* Oblique doublet with a liquid bridge.
  *
@@ -101,7 +101,6 @@ typedef struct {
     vec nearest;
     vec farthest;
     vec rotation_energy_unit;
-    vec part_ratio;
     vec bridge_work_factor;
     vec edge;
     shear_log_factor_constants shear_log_factor_law;
@@ -162,8 +161,6 @@ static inline void prepare(constants *c)
     c->nearest = c->aspect*c->contact + 4.0;
     c->farthest = c->aspect*c->rupture_gap + 4.0;
     c->rotation_energy_unit = 0.0625*(c->obliquity*c->obliquity);
-    c->part_ratio = vec_exp(0.041666666666666664*vec_log(vec_larger(vec_larger(splat(0.01), c->elastic_gap),
-        c->rough_gap)));
     c->bridge_work_factor = 2.0/(c->aspect*c->capillary*c->stokes);
     c->edge = shear_edge(c->aspect);
     shear_log_factor_prepare(&c->shear_log_factor_law, c->aspect);
@@ -369,8 +366,9 @@ static inline vec potential_slope(const constants *c, const vec *y)
 #include "shared/momentum_share_oblique.h"
 
 #if defined(BRIDGE_FORCE_FALLS)
-#define ATTRACTION_MARGINS (REDUCED || MIDGAP_ARM)
-/* The attractions exclude separation if hold > 0, escape < 0 and rebound < 0. */
+#define ATTRACTION_MARGINS (MIDGAP_ARM)
+/* Margins of the attraction certificate (lever arm at mid-gap, forces that decrease with the gap): hold > 0,
+ * escape < 0 and rebound < 0 exclude separation. */
 static inline void attraction_margins(const constants *c, const vec *y, vec *hold_margin, vec *escape, vec
     *rebound)
 {
@@ -392,9 +390,9 @@ static inline void attraction_margins(const constants *c, const vec *y, vec *hol
 #define ATTRACTION_MARGINS 0
 #endif
 
-#define ORBITAL_MARGINS LIBRARY_LAWS
+#define ORBITAL_MARGINS (MIDGAP_ARM && LIBRARY_LAWS)
 /* Slip omega - xi at this gap, and the slip energy over m v0^2 that shear can still transfer before it (lever
- * arm at mid-gap; derive/equations/certificates/orbital_momentum.py). */
+ * arm at mid-gap). */
 static inline void transferable(const constants *c, const vec *y, vec *slip_margin, vec *slip_energy)
 {
     vec distance = c->aspect*y[GAP] + 4.0;
@@ -413,40 +411,6 @@ static inline void transferable(const constants *c, const vec *y, vec *slip_marg
 }
 
 #define SLOW_MANIFOLD 0
-
-#if defined(FILM_BRAKING) && defined(GLASS_REACH) && defined(BRIDGE_FORCE_FALLS)
-#define APPROACH_BOUNDS MIDGAP_ARM
-/* Bounds over the next part of the film, from a gap and a bound of the closing speed there (the normal
- * velocity): the part's end, the largest speed there and within it. */
-static inline void approach_step(const constants *c, const vec *y, vec *deeper_gap, vec *slowed, vec *fastest)
-{
-    vec deeper = y[GAP]*c->part_ratio;
-    vec largest_force = vec_larger(splat(0.0), bridge_force_value(&c->bridge_force_law,
-        0.5*c->aspect*deeper)/(c->capillary*c->stokes));
-    vec path = y[GAP] - deeper;
-    vec left = -y[NORMAL_VELOCITY] - (film_braking(deeper) - film_braking(y[GAP]))/c->stokes;
-    vec gain = largest_force*path/vec_larger(left,
-        0.5*1.4142135623730951*vec_sqrt(largest_force)*vec_sqrt(path));
-    *deeper_gap = deeper;
-    *slowed = gain + vec_larger(splat(0.0), left);
-    *fastest = gain - y[NORMAL_VELOCITY];
-}
-/* Largest outward force before solid contact, over m v0^2/x0, for the rotation of this state. */
-static inline void approach_force(const constants *c, const vec *y, vec *outward)
-{
-    vec distance = c->aspect*y[GAP] + 4.0;
-    vec orbital_rate = y[ORBITAL_MOMENTUM]/(distance*distance);
-    *outward = vec_larger(splat(0.0),
-        2.0*c->aspect*(distance*distance)*(0.03125*(distance*distance)*(c->obliquity*c->obliquity)*(orbital_rate*orbital_rate)
-        + 0.2*(c->obliquity*c->obliquity)*(y[SPIN]*y[SPIN]))/((c->aspect*vec_larger(c->elastic_gap,
-        c->rough_gap) + distance - c->aspect*y[GAP])*(c->aspect*vec_larger(c->elastic_gap, c->rough_gap) +
-        distance - c->aspect*y[GAP])*(c->aspect*vec_larger(c->elastic_gap, c->rough_gap) + distance -
-        c->aspect*y[GAP])) - bridge_force_value(&c->bridge_force_law,
-        0.5*c->aspect*y[GAP])/(c->capillary*c->stokes));
-}
-#else
-#define APPROACH_BOUNDS 0
-#endif
 
 #if !CAPILLARY_STATE
 /* Capillary work up to a gap over m v0^2, from a fixed but arbitrary gap. */

@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 a100df1bc970fe527bdd9f8a323ea7b2a5602318c66dfcd0f8400dfd4ea5aba1 */
+ * Equations sha256 d76574b5e8c063dadf18b6548bec1ce80c072871f4d8b39da6f2629f44e895ac */
 
 /* Oblique doublet with a liquid bridge, spin eliminated through the conserved angular momentum.
  *
@@ -84,7 +84,6 @@ typedef struct {
     vec spun_up;
     vec rotation_energy_unit;
     vec relaxation_per_combination_by_shear_log_factor_law_over_distance;
-    vec part_ratio;
     vec bridge_work_factor;
     vec edge;
     shear_log_factor_constants shear_log_factor_law;
@@ -144,8 +143,6 @@ static inline void prepare(constants *c)
     c->rotation_energy_unit = 0.0625*(c->obliquity*c->obliquity);
     c->relaxation_per_combination_by_shear_log_factor_law_over_distance =
         0.041666666666666664*c->aspect/c->stokes;
-    c->part_ratio = vec_exp(0.041666666666666664*vec_log(vec_larger(vec_larger(splat(0.01), c->elastic_gap),
-        c->rough_gap)));
     c->bridge_work_factor = 2.0/(c->aspect*c->capillary*c->stokes);
     c->edge = shear_edge(c->aspect);
     shear_log_factor_prepare(&c->shear_log_factor_law, c->aspect);
@@ -304,8 +301,9 @@ static inline vec potential_slope(const constants *c, const vec *y)
 #include "shared/surface_slip_oblique_reduced.h"
 
 #if defined(BRIDGE_FORCE_FALLS)
-#define ATTRACTION_MARGINS (REDUCED || MIDGAP_ARM)
-/* The attractions exclude separation if hold > 0, escape < 0 and rebound < 0. */
+#define ATTRACTION_MARGINS (1)
+/* Margins of the attraction certificate (lever arm at mid-gap, forces that decrease with the gap): hold > 0,
+ * escape < 0 and rebound < 0 exclude separation. */
 static inline void attraction_margins(const constants *c, const vec *y, vec *hold_margin, vec *escape, vec
     *rebound)
 {
@@ -325,9 +323,9 @@ static inline void attraction_margins(const constants *c, const vec *y, vec *hol
 #define ATTRACTION_MARGINS 0
 #endif
 
-#define ORBITAL_MARGINS LIBRARY_LAWS
+#define ORBITAL_MARGINS (LIBRARY_LAWS)
 /* Slip omega - xi at this gap, and the slip energy over m v0^2 that shear can still transfer before it (lever
- * arm at mid-gap; derive/equations/certificates/orbital_momentum.py). */
+ * arm at mid-gap). */
 static inline void transferable(const constants *c, const vec *y, vec *slip_margin, vec *slip_energy)
 {
     vec distance = c->aspect*y[GAP] + 4.0;
@@ -414,40 +412,6 @@ static inline void film_taken(const constants *c, const vec *y, vec *taken)
 #endif
 #else
 #define SLOW_MANIFOLD 0
-#endif
-
-#if defined(FILM_BRAKING) && defined(GLASS_REACH) && defined(BRIDGE_FORCE_FALLS)
-#define APPROACH_BOUNDS 1
-/* Bounds over the next part of the film, from a gap and a bound of the closing speed there (the normal
- * velocity): the part's end, the largest speed there and within it. */
-static inline void approach_step(const constants *c, const vec *y, vec *deeper_gap, vec *slowed, vec *fastest)
-{
-    vec deeper = y[GAP]*c->part_ratio;
-    vec largest_force = vec_larger(splat(0.0), bridge_force_value(&c->bridge_force_law,
-        0.5*c->aspect*deeper)/(c->capillary*c->stokes));
-    vec path = y[GAP] - deeper;
-    vec left = -y[NORMAL_VELOCITY] - (film_braking(deeper) - film_braking(y[GAP]))/c->stokes;
-    vec gain = largest_force*path/vec_larger(left,
-        0.5*1.4142135623730951*vec_sqrt(largest_force)*vec_sqrt(path));
-    *deeper_gap = deeper;
-    *slowed = gain + vec_larger(splat(0.0), left);
-    *fastest = gain - y[NORMAL_VELOCITY];
-}
-/* Largest outward force before solid contact, over m v0^2/x0, for the rotation of this state. */
-static inline void approach_force(const constants *c, const vec *y, vec *outward)
-{
-    vec distance = c->aspect*y[GAP] + 4.0;
-    vec orbital_rate = y[ORBITAL_MOMENTUM]/(distance*distance);
-    vec spin = 0.15625*c->momentum - 0.15625*y[ORBITAL_MOMENTUM];
-    *outward = vec_larger(splat(0.0),
-        2.0*c->aspect*(distance*distance)*(0.03125*(distance*distance)*(c->obliquity*c->obliquity)*(orbital_rate*orbital_rate)
-        + 0.2*(c->obliquity*c->obliquity)*(spin*spin))/((c->aspect*vec_larger(c->elastic_gap, c->rough_gap) +
-        distance - c->aspect*y[GAP])*(c->aspect*vec_larger(c->elastic_gap, c->rough_gap) + distance -
-        c->aspect*y[GAP])*(c->aspect*vec_larger(c->elastic_gap, c->rough_gap) + distance - c->aspect*y[GAP]))
-        - bridge_force_value(&c->bridge_force_law, 0.5*c->aspect*y[GAP])/(c->capillary*c->stokes));
-}
-#else
-#define APPROACH_BOUNDS 0
 #endif
 
 #if !CAPILLARY_STATE

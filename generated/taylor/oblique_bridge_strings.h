@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 46118bb2dc6284791f81f98bd8d94fd9c262addfee5c79d3f7874b0e8dd047ad */
+ * Equations sha256 b9392dec2c7467dbdd26610e36fd665a49ae84909d899d43c604bd2324bc0a52 */
 
 /* Oblique doublet with a liquid bridge and pendulum strings.
  *
@@ -406,8 +406,9 @@ static inline void outputs(const constants *c, const vec *y, vec *shown)
 #include "shared/surface_slip_oblique.h"
 
 #if defined(BRIDGE_FORCE_FALLS)
-#define ATTRACTION_MARGINS (REDUCED || MIDGAP_ARM)
-/* The attractions exclude separation if hold > 0, escape < 0 and rebound < 0. */
+#define ATTRACTION_MARGINS (MIDGAP_ARM)
+/* Margins of the attraction certificate (lever arm at mid-gap, forces that decrease with the gap): hold > 0,
+ * escape < 0 and rebound < 0 exclude separation. */
 static inline void attraction_margins(const constants *c, const vec *y, vec *hold_margin, vec *escape, vec
     *rebound)
 {
@@ -435,9 +436,9 @@ static inline void attraction_margins(const constants *c, const vec *y, vec *hol
 #define ATTRACTION_MARGINS 0
 #endif
 
-#define ORBITAL_MARGINS LIBRARY_LAWS
+#define ORBITAL_MARGINS (MIDGAP_ARM && LIBRARY_LAWS)
 /* Slip omega - xi at this gap, and the slip energy over m v0^2 that shear can still transfer before it (lever
- * arm at mid-gap; derive/equations/certificates/orbital_momentum.py). */
+ * arm at mid-gap). */
 static inline void transferable(const constants *c, const vec *y, vec *slip_margin, vec *slip_energy)
 {
     vec distance = c->aspect*y[GAP] + 4.0;

@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 c73516aa86a0d111a7b9d578a6b5f3620f7e623513003abb5a32c8b6d599c64b */
+ * Equations sha256 de6daef125dd7ea2f65f69c13d393df6e958d5ae294d4113eea61b7d054f82cc */
 
 /* Oblique doublet with pendulum strings.
  *
@@ -357,9 +357,9 @@ static inline void outputs(const constants *c, const vec *y, vec *shown)
 
 #include "shared/surface_slip_oblique.h"
 
-#if defined(FILM_STOPPING) && defined(GLASS_REACH)
-#define PENDULUM MIDGAP_ARM
-/* The strings outweigh the rotation from now on if outward < pull (equations/certificates/pendulum.py). */
+#if defined(FILM_BRAKING) && defined(FILM_STOPPING) && defined(GLASS_REACH)
+#define PENDULUM_MARGINS (MIDGAP_ARM)
+/* The strings outweigh the rotation from now on if outward < pull (lever arm at mid-gap). */
 static inline void pendulum_inward(const constants *c, const vec *y, vec *outward_margin, vec *pull_margin)
 {
     vec momentum = y[ORBITAL_MOMENTUM] + 6.4*y[SPIN];
@@ -463,14 +463,6 @@ static inline void pendulum_rebounds(const constants *c, const vec *y, vec *rebo
     *beneath = c->dry_restitution*c->stokes*(1.4142135623730951*vec_sqrt(y[GAP])*vec_sqrt(largest_pull) -
         y[NORMAL_VELOCITY]) - film_stopping(y[GAP]);
 }
-#else
-#define PENDULUM 0
-#endif
-
-#define SLOW_MANIFOLD 0
-
-#if defined(FILM_BRAKING) && defined(GLASS_REACH)
-#define APPROACH_BOUNDS MIDGAP_ARM
 /* Bounds over the next part of the film, from a gap and a bound of the closing speed there (the normal
  * velocity): the part's end, the largest speed there and within it. */
 static inline void approach_step(const constants *c, const vec *y, vec *deeper_gap, vec *slowed, vec *fastest)
@@ -478,18 +470,19 @@ static inline void approach_step(const constants *c, const vec *y, vec *deeper_g
     vec largest_pull = c->weight*(c->aspect + 8.0)*strings_stiffness_value(&c->strings_stiffness_law,
         0.25*(c->aspect*c->aspect) + 4.0*c->aspect + 16.0);
     vec deeper = y[GAP]*c->part_ratio;
-    vec largest_force = largest_pull;
     vec path = y[GAP] - deeper;
     vec left = -y[NORMAL_VELOCITY] - (film_braking(deeper) - film_braking(y[GAP]))/c->stokes;
-    vec gain = largest_force*path/vec_larger(left,
-        0.5*1.4142135623730951*vec_sqrt(largest_force)*vec_sqrt(path));
+    vec gain = largest_pull*path/vec_larger(left,
+        0.5*1.4142135623730951*vec_sqrt(largest_pull)*vec_sqrt(path));
     *deeper_gap = deeper;
     *slowed = gain + vec_larger(splat(0.0), left);
     *fastest = gain - y[NORMAL_VELOCITY];
 }
 #else
-#define APPROACH_BOUNDS 0
+#define PENDULUM_MARGINS 0
 #endif
+
+#define SLOW_MANIFOLD 0
 
 #if WITH_LEDGER
 enum { ENERGIES = 2 };

@@ -1,28 +1,18 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Automaton sha256 90498b3db377b83820431858c35fad21cbb346718f97c2416b4cc7b1c711689e
+ * Stick certificates sha256 9c39e0df9d68812bc793bbf6fa21e3d91bd1eedc6ee8a6913f86edad149ea4bc
  *
- * Inequalities of stick proofs. Included where `vec` and `mask` are known. */
+ * Inequalities of stick certificates. Included where `vec` and `mask` are known. */
 
-/* Lanes in which the energy is below a barrier ahead, lowered by what a drift of angular momentum may do. */
+/* Lanes in which the energy is below a barrier, lowered by what a drift of L may do. */
 static inline mask is_below_barrier(vec energy, vec height, double margin, vec largest, vec drift)
 {
     return (energy < height - margin*(largest + vec_abs(height)) - drift);
 }
 
-/* Lanes in which the attraction lets no maximum of the gap exceed the one before. */
-static inline mask attraction_holds(vec gap, vec contact, double margin, vec hold, vec rebound, vec escape,
-    vec energy)
+/* Lanes in which a doublet that tumbles as one body is held with all momentum across the line of centres. */
+static inline mask tumbles_for_good(vec rest, vec rigid, vec work, vec height, double margin, vec largest)
 {
-    return ((gap >= contact*(1 - margin)) & (hold > 0) & (rebound < -margin*hold) & (escape <
-        -margin*energy));
-}
-
-/* Lanes in which without angular momentum, or without orbital momentum, the film keeps the doublet. */
-static inline mask spins_down(vec gap, vec contact, double margin, vec momentum, vec negligible, vec rate, vec
-    stays, vec error, vec orbital_momentum, vec inside, vec apart)
-{
-    return ((gap >= contact*(1 - margin)) & (((momentum <= negligible) & (rate > 0) & (stays < -error)) |
-        ((orbital_momentum == 0) & (inside < 0) & (apart < -error))));
+    return ((rest < TUMBLES*rigid) & (rest + rigid + work < height - margin*(largest + vec_abs(height))));
 }
 
 /* Lanes in which the film takes more than what drives a motion. */
@@ -31,16 +21,24 @@ static inline mask is_stopped(vec excess, vec error)
     return (excess + error < 0);
 }
 
+/* Lanes in which the reaction stays inward at the largest momentum that slip allows. */
+static inline mask rests_for_good(vec reaction, double margin, vec largest)
+{
+    return (reaction > margin*largest);
+}
+
 /* Lanes in which all forces but that of the film point inward. */
 static inline mask points_inward(vec outward, vec pull, double margin)
 {
     return (outward - pull + margin*(outward + pull) < 0);
 }
 
-/* Lanes in which the reaction of a resting doublet stays inward at the largest momentum that slip allows. */
-static inline mask rests_for_good(vec reaction, double margin, vec largest)
+/* Lanes in which the attraction lets no maximum of the gap exceed the one before. */
+static inline mask attraction_holds(vec gap, vec contact, double margin, vec hold, vec rebound, vec escape,
+    vec energy)
 {
-    return (reaction > margin*largest);
+    return ((gap >= contact*(1 - margin)) & (hold > 0) & (rebound < -margin*hold) & (escape <
+        -margin*energy));
 }
 
 /* Lanes in which the energy does not suffice for a gap ahead. */
@@ -53,10 +51,4 @@ static inline mask stays_below(vec needed, double margin, vec size)
 static inline mask comes_back(vec outward, vec lost, double margin)
 {
     return (outward < lost*(1 - margin));
-}
-
-/* Lanes in which a doublet that tumbles as one body is held with all momentum across the line of centres. */
-static inline mask tumbles_for_good(vec rest, vec rigid, vec work, vec height, double margin, vec largest)
-{
-    return ((rest < TUMBLES*rigid) & (rest + rigid + work < height - margin*(largest + vec_abs(height))));
 }

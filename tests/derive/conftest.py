@@ -11,6 +11,7 @@ from typing import Any
 
 import pytest
 from wetdoublet.derive.checks import Check, symbolic_checks
+from wetdoublet.derive.equations.certificates.table import CERTIFICATES
 from wetdoublet.derive.equations.model import Model, derive
 from wetdoublet.derive.physics.laws import LAWS
 from wetdoublet.derive.physics.structure import FREE, Structure, structures
@@ -79,16 +80,17 @@ def _forget(users: set[str]) -> None:
 
 @pytest.fixture
 def mutate(monkeypatch: pytest.MonkeyPatch) -> Iterator[Callable[[Any, Any], None]]:
-    """Put a wrong function in place of a right one, in every module of the derivation that imported it."""
+    """Put a wrong function in place of a right one, in every module of the derivation that imported it, and in rows."""
     users: set[str] = set()
 
     def replace(right: Any, wrong: Any) -> None:
-        places = [(module, name) for module in _modules() for name, value in vars(module).items() if value is right]
+        holders = [vars(each) for each in (*_modules(), *CERTIFICATES)]
+        places = [(holder, name) for holder in holders for name, value in holder.items() if value is right]
         assert places
         users.update(_users(right.__module__))
         _forget(users)
-        for module, name in places:
-            monkeypatch.setattr(module, name, wrong)
+        for holder, name in places:
+            monkeypatch.setitem(holder, name, wrong)
 
     yield replace
     monkeypatch.undo()

@@ -20,7 +20,7 @@ EVENT_FIELDS = {
 
 def automaton_digest() -> str:
     """Digest of the tables of the automaton."""
-    tables = "COMPONENTS CRITERIA WORDS ACTIONS EVENTS RULES PROOFS OUTCOMES STATUSES PURPOSES CONSTANTS"
+    tables = "COMPONENTS CRITERIA WORDS ACTIONS EVENTS RULES OUTCOMES STATUSES PURPOSES CONSTANTS"
     return digest(*(row for table in tables.split() for row in getattr(automaton, table)))
 
 
@@ -79,12 +79,11 @@ def _numbers(name: str, doc: str, members: Sequence[tuple[str, str]]) -> list[st
 
 
 def _tests() -> list[str]:
-    """Functions of the conditions of the rules, and of the inequalities of stick proofs."""
-    lines, proofs = [], [(each.name, each.meaning, each.test) for each in automaton.PROOFS]
-    for name, meaning, test in (*(test for rule in automaton.RULES for test in rule.tests), *proofs):
-        kind, result = ("Any", "Any") if (name, meaning, test) in proofs else ("float", "bool")  # some are of arrays
-        passed = ", ".join(f"{each}: {kind}" for each in automaton.arguments(test))
-        lines += ["", f"def {name}({passed}) -> {result}:", f'    """True if {meaning}."""', f"    return {test}", ""]
+    """Functions of the conditions of the rules."""
+    lines = []
+    for name, meaning, test in (test for rule in automaton.RULES for test in rule.tests):
+        passed = ", ".join(f"{each}: float" for each in automaton.arguments(test))
+        lines += ["", f"def {name}({passed}) -> bool:", f'    """True if {meaning}."""', f"    return {test}", ""]
     return lines
 
 

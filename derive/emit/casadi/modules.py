@@ -79,18 +79,19 @@ def structure_module(model: Model, additions: Own | None = None, shared: Mapping
         shared: the structure that defines a function, by its text (`shared.homes`); the others import it.
     """
     printer = Printer()
+    functions = [each for each in model.functions if not each.certificate]
     body: list[str] = ["", "Values = Mapping[str, Any]", ""]
     for constant, names in (
         ("STATES", [s.name for s in model.states]),
         ("GROUPS", [s.name for s in model.groups]),
         ("SLOTS", list(model.slots)),
-        ("FUNCTIONS", [f.name for f in model.functions]),
-        ("REGIONAL", [f.name for f in model.functions if f.regional]),
+        ("FUNCTIONS", [f.name for f in functions]),
+        ("REGIONAL", [f.name for f in functions if f.regional]),
     ):
         body += _listed(f"{constant} = {_tuple(names)}", f"{constant} =", [f'"{name}"' for name in names])
     body += [f'DIGEST = "{model_digest(model)}"', ""]
     elsewhere: dict[str, list[str]] = {}
-    for function in model.functions:
+    for function in functions:
         defined = function_lines(model, function.name, trial := Printer())
         home = (shared or {}).get("\n".join(defined), model.structure.name)
         if home != model.structure.name:

@@ -6,13 +6,13 @@ from collections.abc import Mapping
 
 import sympy as sp
 
-from ...equations.certificates.orbital_momentum import UNIT, clamped_slip_energy, rigid_momentum
+from ...equations.certificates.table import enclosed
 from ...equations.events import CONTACT_GAPS, contact_gap
 from ...equations.model import Model, without_partner_spin
 from ...equations.observables import excess_energy
 from ...physics.forces import FILM, SHEAR
 from ...physics.laws.base import Definition, Law, needed, slot_call
-from ...physics.scaling import DISTANCE, group_definitions
+from ...physics.scaling import group_definitions
 from ...physics.structure import Structure
 from ...vocabulary import quantities as q
 from ..casadi.printer import EmissionError
@@ -22,8 +22,6 @@ from ..taylor.law_header import COMPARED, LIMIT, clearance, moves
 from ..taylor.layout import comment, documented, function, struct
 from ..taylor.program import Program, cheapest
 from .text import Constants, dual, recurrences
-
-_RIGID = sp.Symbol("rigid_momentum", real=True)
 
 
 def refused(structure: Structure) -> str:
@@ -222,16 +220,10 @@ def _values(model: Model, constants: Constants) -> list[str]:
     doc = "Energy above the least at the same gap and angular momentum, over m v0^2."
     lines += _energy(model, constants, "excess", doc, excess_energy(held))
     lines += _energy(model, constants, "least", least.doc, least["energy"])
-    needed_there = least["energy"]
-    rigid: tuple[Definition, ...] = ()
-    if "orbital_margins" in model and not shape.partner:  # its margin is the smaller one
-        orbit = model["orbital_margins"]["orbital_energy"]
-        rigid = ((_RIGID, rigid_momentum(DISTANCE, q.orbital_momentum, q.spin)),)
-        held = q.normal_velocity**2 / 2 + orbit
-        needed_there = orbit - UNIT * clamped_slip_energy(DISTANCE, q.orbital_momentum, _RIGID)
+    held, needed_there, further = enclosed(shape) or (held, least["energy"], ())
     lines += _energy(model, constants, "held", "Energy over m v0^2 that may carry the state to a larger gap.", held)
     doc = "What is needed of it at this gap with this momentum, over m v0^2, without work."
-    return lines + _energy(model, constants, "needed", doc, needed_there, rigid)
+    return lines + _energy(model, constants, "needed", doc, needed_there, further)
 
 
 def _energy(

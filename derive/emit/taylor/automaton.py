@@ -5,6 +5,8 @@ from collections.abc import Iterable, Sequence
 
 from ...equations import automaton
 from ...equations.automaton import Event
+from ...equations.certificates.table import CERTIFICATES
+from ..provenance import PROVENANCE, digest
 from .guards import event_name, target_of
 from .layout import comment, function
 
@@ -66,10 +68,12 @@ def automaton_header(provenance: str, user_events: Sequence[Event] = (), meaning
     return "\n".join([*lines, "", "#endif"]) + "\n"
 
 
-def proofs_header(provenance: str) -> str:
-    """Text of `generated/taylor/proofs.h`: the inequalities of stick proofs, in all lanes at once."""
-    lines = comment(f"{provenance}\n\nInequalities of stick proofs. Included where `vec` and `mask` are known.")
-    for each in automaton.PROOFS:
+def proofs_header() -> str:
+    """Text of `generated/taylor/proofs.h`: the inequalities of stick certificates, in all lanes at once."""
+    proofs = [proof for row in CERTIFICATES for proof in row.proofs]
+    origin = f"{PROVENANCE}\nStick certificates sha256 {digest(*proofs)}"
+    lines = comment(f"{origin}\n\nInequalities of stick certificates. Included where `vec` and `mask` are known.")
+    for each in proofs:
         passed = ", ".join(
             f"{'double' if name == 'margin' else 'vec'} {name}" for name in automaton.arguments(each.test)
         )

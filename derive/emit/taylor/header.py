@@ -16,7 +16,7 @@ from ...user.own_events import OwnEvent
 from ...vocabulary.quantities import VOCABULARY, normal, normal_velocity
 from ..provenance import Own, describe, header, model_digest
 from .c_text import Constants, Recurrences
-from .certificates import Margins, slow_manifold_functions
+from .certificates import margins, slow_manifold_functions
 from .closed_forms import WORKS, attracting, edge_function, momentum_functions, work_function
 from .groups_from_si import scale_function
 from .guards import series_of_guards
@@ -314,13 +314,11 @@ class Header:
             share = 1 - (CENTRES if shape.partner else 2) * LEVER / DISTANCE
             lines += self._valued([("share", share)], head, {"share": "return"}, doc)
         prepared = {(slot, call): name for name, (slot, call, _) in self.calls.items()}
-        margins = Margins(model, self.constants, prepared)
-        lines += margins.lines()
+        lines += margins(model, self.constants, prepared)
         if self.beside.events:
             lines += ["#define SLOW_MANIFOLD 0", ""]  # the bounds of the slow manifold do not hold with declared events
         else:
             lines += slow_manifold_functions(model, self.constants, prepared)
-        lines += margins.approach()
         if attracting(model):
             lines += work_function(model, self.constants, self.calls)
         if (shape.partner == "wall" or not shape.oblique) and not (shape.bridge or shape.strings):

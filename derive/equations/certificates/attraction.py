@@ -27,6 +27,7 @@ from ...vocabulary import quantities as q
 from ..events import contact_gap
 from ..intermediates import MOMENTUM, attractions
 from . import pendulum
+from .certificate import Certificate, Functions, Proof
 
 LEAST, HOLD = sp.symbols("least_attraction hold", real=True)
 
@@ -59,7 +60,7 @@ def definitions(structure: Structure) -> tuple[Definition, ...]:
     return (*result, (pendulum.LARGEST_PULL, pendulum.pull_at(end, sp.pi))) if structure.strings else result
 
 
-def functions(structure: Structure) -> pendulum.Functions:
+def functions(structure: Structure) -> Functions:
     """The margins, over m v0^2/x0 and m v0^2."""
     doc = (
         "Margins of the attraction certificate (lever arm at mid-gap, forces that decrease with the gap): "
@@ -70,3 +71,18 @@ def functions(structure: Structure) -> pendulum.Functions:
     pulled = LEAST + (pendulum.LARGEST_PULL if structure.strings else 0)
     escape = outward**2 / 2 - HOLD * (end - q.gap)
     yield "attraction_margins", doc, {"hold": HOLD, "escape": escape, "rebound": q.e_dry**2 * pulled - HOLD}
+
+
+def _premises(structure: Structure) -> tuple[str, ...]:
+    return tuple(f"{slot.upper()}_FORCE_FALLS" for slot in ("bridge", "attraction") if getattr(structure, slot))
+
+
+ROW = Certificate(
+    "attraction",
+    "an attraction lets no maximum of the gap exceed the one before",
+    (
+        Proof("attraction_holds", "the attraction lets no maximum of the gap exceed the one before",
+              "gap >= contact*(1 - margin) and hold > 0 and rebound < -margin*hold and escape < -margin*energy"),
+    ),
+    ("attraction_certificate",), admits, definitions, functions, _premises,
+)  # fmt: skip

@@ -30,12 +30,13 @@ from ...physics.laws.base import Definition
 from ...physics.mechanics import doublet_inertia
 from ...physics.scaling import DISTANCE, nondimensional
 from ...physics.structure import Structure
-from ...vocabulary.quantities import a, m, orbital_momentum, rate_scale, spin, v0, x
+from ...vocabulary.quantities import a, m, normal_velocity, orbital_momentum, rate_scale, spin, v0, x
 from ..intermediates import SLIP
 from . import attraction
-from .pendulum import Functions
+from .certificate import Certificate, Enclosed, Functions, Proof
 
 UNIT = sp.Symbol("rotation_energy_unit", positive=True)  # m a^2 Omega^2 over m v0^2
+RIGID = sp.Symbol("rigid_momentum", real=True)
 
 
 def admits(structure: Structure) -> bool:
@@ -92,17 +93,25 @@ def definitions(_structure: Structure) -> tuple[Definition, ...]:
 
 
 def functions(_structure: Structure) -> Functions:
-    """The function `orbital_margins` of a state, evaluated at gaps ahead of the doublet.
-
-    `slip_energy` is the energy that can be transferred.
-    """
+    """The function `transferable` of a state, evaluated at gaps ahead of the doublet."""
     doc = (
-        "Margins of the orbital-momentum certificate: slip omega - xi and J^2/(2 r^2) at this gap, and the "
-        "slip energy; energies over m v0^2."
+        "Slip omega - xi at this gap, and the slip energy over m v0^2 that shear can still transfer before it "
+        "(lever arm at mid-gap)."
     )
-    result = {
-        "slip": SLIP,
-        "orbital_energy": UNIT * orbital_momentum**2 / (2 * DISTANCE**2),
-        "slip_energy": UNIT * transferable(DISTANCE, orbital_momentum, spin),
-    }
-    yield "orbital_margins", doc, result
+    yield "transferable", doc, {"slip": SLIP, "slip_energy": UNIT * transferable(DISTANCE, orbital_momentum, spin)}
+
+
+def enclosed(_structure: Structure) -> Enclosed:
+    """G + slip energy: what a state has of it, and what its orbital momentum needs at a gap."""
+    orbit = UNIT * orbital_momentum**2 / (2 * DISTANCE**2)
+    left = orbit - UNIT * clamped_slip_energy(DISTANCE, orbital_momentum, RIGID)
+    return normal_velocity**2 / 2 + orbit, left, ((RIGID, rigid_momentum(DISTANCE, orbital_momentum, spin)),)
+
+
+ROW = Certificate(
+    "orbital",
+    "the orbital momentum and what the spins can give to it do not suffice for a gap ahead",
+    (Proof("stays_below", "the energy does not suffice for a gap ahead", "needed < -margin*size"),),
+    ("orbital_momentum_certificate",), admits, definitions, functions,
+    enclosed=enclosed, library_only=True,
+)  # fmt: skip

@@ -20,18 +20,22 @@ xi, J and L are never negative.
 5. While closing, u^2 grows by at most 2 max(S_n/m) x0. A rebound happens at a gap of at most `reach`, the larger of the
    contact gap and the gap at which the glass criterion is met at that speed. If the film stops the rebound from there
    (`recoil` + St impulse < 0), it stops every later rebound.
-6. From initial contact on, the bounds of `approach` hold for every approach, the later ones too, as they start slower.
-   A rebound from a gap and speed is stopped if `rebound` + St impulse < 0; one at any smaller gap, if `beneath` +
-   St impulse < 0. If no criterion is met, or its rebound is stopped, in each part of the film, the doublet sticks.
+6. From initial contact on the centrifugal force slows the approach. With g the film's resistance and P the largest
+   pull, over the depth y = x0 - x the closing speed w obeys dw/dy <= P/w - g/St. Over one part of the film, of length
+   h, w thus stays below w + min(P h/left, sqrt(2 P h)) - (loss in the film), where left = w - (loss over the part): of
+   the two, the first needs left > 0. So `gain` = P h/max(left, sqrt(P h/2)) bounds what w gains against the film, and w
+   is at most max(left, 0) + gain at the end of the part, at most w + gain within it. Later approaches start slower.
+7. The glass pressure grows with the speed and as the gap closes. If it stays below its limit at the end of each part
+   for the largest speed within the part, and the gap above solid contact, no criterion is met. A rebound from a gap
+   and speed is stopped if `rebound` + St impulse < 0; one at any smaller gap, if `beneath` + St impulse < 0. If no
+   criterion is met, or its rebound is stopped, in each part of the film, the doublet sticks.
 
 `checks.pendulum_certificate` proves the steps on the emitted equations.
 """
 
-from collections.abc import Iterator, Mapping
-
 import sympy as sp
 
-from ...physics.forces import scaled_strings
+from ...physics.forces import FILM, scaled_strings
 from ...physics.laws import slot_call
 from ...physics.laws.base import Definition, slot_calls
 from ...physics.laws.strings import offset_squared
@@ -39,8 +43,10 @@ from ...physics.mechanics import doublet_inertia
 from ...physics.scaling import DISTANCE, INERTIA, nondimensional
 from ...physics.structure import Structure
 from ...vocabulary import quantities as q
+from ..automaton import APPROACH_PARTS, DEEPEST_PART
 from ..events import contact_gap
-from ..intermediates import MOMENTUM, ORBITAL_RATE, STRING_SIDEWAYS, rates, turning_rate
+from ..intermediates import FILM_FORCE, MOMENTUM, ORBITAL_RATE, STRING_SIDEWAYS, forces, rates, turning_rate
+from .certificate import Certificate, Functions, Proof
 
 # gap of solid contact; largest later closing speed; largest gap of a rebound at that speed
 CONTACT, FASTEST, REACH = sp.symbols("contact fastest reach", positive=True)
@@ -57,11 +63,12 @@ PANELS = 8
 OUTWARD, PULL, WEIGHING, SCALED_MOMENTUM, DECREASE_BY_COSINE, FINAL_HALF_SINE, WIDTH = sp.symbols(
     "outward pull weighing scaled_momentum decrease_by_cosine final_half_sine width", nonnegative=True
 )
+# of a part of the film: ratio of the gaps at its ends, the deeper one, its length, speed left by the film, and gained
+RATIO, DEEPER, PATH, GAIN = sp.symbols("part_ratio deeper path gain", positive=True)
+LEFT = sp.Symbol("left", real=True)
 ANGLES = sp.symbols(f"angle_:{PANELS}", nonnegative=True)
 SCALED_MOMENTA = sp.symbols(f"scaled_momentum_:{PANELS}", nonnegative=True)
 
-Functions = Iterator[tuple[str, str, Mapping[str, sp.Expr]]]
-"""Name, docstring and outputs of the functions that a certificate emits."""
 PENDULUM = Structure(oblique=True, bridge=False, strings=True)
 
 
@@ -164,6 +171,12 @@ def impulse() -> sp.Expr:
     return WIDTH * sp.Add(*(sp.Max(0, impulse_by_angle(momentum, pull)) for momentum, pull in panels))
 
 
+def braking(structure: Structure, at: sp.Expr) -> sp.Expr:
+    """Velocity, over v0/St, that the film takes from x0 to a gap: the film's call, but of its antiderivative."""
+    (call,) = slot_calls(forces(structure)[FILM_FORCE].subs(FILM, 1))
+    return slot_call("film", "braking", at, *call.args[1:])
+
+
 def definitions(_structure: Structure = PENDULUM) -> tuple[Definition, ...]:
     """Symbols and their expressions, each after those that it uses, for the margins."""
     closing = sp.Min(q.normal_velocity, 0)
@@ -177,26 +190,40 @@ def definitions(_structure: Structure = PENDULUM) -> tuple[Definition, ...]:
         (FASTEST, sp.sqrt(closing**2 + 2 * LARGEST_PULL)),
         (REACH, sp.Max(CONTACT, slot_call("glass", "reach", FASTEST, q.glass_number))),
         *impulse_definitions(),
+        (RATIO, sp.exp(sp.log(sp.Max(contact_gap, sp.nsimplify(DEEPEST_PART))) / APPROACH_PARTS)),
+        (DEEPER, q.gap * RATIO),
+        (PATH, q.gap - DEEPER),
+        (LEFT, -q.normal_velocity - (braking(PENDULUM, DEEPER) - braking(PENDULUM, q.gap)) / q.stokes),
+        (GAIN, LARGEST_PULL * PATH / sp.Max(LEFT, sp.sqrt(LARGEST_PULL * PATH / 2))),
     )
 
 
 def functions(_structure: Structure = PENDULUM) -> Functions:
-    """The function of the margins."""
-    doc = (
-        "Margins of the pendulum certificate (lever arm at mid-gap): film < 0 and recoil < 0 exclude "
-        "separation, with St impulse added unless outward < pull; rebound, beneath: of a gap and speed."
-    )
+    """The margins; the cheap and usually decisive ones in functions of their own."""
+    doc = "The strings outweigh the rotation from now on if outward < pull (lever arm at mid-gap)."
+    yield "pendulum_inward", doc, {"outward": OUTWARD, "pull": PULL}
+    doc = "Bound of the outward impulse of all forces but the film's from now on."
+    yield "pendulum_impulse", doc, {"impulse": impulse()}
+    taken = slot_call("film", "stopping", q.gap)
+    doc = "The film then stops the opening and every rebound if film < 0 and recoil < 0, the impulse added."
+    recoil = q.stokes * q.e_dry * FASTEST - slot_call("film", "stopping", REACH)
+    yield "pendulum_stops", doc, {"film": q.stokes * q.normal_velocity - taken, "recoil": recoil}
+    doc = "It stops a rebound from this gap and speed, or one from any smaller gap, if these are negative."
     faster = -q.normal_velocity + sp.sqrt(2 * LARGEST_PULL * q.gap)
-    yield (
-        "pendulum_margins",
-        doc,
-        {
-            "outward": OUTWARD,
-            "pull": PULL,
-            "impulse": impulse(),
-            "film": q.stokes * q.normal_velocity - slot_call("film", "stopping", q.gap),
-            "recoil": q.stokes * q.e_dry * FASTEST - slot_call("film", "stopping", REACH),
-            "rebound": -q.stokes * q.e_dry * q.normal_velocity - slot_call("film", "stopping", q.gap),
-            "beneath": q.stokes * q.e_dry * faster - slot_call("film", "stopping", q.gap),
-        },
+    rebounds = {"rebound": -q.normal_velocity, "beneath": faster}
+    yield "pendulum_rebounds", doc, {name: q.stokes * q.e_dry * speed - taken for name, speed in rebounds.items()}
+    doc = (
+        "Bounds over the next part of the film, from a gap and a bound of the closing speed there (the normal "
+        "velocity): the part's end, the largest speed there and within it."
     )
+    step = {"deeper_gap": DEEPER, "slowed": sp.Max(LEFT, 0) + GAIN, "fastest": GAIN - q.normal_velocity}
+    yield "approach_step", doc, step
+
+
+ROW = Certificate(
+    "pendulum",
+    "strings outweigh the rotation, and the film stops every rebound",
+    (Proof("points_inward", "all forces but that of the film point inward",
+           "outward - pull + margin*(outward + pull) < 0"),),
+    ("pendulum_certificate",), admits, definitions, functions,
+)  # fmt: skip

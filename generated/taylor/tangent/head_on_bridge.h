@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 aa8a6a49ed3092c707d32a696bc8ab778106044d2bcd515b445a573c63cc1b6d */
+ * Equations sha256 1f44a1259a45572cf6def3abc32cbad9e13b200f1fbe8462be3b24ff9402c492 */
 
 /* Tangent of head_on_bridge.h: derivatives of the states by the groups.
  *

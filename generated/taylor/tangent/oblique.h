@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 d68b1f7509fb15f9965792079c3472947e8f89a562656ee118741d7c1ecd4306 */
+ * Equations sha256 f712b9a202542a68cc8d1bc30ee218f28e929c94fc29aa51eee284e74d094124 */
 
 /* Tangent of oblique.h: derivatives of the states by the groups.
  *

@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 13b4fe32c6a11cc3ccc28956ab63b503cccccb851151525fbb25da0cc4578506 */
+ * Equations sha256 7b13822886c0a0cd318bb26aa39a2ea38059bb141d57846e79c10126e187aed1 */
 
 /* Tangent of oblique_bridge.h: derivatives of the states by the groups.
  *

@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 46118bb2dc6284791f81f98bd8d94fd9c262addfee5c79d3f7874b0e8dd047ad */
+ * Equations sha256 b9392dec2c7467dbdd26610e36fd665a49ae84909d899d43c604bd2324bc0a52 */
 
 /* Tangent of oblique_bridge_strings.h: derivatives of the states by the groups.
  *

@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 ae5f8985ec4414f459305520c6c19f185437aca70e16ab5e65fa5d7a7da40327 */
+ * Equations sha256 c04cf0ac049a4106c4d9829a05b9ff70dd9d8d57fa5442c27a78f869375084c0 */
 
 /* Tangent of oblique_reduced.h: derivatives of the states by the groups.
  *

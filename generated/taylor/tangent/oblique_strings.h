@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 c73516aa86a0d111a7b9d578a6b5f3620f7e623513003abb5a32c8b6d599c64b */
+ * Equations sha256 de6daef125dd7ea2f65f69c13d393df6e958d5ae294d4113eea61b7d054f82cc */
 
 /* Tangent of oblique_strings.h: derivatives of the states by the groups.
  *

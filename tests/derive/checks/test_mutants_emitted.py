@@ -44,7 +44,11 @@ _HALF_THE_PULL = sp.sqrt(sp.Min(q.normal_velocity, 0) ** 2 + pendulum.LARGEST_PU
         ({pendulum.LARGEST_MOMENTUM: q.orbital_momentum}, {"recoil": _SLOWER}, "outward recoil"),
         ({pendulum.CONTACT: q.rough_gap}, {}, "outward pull recoil"),
         ({pendulum.LARGEST_PULL: pendulum.pull_at(sp.Integer(1), q.beta)}, {}, "recoil beneath"),
-        ({}, {"recoil": {pendulum.REACH: pendulum.CONTACT}, "pull": {pendulum.CONTACT: sp.Integer(1)}}, "pull recoil"),
+        (
+            {pendulum.PULL: pendulum.pull_at(sp.Integer(1), q.beta)},
+            {"recoil": {pendulum.REACH: pendulum.CONTACT}},
+            "pull recoil",
+        ),
     ],
     ids=[
         "nearest, half the pull",
@@ -57,12 +61,12 @@ _HALF_THE_PULL = sp.sqrt(sp.Min(q.normal_velocity, 0) ** 2 + pendulum.LARGEST_PU
 )
 def test_a_margin_that_is_not_the_worst(mutate: Mutate, healthy: Healthy, bounds, margins, names):
     """Each wrong distance, orbit, contact, pull, speed or reach of a rebound is caught by the margins that have it."""
-    ((_, _, right),) = pendulum.functions()
-    wrong = {name: value.subs(margins.get(name, {})) for name, value in dict(right).items()}
+    right = {name: value for _, _, outputs in pendulum.functions() for name, value in outputs.items()}
+    wrong = {name: value.subs(margins.get(name, {})) for name, value in right.items()}
     assert all(_RIGHT[name] != value for name, value in bounds.items())
-    assert all(wrong[name] != dict(right)[name] for name in margins)
+    assert all(wrong[name] != right[name] for name in margins)
     mutate(pendulum.definitions, lambda *_: tuple({**_RIGHT, **bounds}.items()))
-    mutate(pendulum.functions, lambda *_: [("pendulum_margins", "", wrong)])
+    mutate(pendulum.functions, lambda *_: [("margins", "", wrong)])
     caught(margins_are_the_lemmas(), healthy, *(f"margin of the stick proof: {each}" for each in names.split()))
 
 

@@ -136,8 +136,8 @@ def test_margins_of_what_attracts():
 def test_margins_of_the_stick_proof_hand_nan_on():
     """Rotating strings with a film alone have the proof's margins, by maxima that are NaN where either argument is."""
     text = structure_header(derive(Structure(oblique=True, bridge=False, strings=True)))
-    assert "#if defined(FILM_STOPPING) && defined(GLASS_REACH)" in text
+    assert "#if defined(FILM_BRAKING) && defined(FILM_STOPPING) && defined(GLASS_REACH)" in text
     assert "vec_larger(y[ORBITAL_MOMENTUM], spun_up)" in text
     assert not re.search(r"vec_(max|min)\(", text)
     without = structure_header(derive(Structure(oblique=True, strings=True, bridge=True)))
-    assert "pendulum_margins" not in without
+    assert "pendulum_stops" not in without

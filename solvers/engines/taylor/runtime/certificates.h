@@ -1,4 +1,4 @@
-/* The certificate of a model, chosen as in solvers/certificates/choice.py, and the lanes in which it holds. */
+/* The certificates of a model (derive/equations/certificates/), and the lanes in which they hold. */
 #pragma once
 
 #include "automaton.h"
@@ -86,7 +86,7 @@ static mask stopped_by_film(const constants *c, const vec *y, vec contact, mask 
 /* Film certificate with an attraction, without a bridge, for motion along the line of centres.
  *
  * If the approach velocity with the film only is w, it is at most w + g with the attraction, where g^2/2 is the work
- * of the attraction from x0 on (solvers/certificates/attraction.py).
+ * of the attraction from x0 on.
  */
 static mask stopped_by_film(const constants *c, const vec *y, vec contact, mask closing, double tolerance)
 {
@@ -114,7 +114,7 @@ static mask stopped_by_film(const constants *c, const vec *y, vec contact, mask 
 #endif
 #endif
 
-#if PENDULUM
+#if PENDULUM_MARGINS
 /* Lanes in which all forces but that of the film point inward. */
 static mask pulled_inward(const constants *c, const vec *y, double margin)
 {
@@ -148,6 +148,45 @@ static mask held_by_strings(const constants *c, const vec *y, mask candidates, i
     pendulum_stops(c, y, &film, &recoil);
     return candidates & is_stopped(film, error) & is_stopped(recoil, error);
 }
+
+/* The next part of the film for bounds of the approach: a gap, and the largest speed there. */
+static inline vec next_part(const constants *c, vec *bounds)
+{
+    vec deeper, slowed, fastest;
+    approach_step(c, bounds, &deeper, &slowed, &fastest);
+    bounds[GAP] = deeper;
+    bounds[NORMAL_VELOCITY] = -slowed;
+    return fastest;
+}
+
+/* Clearance of the glass criterion in the part of the film that ends here, for the largest speed in it. */
+static inline mask clear_of_glass(const constants *c, const vec *bounds, vec fastest, double margin)
+{
+    vec there[STATES];
+    memcpy(there, bounds, sizeof there);
+    there[NORMAL_VELOCITY] = fastest*(-1.0/(1.0 - margin));
+    return glass_clearance(c, there) > 0.0;
+}
+
+/* Lanes in which the film stops the doublet, and every rebound that a criterion may cause, for good. */
+static mask held_on_approach(const constants *c, const vec *y, vec contact, double tolerance)
+{
+    double margin = SAFETY*tolerance;
+    vec film, recoil, rebound, beneath, bounds[STATES], there[STATES];
+    vec error = pendulum_error(c, y, margin);
+    pendulum_stops(c, y, &film, &recoil);
+    mask possible = (contact < y[GAP]) & is_stopped(film, error);
+    memcpy(bounds, y, sizeof bounds);
+    memcpy(there, y, sizeof there);
+    for (int part = 0; part < APPROACH_PARTS && bits(possible); part++) {
+        there[GAP] = bounds[GAP];
+        there[NORMAL_VELOCITY] = -next_part(c, bounds);
+        pendulum_rebounds(c, there, &rebound, &beneath);
+        possible &= clear_of_glass(c, bounds, -there[NORMAL_VELOCITY], margin) | is_stopped(rebound, error);
+    }
+    pendulum_rebounds(c, bounds, &rebound, &beneath);
+    return possible & is_stopped(beneath, error);
+}
 #endif
 
 #if ATTRACTION_MARGINS
@@ -164,23 +203,6 @@ static mask held_by_attraction(const constants *c, const vec *y, double toleranc
 }
 #endif
 
-#if SPIN_DOWN
-/* Spin-down certificate: without angular momentum the rotation dies out, and the film alone holds the doublet
- * (derive/equations/certificates/spin_down.py). Beyond the edge of the shear, where nothing turns without orbital
- * momentum, `rate` is not positive. An angular momentum up to `negligible` is none.
- */
-static inline mask spun_down(const constants *c, const vec *y, mask candidates, double tolerance, double negligible)
-{
-    candidates &= (c->first_momentum <= negligible) | (y[ORBITAL_MOMENTUM] == 0.0);
-    if (!bits(candidates))
-        return candidates;
-    vec stays, rate, apart, inside, error = SAFETY*tolerance*vec_larger(c->stokes, splat(1.0));
-    spin_down_margins(c, y, &stays, &rate, &apart, &inside);
-    return candidates & spins_down(y[GAP], contact_gap(c), SAFETY*tolerance, c->first_momentum, splat(negligible), rate,
-        stays, error, y[ORBITAL_MOMENTUM], inside, apart);
-}
-#endif
-
 /* Whether chatter is ended by a test at maxima of the gap (chatter.h). */
 #if SPACE && ((BRIDGE && !defined(BRIDGE_FORCE_FALLS)) || (ATTRACTION && !defined(ATTRACTION_FORCE_FALLS)))
 #define CHATTER_TESTS 0
@@ -189,13 +211,9 @@ static inline mask spun_down(const constants *c, const vec *y, mask candidates, 
 #else
 #define CHATTER_TESTS (TURNS && ATTRACTS && (ORBITAL_MARGINS || !STRINGS))
 #endif
-/* Whether doublets may float beyond the edge of the tangential force for good. */
-#define FLOATS (TURNS && ATTRACTS && !STRINGS && !FRICTION)
 #if OWN_EVENTS
 #undef CHATTER_TESTS
 #define CHATTER_TESTS 0
-#undef FLOATS
-#define FLOATS 0
 #endif /* OWN_EVENTS */
 /* Whether the test of chatter is a proof. */
 #define CHATTER_PROVES (SPACE || (ORBITAL_MARGINS && !STRINGS))
@@ -212,7 +230,7 @@ static mask held_at_rest(const constants *c, const vec *y, double tolerance)
 }
 #else
 /* Resting contact that persists while the slip decays: |J| exceeds that of rigid rotation by no more than the slip
- * energy allows, or by twice that where angular momentum drifts (solvers/certificates/energy_barrier.py `rests`).
+ * energy allows, or by twice that where angular momentum drifts (derive/checks/partners.py).
  */
 static mask held_at_rest(const constants *c, const vec *y, double tolerance)
 {
@@ -258,7 +276,7 @@ static inline mask proved_sticks(
 #if PROOF_BY_FILM
     proved |= NOT(resting) & stopped_by_film(c, y, contact, closing, tolerance);
 #endif
-#if PENDULUM
+#if PENDULUM_MARGINS
     proved |= held_by_strings(c, y, splat_mask(TRUTH), 0, tolerance);
 #endif
 #if OWN_EVENTS
@@ -274,43 +292,12 @@ static inline mask proved_sticks(
 
 #if SPACE && PROOF_BY_ENERGY
 /* Lanes whose doublet tumbles as one body, and is held even if all of its angular momentum turns across the line of
- * centres (solvers/certificates/in_space.py). Decides a stick, but is no certificate.
+ * centres (derive/checks/space.py). Decides a stick, but is no certificate.
  */
 static mask tumbles(const constants *c, const vec *y, const barrier *b, double tolerance)
 {
     vec rest = wobble(c, y), rigid = potential_energy(c, y), height = height_ahead(y, b);
     return tumbles_for_good(rest, rigid, work_done(c, y, b), height, SAFETY*tolerance, b->largest);
-}
-#endif
-
-#define WELLS (TURNS && PROOF_BY_ENERGY && !DRIFTS && !SPACE)
-#if WELLS
-/* Lanes in which the effective potential rises, up to some gap ahead, by more than the energy above it. Where a minimum
- * and the maximum after it nearly merge, the barrier is too low for the error of the energies, but not for that of its
- * slope (solvers/certificates/energy_barrier.py).
- */
-static mask in_a_well(const constants *c, const vec *y, vec end, mask tested, double tolerance)
-{
-    tested &= y[GAP] < end;
-    if (!bits(tested))
-        return tested;
-    double margin = SAFETY*tolerance;
-    vec kinetic = stored_energy(c, y), turning = potential_energy(c, y), above = kinetic - turning;
-    vec size = vec_sqrt(vec_abs(above)*kinetic) + margin*kinetic + vec_abs(slope_at(c, y, y[GAP]))*y[GAP];
-    vec rise = splat(0.0), low = y[GAP];
-    mask held = splat_mask(0);
-    for (int k = 1; k <= AHEAD; k++) {
-        double part = (double)k/(int)AHEAD;
-        vec high = y[GAP] + (end - y[GAP])*(part*part*part), half = 0.5*(high - low);
-        for (int node = 0; node < 12; node++) {
-            double place = node < 6 ? NODES[node] : -NODES[node - 6];
-            rise += WEIGHTS[node % 6]*half*slope_at(c, y, low + half*(1.0 + place));
-        }
-        vec released = turning - energy_at(c, y, high);
-        held |= above - rise < -margin*(size + vec_abs(released) + vec_abs(rise + released));
-        low = high;
-    }
-    return tested & held;
 }
 #endif
 
@@ -324,20 +311,6 @@ static inline mask now_and_then(mask fresh, mask phases, mask steps)
     return (fresh & (phases >= splat_mask(EARLIEST_PHASE))) | ((steps & (INTERVAL - 1)) == INTERVAL - 1);
 }
 
-/* Lanes that separate only by an angular momentum that rounding changes too much for their figures. */
-static inline mask rounded_separations(const constants *c, const vec *y, mask candidates, double tolerance)
-{
-    (void)c; (void)y; (void)candidates; (void)tolerance;
-#if OWN_EVENTS
-    return splat_mask(0);
-#endif /* OWN_EVENTS */
-#if SPIN_DOWN
-    return spun_down(c, y, candidates & (c->first_momentum > 0.0), tolerance, LEAST_MOMENTUM);
-#else
-    return splat_mask(0);
-#endif
-}
-
 /* Lanes in which one of the certificates that are tested at intervals excludes separation. */
 static inline mask held_sticks(const constants *c, const vec *y, mask candidates, double tolerance)
 {
@@ -349,10 +322,7 @@ static inline mask held_sticks(const constants *c, const vec *y, mask candidates
     return splat_mask(0);
 #endif
 #endif /* OWN_EVENTS */
-#if SPIN_DOWN
-    return spun_down(c, y, candidates, tolerance, 0.0);
-#endif
-#if PENDULUM
+#if PENDULUM_MARGINS
     return held_by_strings(c, y, candidates, 1, tolerance);
 #endif
 #if ATTRACTION_MARGINS

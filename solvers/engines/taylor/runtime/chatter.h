@@ -1,9 +1,9 @@
 /* Chatter: a doublet that rebounds again and again, and what shows at a maximum of the gap that it stays.
  *
- * Equal spheres with the library's laws: the orbital-momentum certificate (solvers/certificates/orbital_momentum.py); on
- * strings for cycles whose maxima do not grow. Others without strings: such cycles, confined by an
- * attraction (solvers/certificates/chatter.py). In space: rebounds that take more than the rotation gives
- * (solvers/certificates/in_space.py).
+ * Equal spheres with the library's laws: the orbital-momentum certificate
+ * (derive/equations/certificates/orbital_momentum.py); on strings for cycles whose maxima do not grow. Others without
+ * strings: such cycles, confined by an attraction. In space: rebounds that take more than the rotation gives
+ * (derive/checks/space.py).
  */
 #pragma once
 
@@ -12,31 +12,6 @@
 #include "energy_barrier.h"
 #include "model.h"
 #include "state.h"
-
-#if FLOATS
-/* Lanes at a maximum of the gap that stay beyond the edge of the tangential force (solvers/certificates/floating.py);
- * looked for now and then. */
-static mask floating(const lanes *l, const fixed *f, double tolerance)
-{
-    mask candidates = l->alive & l->fresh & l->closing & NOT(l->resting) & ((l->phases & 15) < splat_mask(4));
-    candidates &= (l->y[GAP] > f->edge) & (vec_abs(l->y[NORMAL_VELOCITY]) <= STILL);
-    if (!bits(candidates))
-        return candidates;
-    vec there[STATES], half = (l->y[GAP] - f->edge)*(1.0/16.0), work = splat(0.0), size = work;
-    memcpy(there, l->y, sizeof there);
-    for (int panel = 0; panel < 8; panel++) {
-        vec part = splat(0.0);
-        for (int node = 0; node < 12; node++) {
-            double place = node < 6 ? NODES[node] : -NODES[node - 6];
-            there[GAP] = f->edge + half*(2*panel + 1 + place);
-            part += WEIGHTS[node % 6]*inward_force(&f->c, there);
-        }
-        work += part*half;
-        size += vec_abs(part*half);
-    }
-    return candidates & stays_below(work, SAFETY*tolerance, size);
-}
-#endif
 
 #if CHATTER_TESTS
 #if SPACE

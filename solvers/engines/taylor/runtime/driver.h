@@ -1,6 +1,6 @@
 /* The driver: series, step, first event and its effect, for all lanes at once until the queue is empty.
  *
- * Collisions too rare to be worth fast code are handed over to solvers/engines/casadi/locate.py; their status says why.
+ * Of a collision that is not decided, the status says why.
  */
 #pragma once
 
@@ -76,25 +76,15 @@ static void take_up_waiting(queue *q, lanes *l, fixed *f)
 #endif
 }
 
-/* Ends the trajectories that are shown to stick, and those in which rounding decides whether they do. */
+/* Ends the trajectories that are shown to stick. */
 static void end_sticks(queue *q, lanes *l, fixed *f)
 {
     mask tested = l->alive & now_and_then(l->fresh, l->phases, l->steps);
     mask sticks = held_sticks(&f->c, l->y, tested, q->rtol);
     sticks |= proved_underway(l, f, q->rtol);
-    mask rounded = rounded_separations(&f->c, l->y, tested & NOT(sticks), q->rtol);
-#if FLOATS
-    sticks |= floating(l, f, q->rtol);
-#endif
-#if WELLS
-    mask settles = l->alive & ((l->steps & (8*INTERVAL - 1)) == 8*INTERVAL - 1); /* costs some 20 steps */
-    sticks |= in_a_well(&f->c, l->y, f->end, settles, q->rtol);
-#endif
     mask tests = provable(q, l->closing);
     EACH_OF(lane, bits(l->alive & sticks & tests))
         sticks_for_good(q, l, f, lane, 1);
-    EACH_OF(lane, bits(rounded & tests))
-        finish(q, l, f, lane, WITHIN_ROUNDING, STICK, 0);
 #if CHATTER_TESTS
     mask stays = held_in_chatter(l, f, q->rtol);
     EACH_OF(lane, bits(stays & provable(q, l->closing)))

@@ -235,7 +235,7 @@ static inline vec rigid_at(const constants *c, const vec *y, vec gap)
 }
 
 /* Lanes whose energy is below the height of a gap ahead, lowered by the largest possible effect of the drift of angular
- * momentum, as in solvers/certificates/energy_barrier.py `_drift`. Decides a stick, but is no certificate.
+ * momentum. Decides a stick, but is no certificate.
  */
 static inline mask below(const constants *c, const vec *y, const barrier *b, vec gap, vec work, mask rests, double tolerance)
 {

@@ -243,10 +243,6 @@ OUTLINE void crawl(queue *q)
     vec least_step = WORTH*l.stride, h = 4.0*least_step, parked = l.time;
     for (int count = 0; count < TRIES && bits(busy); count++) {
         mask sticks = proved_underway(&l, &f, q->rtol) | held_sticks(&f.c, l.y, busy, q->rtol);
-#if WELLS
-        if (count % 8 == 7)
-            sticks |= in_a_well(&f.c, l.y, f.end, busy, q->rtol);
-#endif
 #if WITH_LIMIT
         if (bits(busy & sticks) && goes_on_stuck(q, 1))
             sticks = splat_mask(0);
@@ -262,10 +258,6 @@ OUTLINE void crawl(queue *q)
         EACH_OF(lane, bits(busy & sticks))
             settle(q, &l, &f, lane, DECIDED, STICK, 1);
         busy &= NOT(sticks);
-        mask rounded = rounded_separations(&f.c, l.y, busy, q->rtol);
-        EACH_OF(lane, bits(rounded))
-            settle(q, &l, &f, lane, WITHIN_ROUNDING, STICK, 0);
-        busy &= NOT(rounded);
 #if SPACE && PROOF_BY_ENERGY
         mask held = busy & tumbles(&f.c, l.y, &f.b, q->rtol);
         EACH_OF(lane, bits(held))

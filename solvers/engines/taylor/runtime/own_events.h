@@ -1,7 +1,7 @@
 /* Declared events of a user's model: which can still happen, and the energy certificate beside them.
  *
  * Only kernels of models that declare events contain this file and the blocks `#if OWN_EVENTS` (build.py). An event happens
- * once; its mark, a state, is 1 before and 0 after it. As solvers/certificates/beside_events.py.
+ * once; its mark, a state, is 1 before and 0 after it.
  */
 #pragma once
 

@@ -1,7 +1,6 @@
 /* The queue: quantities in, constants and certificates at initial contact, lanes filled and emptied, answers out. */
 #pragma once
 
-#include "approach.h"
 #include "certificates.h"
 #include "criteria.h"
 #include "energy_barrier.h"
@@ -61,12 +60,9 @@ static unsigned proved_at_start(queue *q, const fixed *f, const vec *y)
     mask all = splat_mask(TRUTH), none = splat_mask(0);
     unsigned proved = bits(proved_sticks(&f->c, y, &f->b, f->contact, all, none, q->rtol)) |
                       bits(held_sticks(&f->c, y, all, q->rtol));
-#if APPROACH_BOUNDS && STRINGS && PENDULUM
+#if PENDULUM_MARGINS
     if (~proved & bits(all))
         proved |= bits(held_on_approach(&f->c, y, f->contact, q->rtol));
-#elif APPROACH_BOUNDS && !STRINGS
-    if (~proved & bits(all))
-        proved |= bits(held_on_approach(&f->c, y, &f->b, f->contact, q->rtol));
 #endif
 #if WITH_LIMIT
     if (proved & 1 && goes_on_stuck(q, 1))

@@ -1,4 +1,4 @@
-"""The conditions of rules and the inequalities of stick proofs decide alike in both engines."""
+"""The conditions of rules and the inequalities of stick certificates decide in the kernel as they are declared."""
 
 import ctypes
 import inspect
@@ -7,6 +7,8 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
+from wetdoublet.derive.equations.automaton import arguments
+from wetdoublet.derive.equations.certificates.table import CERTIFICATES
 from wetdoublet.generated import automaton
 from wetdoublet.solvers import Scene
 from wetdoublet.solvers.engines.taylor import source as text
@@ -24,18 +26,22 @@ CONDITIONS = {
     for name, each in vars(automaton).items()
     if inspect.isfunction(each) and each.__module__ == automaton.__name__
 }
+PROOFS = {
+    proof.name: eval(f"lambda {', '.join(arguments(proof.test))}: {proof.test}", vars(automaton))
+    for row in CERTIFICATES
+    for proof in row.proofs
+}
 VALUES = [0.0, 1.0, 1e-13, 1e-9, 1e9, float("nan")]
 
 
 def call(name: str, condition: Callable[..., bool]) -> str:
     """A C function that returns a condition of numbers in an array."""
-    kinds = {each: parameter.annotation for each, parameter in inspect.signature(condition).parameters.items()}
     numbers = [
-        f"x[{k}]" if kind == "float" or each == "margin" else f"splat(x[{k}])"
-        for k, (each, kind) in enumerate(kinds.items())
+        f"splat(x[{k}])" if name in PROOFS and each != "margin" else f"x[{k}]"
+        for k, each in enumerate(inspect.signature(condition).parameters)
     ]
     result = f"{name}({', '.join(numbers)})"
-    result = f"LANE({result}, 0) != 0" if "Any" in kinds.values() else result
+    result = f"LANE({result}, 0) != 0" if name in PROOFS else result
     return f"int call_{name}(const double *x) {{ return {result}; }}\n"
 
 
@@ -47,7 +53,7 @@ def kernel(tmp_path_factory: pytest.TempPathFactory) -> ctypes.CDLL:
     assert emitted is not None
     assert tool is not None
     folder = tmp_path_factory.mktemp("conditions")
-    calls = '#include "guards.h"\n' + "".join(call(*each) for each in CONDITIONS.items())
+    calls = '#include "guards.h"\n' + "".join(call(*each) for each in (CONDITIONS | PROOFS).items())
     (folder / "conditions.c").write_text(resolved(calls, text.files(text.Variant(choice, 9, lanes=2), emitted)))
     flags = ["-std=gnu11", "-fPIC", "-shared", *QUICK.split()]
     command = [*tool.command, *flags, "-o", str(folder / "it.so"), str(folder / "conditions.c"), "-lm"]
@@ -55,10 +61,10 @@ def kernel(tmp_path_factory: pytest.TempPathFactory) -> ctypes.CDLL:
     return ctypes.CDLL(str(folder / "it.so"))
 
 
-@pytest.mark.parametrize("name", CONDITIONS)
-def test_a_condition_is_the_same_in_both_engines(kernel: ctypes.CDLL, name: str) -> None:
+@pytest.mark.parametrize("name", CONDITIONS | PROOFS)
+def test_a_condition_is_the_declared_one(kernel: ctypes.CDLL, name: str) -> None:
     """For numbers of any size, on limits, and for NaN, with which no condition holds; both answers occur."""
-    condition, rng = CONDITIONS[name], np.random.default_rng(7)
+    condition, rng = (CONDITIONS | PROOFS)[name], np.random.default_rng(7)
     compiled = getattr(kernel, f"call_{name}")
     names, answers = list(inspect.signature(condition).parameters), set()
     for _ in range(1000):
