@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 f712b9a202542a68cc8d1bc30ee218f28e929c94fc29aa51eee284e74d094124
+# Equations sha256 3df67a51b229b7814eaddce727e39d6f2a7d76418779fd31394dde1f83f27043
 """Oblique doublet with a film only.
 
 Time in x0/v0. States (per unit):
@@ -45,7 +45,7 @@ FUNCTIONS = (
     "effective_potential", "rigid_rotation", "restitution_ceiling",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "f712b9a202542a68cc8d1bc30ee218f28e929c94fc29aa51eee284e74d094124"
+DIGEST = "3df67a51b229b7814eaddce727e39d6f2a7d76418779fd31394dde1f83f27043"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:

@@ -1,5 +1,5 @@
 # Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
-# Equations sha256 976a04ccd7cb0cf3348ee00ca6d8bbdeb693798dbcbb1cf6a5130eaf0daba20f
+# Equations sha256 c088de719a09c15ea49adf26122d21780496a0dda7c232755f5595ef60c2538f
 """Oblique unequal doublet with a film only.
 
 Time in x0/v0. States (per unit):
@@ -49,7 +49,7 @@ FUNCTIONS = (
     "effective_potential", "rigid_rotation",
 )
 REGIONAL = ("right_hand_side", "resting_rates", "energy_rates")
-DIGEST = "976a04ccd7cb0cf3348ee00ca6d8bbdeb693798dbcbb1cf6a5130eaf0daba20f"
+DIGEST = "c088de719a09c15ea49adf26122d21780496a0dda7c232755f5595ef60c2538f"
 
 
 def right_hand_side(state: Values, groups: Values, laws: Any, film: int = 1, shear: int = 1) -> dict[str, Any]:

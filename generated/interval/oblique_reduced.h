@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 c04cf0ac049a4106c4d9829a05b9ff70dd9d8d57fa5442c27a78f869375084c0 */
+ * Equations sha256 c611586f35bcc10135e6fb71d1601fb3cd7b34600b04c5754661e9c9c5af465a */
 
 enum { GAP, NORMAL_VELOCITY, ORBITAL_MOMENTUM, STATES };
 enum { OBLIQUE = 1, BRIDGE = 0, ATTRACTION = 0 };

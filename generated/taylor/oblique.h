@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 f712b9a202542a68cc8d1bc30ee218f28e929c94fc29aa51eee284e74d094124 */
+ * Equations sha256 3df67a51b229b7814eaddce727e39d6f2a7d76418779fd31394dde1f83f27043 */
 
 /* Oblique doublet with a film only.
  *
@@ -83,6 +83,8 @@ typedef struct {
     vec slope_per_distance_by_momentum_squared_over_inertia_ratio_squared;
     vec combination_offset;
     vec angular_momentum_per_combination;
+    vec contact;
+    vec first_momentum;
     vec edge;
     shear_log_factor_constants shear_log_factor_law;
     film_resistance_constants film_resistance_law;
@@ -132,6 +134,11 @@ static inline void prepare(constants *c)
     c->combination_offset = -6.4*c->initial_spin - c->initial_turning*((c->aspect + 4.0)*(c->aspect + 4.0));
     c->angular_momentum_per_combination = 1.0/(c->initial_turning*((c->aspect + 4.0)*(c->aspect + 4.0)) +
         6.4*vec_abs(c->initial_spin));
+    c->contact = vec_larger(c->elastic_gap, c->rough_gap);
+    c->first_momentum = vec_larger(splat(0.0), vec_larger(6.4*c->initial_spin + c->initial_turning*((c->aspect
+        + 4.0)*(c->aspect + 4.0)), -6.4*c->initial_spin - c->initial_turning*((c->aspect + 4.0)*(c->aspect +
+        4.0)))/(c->initial_turning*((c->aspect + 4.0)*(c->aspect + 4.0)) + vec_larger(-6.4*c->initial_spin,
+        6.4*c->initial_spin)) - 3.552713678800501e-15);
     c->edge = shear_edge(c->aspect);
     shear_log_factor_prepare(&c->shear_log_factor_law, c->aspect);
     film_resistance_prepare(&c->film_resistance_law);
@@ -315,6 +322,38 @@ static inline vec potential_slope(const constants *c, const vec *y)
 #include "shared/angular_momentum_oblique.h"
 
 #include "shared/momentum_share_oblique.h"
+
+#if defined(FILM_STOPPING) && defined(SHEAR_LOG_FACTOR_FALLS)
+#define SPIN_DOWN_MARGINS (MIDGAP_ARM)
+/* Margins of the spin-down certificate (lever arm at mid-gap, a shear that falls with the gap, L = 0): stays
+ * < 0 and rate > 0 exclude separation; momentum is |L| over its parts at the start, beyond rounding. So do
+ * apart < 0 and inside < 0 where J = 0. */
+static inline void spin_down_margins(const constants *c, const vec *y, vec *stays, vec *rate_margin, vec
+    *apart, vec *inside, vec *momentum)
+{
+    vec distance = c->aspect*y[GAP] + 4.0;
+    vec orbital_rate = y[ORBITAL_MOMENTUM]/(distance*distance);
+    vec shear_end = shear_edge(c->aspect);
+    vec beyond = 0.5*y[GAP] + 0.5*vec_smaller(splat(1.0), shear_end);
+    vec near = c->aspect*c->contact + distance - c->aspect*y[GAP];
+    vec far = c->aspect*beyond + distance - c->aspect*y[GAP];
+    vec leak = shear_log_factor_value(&c->shear_log_factor_law, beyond);
+    vec rate = 0.08333333333333333*c->aspect*leak*(5.0*far*near + 32.0)/(far*c->stokes);
+    *stays =
+        2.0*c->aspect*(distance*distance)*c->stokes*(0.03125*(distance*distance)*(c->obliquity*c->obliquity)*(orbital_rate*orbital_rate)
+        + 0.2*(c->obliquity*c->obliquity)*(y[SPIN]*y[SPIN]))/((near*near*near)*rate) +
+        c->stokes*vec_larger(y[NORMAL_VELOCITY], -c->dry_restitution*y[NORMAL_VELOCITY]) +
+        film_stopping(beyond) - film_stopping(y[GAP]);
+    *rate_margin = rate;
+    *apart = vec_larger(film_stopping(y[GAP]) - y[NORMAL_VELOCITY]*c->stokes - film_stopping(shear_end),
+        c->stokes*vec_larger(y[NORMAL_VELOCITY], -c->dry_restitution*y[NORMAL_VELOCITY]) -
+        film_stopping(y[GAP]));
+    *inside = shear_end - y[GAP];
+    *momentum = c->first_momentum;
+}
+#else
+#define SPIN_DOWN_MARGINS 0
+#endif
 
 #define SLOW_MANIFOLD 0
 

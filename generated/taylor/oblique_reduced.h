@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 c04cf0ac049a4106c4d9829a05b9ff70dd9d8d57fa5442c27a78f869375084c0 */
+ * Equations sha256 c611586f35bcc10135e6fb71d1601fb3cd7b34600b04c5754661e9c9c5af465a */
 
 /* Oblique doublet with a film only, spin eliminated through the conserved angular momentum.
  *
@@ -64,6 +64,8 @@ typedef struct {
     vec tangential_restitution_factor;
     vec energy_per_inverse_inertia_ratio;
     vec slope_per_distance_over_inertia_ratio_squared;
+    vec contact;
+    vec first_momentum;
     vec relaxation_per_combination_by_shear_log_factor_law_over_distance;
     vec edge;
     shear_log_factor_constants shear_log_factor_law;
@@ -110,6 +112,11 @@ static inline void prepare(constants *c)
     c->energy_per_inverse_inertia_ratio = 0.03125*(c->momentum*c->momentum)*(c->obliquity*c->obliquity);
     c->slope_per_distance_over_inertia_ratio_squared =
         -0.0625*c->aspect*(c->momentum*c->momentum)*(c->obliquity*c->obliquity);
+    c->contact = vec_larger(c->elastic_gap, c->rough_gap);
+    c->first_momentum = vec_larger(splat(0.0), vec_larger(6.4*c->initial_spin + c->initial_turning*((c->aspect
+        + 4.0)*(c->aspect + 4.0)), -6.4*c->initial_spin - c->initial_turning*((c->aspect + 4.0)*(c->aspect +
+        4.0)))/(c->initial_turning*((c->aspect + 4.0)*(c->aspect + 4.0)) + vec_larger(-6.4*c->initial_spin,
+        6.4*c->initial_spin)) - 3.552713678800501e-15);
     c->relaxation_per_combination_by_shear_log_factor_law_over_distance =
         0.041666666666666664*c->aspect/c->stokes;
     c->edge = shear_edge(c->aspect);
@@ -248,6 +255,39 @@ static inline vec potential_slope(const constants *c, const vec *y)
 #include "shared/rigid_momentum_oblique_reduced.h"
 
 #include "shared/surface_slip_oblique_reduced.h"
+
+#if defined(FILM_STOPPING) && defined(SHEAR_LOG_FACTOR_FALLS)
+#define SPIN_DOWN_MARGINS (1)
+/* Margins of the spin-down certificate (lever arm at mid-gap, a shear that falls with the gap, L = 0): stays
+ * < 0 and rate > 0 exclude separation; momentum is |L| over its parts at the start, beyond rounding. So do
+ * apart < 0 and inside < 0 where J = 0. */
+static inline void spin_down_margins(const constants *c, const vec *y, vec *stays, vec *rate_margin, vec
+    *apart, vec *inside, vec *momentum_margin)
+{
+    vec distance = c->aspect*y[GAP] + 4.0;
+    vec orbital_rate = y[ORBITAL_MOMENTUM]/(distance*distance);
+    vec spin = 0.15625*c->momentum - 0.15625*y[ORBITAL_MOMENTUM];
+    vec shear_end = shear_edge(c->aspect);
+    vec beyond = 0.5*y[GAP] + 0.5*vec_smaller(splat(1.0), shear_end);
+    vec near = c->aspect*c->contact + distance - c->aspect*y[GAP];
+    vec far = c->aspect*beyond + distance - c->aspect*y[GAP];
+    vec leak = shear_log_factor_value(&c->shear_log_factor_law, beyond);
+    vec rate = 0.08333333333333333*c->aspect*leak*(5.0*far*near + 32.0)/(far*c->stokes);
+    *stays =
+        2.0*c->aspect*(distance*distance)*c->stokes*(0.03125*(distance*distance)*(c->obliquity*c->obliquity)*(orbital_rate*orbital_rate)
+        + 0.2*(c->obliquity*c->obliquity)*(spin*spin))/((near*near*near)*rate) +
+        c->stokes*vec_larger(y[NORMAL_VELOCITY], -c->dry_restitution*y[NORMAL_VELOCITY]) +
+        film_stopping(beyond) - film_stopping(y[GAP]);
+    *rate_margin = rate;
+    *apart = vec_larger(film_stopping(y[GAP]) - y[NORMAL_VELOCITY]*c->stokes - film_stopping(shear_end),
+        c->stokes*vec_larger(y[NORMAL_VELOCITY], -c->dry_restitution*y[NORMAL_VELOCITY]) -
+        film_stopping(y[GAP]));
+    *inside = shear_end - y[GAP];
+    *momentum_margin = c->first_momentum;
+}
+#else
+#define SPIN_DOWN_MARGINS 0
+#endif
 
 #if defined(FILM_RESISTANCE_FALLS) && defined(SHEAR_LOG_FACTOR_FALLS) && !defined(FILM_CAVITATES)
 #define SLOW_MANIFOLD 1

@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Stick certificates sha256 9c39e0df9d68812bc793bbf6fa21e3d91bd1eedc6ee8a6913f86edad149ea4bc
+ * Stick certificates sha256 9f880495be355849ea920e9a0479dd9c3e0c742e55a349ff54e8c9db75e6d7a7
  *
  * Inequalities of stick certificates. Included where `vec` and `mask` are known. */
 
@@ -45,6 +45,14 @@ static inline mask attraction_holds(vec gap, vec contact, double margin, vec hol
 static inline mask stays_below(vec needed, double margin, vec size)
 {
     return (needed < -margin*size);
+}
+
+/* Lanes in which without angular momentum, or without orbital momentum, the film keeps the doublet. */
+static inline mask spins_down(vec gap, vec contact, double margin, vec momentum, vec rate, vec stays, vec
+    error, vec orbital_momentum, vec inside, vec apart)
+{
+    return ((gap >= contact*(1 - margin)) & (((momentum <= 0) & (rate > 0) & (stays < -error)) |
+        ((orbital_momentum == 0) & (inside < 0) & (apart < -error))));
 }
 
 /* Lanes in which a rebound loses more than the rotation gives on the way back to the maximum. */

@@ -38,7 +38,8 @@ def margins(model: Model, constants: Constants, prepared: Mapping[tuple[str, str
             kept, _ = needed(list(each.by_name.values()), model.definitions)
             calls = [slot_calls(sp.sympify(value)) for _, value in (*kept, *each.outputs)]
             names = {tuple(call.func.__name__.split(".")) for several in calls for call in several}
-            required |= {"_".join(name).upper() for name in names - prepared.keys()}
+            optional = {name for name in names - prepared.keys() if any(moves(places()[".".join(name)].arguments))}
+            required |= {"_".join(name).upper() for name in optional}
             body += margin_function(each.name, each.doc, kept, each.by_name, moving, constants, prepared)
         holds = ["MIDGAP_ARM"] * ("arm" in model.slots) + ["LIBRARY_LAWS"] * row.library_only
         condition, macro = " && ".join(f"defined({name})" for name in sorted(required)), f"{row.name.upper()}_MARGINS"

@@ -1,7 +1,7 @@
 """The stick certificates, in the order in which their margins are emitted."""
 
 from ...physics.structure import Structure
-from . import attraction, orbital_momentum, pendulum
+from . import attraction, orbital_momentum, pendulum, spin_down
 from .certificate import Certificate, Enclosed, Proof
 
 CERTIFICATES = (
@@ -33,6 +33,7 @@ CERTIFICATES = (
     pendulum.ROW,
     attraction.ROW,
     orbital_momentum.ROW,
+    spin_down.ROW,
     Certificate(
         "chatter",
         "in space, rebounds take more than the rotation gives on the way back",

@@ -1,5 +1,5 @@
 /* Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`.
- * Equations sha256 f712b9a202542a68cc8d1bc30ee218f28e929c94fc29aa51eee284e74d094124 */
+ * Equations sha256 3df67a51b229b7814eaddce727e39d6f2a7d76418779fd31394dde1f83f27043 */
 
 /* Tangent of oblique.h: derivatives of the states by the groups.
  *

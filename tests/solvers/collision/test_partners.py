@@ -32,6 +32,16 @@ def test_beside_a_wall():
     assert changes[0].stokes == pytest.approx(alone[0].stokes, rel=1e-8)
 
 
+@pytest.mark.parametrize(
+    ("ratio", "outcome"), [(-1.0, "stick"), (-0.99, "stick-rotate-separate"), (1.0, "stick-rotate-separate")]
+)
+def test_spins_that_cancel_leave_nothing_that_opens_a_film(ratio, outcome):
+    """Head-on in a film alone: opposite spins die out and the doublet sticks, proved; any rest of L parts it."""
+    scene = Scene.load("granulation-dry-bridge").with_entries({"impact.spin": 1e5, "impact.partner_spin": ratio * 1e5})
+    one = collide(scene, stokes=0.02, angle="0 deg")
+    assert (one.outcome, one.certified) == (outcome, outcome == "stick")
+
+
 def test_the_json_has_the_partners_spin_only_with_one(capsys):
     """`final_spin_partner` is a key with a [partner] only, and a scene with a wall survives its file."""
     with pytest.raises(SystemExit):

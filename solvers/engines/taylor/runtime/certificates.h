@@ -203,6 +203,23 @@ static mask held_by_attraction(const constants *c, const vec *y, double toleranc
 }
 #endif
 
+#if SPIN_DOWN_MARGINS
+/* Spin-down certificate: without angular momentum the rotation dies out, and the film alone holds the doublet
+ * (derive/equations/certificates/spin_down.py). Beyond the edge of the shear, where nothing turns without orbital
+ * momentum, `rate` is not positive.
+ */
+static inline mask spun_down(const constants *c, const vec *y, mask candidates, double tolerance)
+{
+    candidates &= (c->first_momentum <= 0.0) | (y[ORBITAL_MOMENTUM] == 0.0);
+    if (!bits(candidates))
+        return candidates;
+    vec stays, rate, apart, inside, momentum, error = SAFETY*tolerance*vec_larger(c->stokes, splat(1.0));
+    spin_down_margins(c, y, &stays, &rate, &apart, &inside, &momentum);
+    return candidates & spins_down(y[GAP], contact_gap(c), SAFETY*tolerance, momentum, rate, stays, error,
+        y[ORBITAL_MOMENTUM], inside, apart);
+}
+#endif
+
 /* Whether chatter is ended by a test at maxima of the gap (chatter.h). */
 #if SPACE && ((BRIDGE && !defined(BRIDGE_FORCE_FALLS)) || (ATTRACTION && !defined(ATTRACTION_FORCE_FALLS)))
 #define CHATTER_TESTS 0
@@ -322,6 +339,9 @@ static inline mask held_sticks(const constants *c, const vec *y, mask candidates
     return splat_mask(0);
 #endif
 #endif /* OWN_EVENTS */
+#if SPIN_DOWN_MARGINS
+    return spun_down(c, y, candidates, tolerance);
+#endif
 #if PENDULUM_MARGINS
     return held_by_strings(c, y, candidates, 1, tolerance);
 #endif
