@@ -17,6 +17,7 @@ from .taylor.orders import order_backward, order_for
 from .taylor.record import variant_to_record
 from .taylor.source import Variant
 from .taylor.tangent import variant_of
+from .taylor.undecided import no_kernel
 
 Named = Scene | str | Path
 
@@ -86,8 +87,8 @@ def compile_kernels(
     for scene in loaded:
         if not kernel_supports(scene):
             if compiler() is None:
-                raise ComputationError("there is no C compiler", advice="install one; the other engines answer without")
-            message = "a law of this scene has no Taylor series: the other engines answer"
+                raise no_kernel()
+            message = "a law of this scene has no Taylor series"
             raise ComputationError(f"{scene.name or 'scene'}: {message}")
         for use, oblique, variant in needed(scene, tolerances, derivatives):
             serves = wanted.setdefault(variant, (scene, oblique, []))[2]

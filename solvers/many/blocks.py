@@ -438,7 +438,7 @@ def _agreed(client: Client, by_kernel: bool) -> Mapping[str, str]:
             raise ComputationError(f"workers differ: beside {address} {other}", advice="use workers of one kind")
     if by_kernel and not has_kernel(chosen):
         raise ComputationError(
-            "the workers have no C compiler for the engine taylor", advice="install one there, or choose rosenbrock"
+            "the workers have neither the kernel nor a C compiler", advice="install gcc or clang there"
         )
     return chosen
 

@@ -41,7 +41,7 @@ def collide_many(
         hold: what the scene's impact keeps where other entries vary, as for `Scene.with_entries`; without effect where
             speeds or Stokes numbers are arguments.
         rtol: relative tolerance, 1e-13..1e-3.
-        engine: "taylor" (default), "rosenbrock" (also where there is no C compiler) or "cvodes".
+        engine: "taylor" (default), or "rosenbrock" or "cvodes", which integrate the phases that taylor has found.
         of: what to keep besides outcome and restitution: any number that a `Collision` has, terms of its ledger as
             "energy.capillary" (the ledger is then integrated too, which takes longer), and validity (flags of where the
             model leaves its range, with the results that these need). For contact_time, rotation and until the kernel

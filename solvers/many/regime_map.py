@@ -107,7 +107,7 @@ def regime_map(
         vary: other entries by dotted name (SI), each an axis of its own.
         hold: what the scene's impact keeps where it is no argument, as for `collide_many`.
         rtol: relative tolerance, 1e-13..1e-3.
-        engine: "taylor" (default), "rosenbrock" (also where there is no C compiler) or "cvodes".
+        engine: "taylor" (default), or "rosenbrock" or "cvodes", which integrate the phases that taylor has found.
         of: results as for `collide_many`; by default restitution, tangential_restitution, rotation, contact_time,
             smallest_gap and validity (flags of where the model leaves its range).
         progress: called with (collisions done, collisions in all) after every block.

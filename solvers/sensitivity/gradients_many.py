@@ -125,8 +125,8 @@ def gradients_many(
         of: results by name, as for `sensitivities`.
         rtol: relative tolerance, 1e-13..1e-3.
         hold: quantity held when another parameter varies, as for `sensitivities`.
-        engine: "taylor" (default), or "rosenbrock" (also where the kernel lacks a result, or
-            there is no C compiler) or "cvodes", which take them one after another.
+        engine: "taylor" (default), or "rosenbrock" (also where the kernel lacks a result) or
+            "cvodes", which take them one after another.
 
     Returns:
         Dataset: value (quantity, collision); gradient and elasticity (quantity, collision, parameter), SI; outcome and

@@ -51,8 +51,8 @@ def sensitivities(
         method: "forward" has a cost proportional to the number of parameters, "adjoint" to that of results.
         rtol: relative tolerance, 1e-13..1e-3.
         engine: "cvodes", "rosenbrock", or "taylor" (forward; what the kernel does not know is
-            rosenbrock's); None: taylor where it can answer, else rosenbrock, which needs no compiler and is more
-            accurate than cvodes.
+            rosenbrock's); None: taylor where it can answer, else rosenbrock, which is more accurate than
+            cvodes.
         hold: quantity held when another parameter varies, the impact's "speed", "stokes" number or "relative_speed";
             None for the relative speed where the scene gives that, else the speed.
 

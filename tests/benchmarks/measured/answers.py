@@ -2,7 +2,6 @@
 
 from dataclasses import dataclass
 
-from wetdoublet.solvers.engines.casadi.locate import EventSequence
 from wetdoublet.solvers.model.dimensionless import Problem, nondimensionalise
 from wetdoublet.solvers.scene.scene import Scene
 
@@ -26,9 +25,3 @@ class Answer:
 def dimensionless(scene: Scene, impact: Impact) -> Problem:
     """Dimensionless groups of a scene's collision."""
     return nondimensionalise(scene, scene.speed_of(impact.stokes), impact.angle)
-
-
-def answer(path: EventSequence) -> Answer:
-    """The answer of a located trajectory."""
-    outputs = path.model.values("outputs", path.y, path.p) if path.separated else {}
-    return Answer(path.outcome, outputs.get("restitution", 0.0))

@@ -113,7 +113,7 @@ def variational_heyoka(asked: Gradients, copies: int, rtol: float, alone: bool) 
 
     inside = Inside()
     slopes = np.tile(asked.slopes, (copies, 1, 1))
-    batch = prepare(asked.scene, asked.numbers * copies, slopes, rtol, watch=inside if alone else None)
+    batch = prepare(asked.numbers * copies, slopes, rtol, watch=inside if alone else None)
 
     def run() -> np.ndarray:
         inside.reset()

@@ -30,7 +30,6 @@ COPIES, FEW = 20, 2  # of the set in one call of taylor and of heyoka, which cre
 PATIENCE = 20_000  # steps of heyoka a collision
 REPEATS = 3  # the best of so many calls counts
 RESOLVED = 1e2  # times the tolerance: a trajectory nearer than that may end on the other side
-THROUGH = "rosenbrock, compiled"
 
 
 @dataclass(frozen=True)
@@ -53,7 +52,7 @@ def beside(distance: float) -> list[Side]:
 def near(tell: Callable[[str], None] = lambda _: None) -> list[Record]:
     """CPU time (s) of a collision, failures and wrong outcomes, by tolerance, distance and engine."""
     scene = Scene.load(PRESET)
-    listed = [each for each in engines() if each.name in ("taylor", THROUGH, HEYOKA) and not each.missing]
+    listed = [each for each in engines() if each.name in ("taylor", HEYOKA) and not each.missing]
     rows: list[Record] = []
     for rtol, distance in product(RTOLS, DISTANCES):
         tell(f"near the separatrix: {rtol:.0e}, {distance:.0e}")
@@ -109,7 +108,7 @@ NOTE = (
     f"Granulation at {', '.join(f'{each:g}' for each in SEPARATRIX)} deg, both sides of the Stokes number at which a "
     "stick becomes something else (by bisection at rtol 1e-13). CPU time of a collision, mean of both sides, one core; "
     f"taylor gets the set {COPIES} times in one call, heyoka {FEW} times with {PATIENCE} steps a collision. "
-    f"`{THROUGH}` is `collide_many`. Where the distance is below {RESOLVED:g} rtol no engine can tell "
+    f"Where the distance is below {RESOLVED:g} rtol no engine can tell "
     "the side; there a wrong outcome does not count. One that heyoka gives up has lost the level that proves a "
     "stick."
 )

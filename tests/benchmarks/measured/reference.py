@@ -5,16 +5,14 @@ from dataclasses import dataclass
 from importlib.util import find_spec
 
 from wetdoublet.solvers.collision.collide import collide
-from wetdoublet.solvers.engines.casadi.locate import locate
 from wetdoublet.solvers.errors import ComputationError
-from wetdoublet.solvers.model.model import load, select_model
 from wetdoublet.solvers.scene.scene import Scene
 
-from .answers import Answer, Impact, answer, dimensionless
-from .peers.scipy_engine import ScipyLocator
+from .answers import Answer, Impact, dimensionless
+from .peers.scipy_engine import ScipyAutomaton
 
 RTOL = 1e-13
-_CVODES_RTOLS = (1e-13, 1e-12, 1e-11)  # the tightest that it completes
+_RTOLS = (RTOL, 1e-12, 1e-11)  # of our engines
 
 
 @dataclass(frozen=True)
@@ -52,34 +50,32 @@ def reference(scene: Scene, impact: Impact) -> Reference:
 
     The others, Rosenbrock and CVODES at tolerances as tight as they take, say how far it can be trusted.
     """
-    n = dimensionless(scene, impact)
-    model = load(select_model(scene, n.oblique))
-    path = locate(model, n.groups, RTOL)
-    found = {"rosenbrock": answer(path)}
-    if path.time > 0:
+    touch = collide(scene, stokes=impact.stokes, angle=impact.angle, engine="taylor", ledger=False)
+    answers = {"rosenbrock": _replayed(scene, impact, "rosenbrock")}
+    if touch.until != 0:
         if find_spec("scipy"):
-            found = {"DOP853": answer(ScipyLocator(model, n.groups, RTOL, "DOP853").run())} | found
-        cvodes = _cvodes(scene, impact)
-        if cvodes is not None:
-            found["cvodes"] = cvodes
-    first = next(iter(found.values()))
-    outcomes = {name: each.outcome for name, each in found.items()}
+            answers = {"DOP853": ScipyAutomaton(dimensionless(scene, impact), RTOL, "DOP853").run()} | answers
+        answers["cvodes"] = _replayed(scene, impact, "cvodes")
+    computed = {name: answer for name, answer in answers.items() if answer is not None}
+    outcomes = {name: answer.outcome for name, answer in computed.items()}
+    first = next(iter(computed.values()))
     return Reference(
         impact,
         first.outcome,
         first.restitution,
-        decided=path.time == 0,
-        difference=max(abs(each.restitution - first.restitution) for each in found.values()),
-        computed={name: each.restitution for name, each in found.items()},
+        decided=touch.until == 0,
+        difference=max(abs(answer.restitution - first.restitution) for answer in computed.values()),
+        computed={name: answer.restitution for name, answer in computed.items()},
         problem="" if len(set(outcomes.values())) == 1 else f"the references disagree: {outcomes}",
     )
 
 
-def _cvodes(scene: Scene, impact: Impact) -> Answer | None:
-    for rtol in _CVODES_RTOLS:
+def _replayed(scene: Scene, impact: Impact, engine: str) -> Answer | None:
+    """By an engine of ours, at the tightest tolerance that it completes."""
+    for rtol in _RTOLS:
         try:
-            found = collide(scene, stokes=impact.stokes, angle=impact.angle, rtol=rtol, engine="cvodes", ledger=False)
+            result = collide(scene, stokes=impact.stokes, angle=impact.angle, rtol=rtol, engine=engine, ledger=False)
         except ComputationError:
             continue
-        return Answer(found.outcome, found.restitution)
+        return Answer(result.outcome, result.restitution) if result.engine == engine else None
     return None

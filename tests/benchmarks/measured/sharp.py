@@ -7,12 +7,10 @@ from typing import Any
 
 import numpy as np
 from wetdoublet.generated.automaton import CRITERIA
-from wetdoublet.solvers.engines.casadi.locate import EventLocator
 from wetdoublet.solvers.model.dimensionless import Problem
-from wetdoublet.solvers.model.model import load, select_model
-from wetdoublet.solvers.scene.scene import Scene
 
 from .gradient_task import Gradients
+from .peers.automaton import automata
 from .peers.engines import KERNEL, engines
 from .peers.heyoka_engine import HORIZON, starts, system
 from .tasks import TASKS
@@ -52,16 +50,14 @@ class _Trajectory:
         return rebounds if event in CRITERIA else edge if event == "film_edge" else ends
 
 
-def long_double(scene: Scene, numbers: Sequence[Problem], rtol: float) -> np.ndarray:
+def long_double(numbers: Sequence[Problem], rtol: float) -> np.ndarray:
     """e_n of collisions that separate, by heyoka's Taylor integrator in 80-bit numbers; NaN where one does not."""
     import heyoka
 
-    choice = select_model(scene, True)
-    groups = [each.groups for each in numbers]
-    equations = system(choice, groups, None)
-    trajectories = [EventLocator(load(choice), each, 1e-13) for each in groups]
-    trajectory = _Trajectory(dry=np.longdouble(groups[0]["dry_restitution"]), film=len(equations.varying))
-    begun = starts(trajectories, numbers, equations.varying)
+    followed = automata(numbers, 1e-13)
+    equations = system(followed[0].model.choice, [each.groups for each in numbers], "")
+    trajectory = _Trajectory(dry=np.longdouble(numbers[0].groups["dry_restitution"]), film=len(equations.varying))
+    begun = starts(followed, equations.varying)
     either, falling = heyoka.event_direction.any, heyoka.event_direction.negative
     states = [start.state[: len(equations.rates)].astype(np.longdouble) for start in begun]  # no work of the bridge
     trajectory.integrator = ta = heyoka.taylor_adaptive(
@@ -102,7 +98,7 @@ def sharp(tell: Callable[[str], None] = lambda _: None) -> list[Record]:
     for task in TASKS:
         asked = Gradients.of(task)
         tell(f"{task.preset}: 80-bit values")
-        first, truth = (long_double(asked.scene, asked.numbers, rtol) for rtol in (TIGHT, TIGHTER))
+        first, truth = (long_double(asked.numbers, rtol) for rtol in (TIGHT, TIGHTER))
         slope = asked.truth[:, asked.names.index("impact.speed")]
         conditioning = np.maximum(1.0, np.abs(slope / truth.astype(float)))
         rows = []

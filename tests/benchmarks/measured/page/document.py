@@ -61,7 +61,7 @@ A point is one engine at one tolerance: mean CPU time of a collision that is not
 core, against the largest absolute error in e_n among those that separate.
 
 * **The same for all**: the emitted equations, the stop rule, the stick certificate with its margin.
-* **`cvodes`, `rosenbrock`** are `collide(ledger=False)` as a user calls it: located, then integrated by the engine.
+* **`cvodes`, `rosenbrock`** are `collide(ledger=False)` as a user calls it: the kernel's phases, replayed.
 * **Engines of many collisions** get the whole set twenty times in one call, `taylor` and heyoka so often that there
   are 1000; compilation is not counted. `taylor` is `collide_many` of outcome and restitution, "kernel alone" leaves out
   what that adds.

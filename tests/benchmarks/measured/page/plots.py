@@ -16,7 +16,6 @@ Record = dict[str, Any]
 _STYLES = {  # Okabe-Ito colours, a marker each, peers dashed
     "cvodes": ("#0072B2", "o", "-"),
     "rosenbrock": ("#D55E00", "s", "-"),
-    "rosenbrock, compiled": ("#009E73", "D", "-"),
     "taylor": ("#E69F00", "*", "-"),
     "taylor, kernel alone": ("#E69F00", "1", ":"),
     "heyoka, batch of 8": ("#56B4E9", "P", "--"),

@@ -8,12 +8,10 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
-from wetdoublet.solvers.engines.casadi.locate import EventLocator
-from wetdoublet.solvers.errors import ComputationError
-from wetdoublet.solvers.model.model import load, select_model
 from wetdoublet.solvers.scene.scene import Scene
 
 from ..answers import Answer, Impact, dimensionless
+from .automaton import CERTIFIED, automata
 from .bulk import Bulk
 from .heyoka_engine import starts
 from .translated import translated
@@ -28,15 +26,12 @@ def collisions(scene: Scene, impacts: Sequence[Impact], rtol: float) -> Bulk:
 
     jax.config.update("jax_enable_x64", True)
     numbers = [dimensionless(scene, impact) for impact in impacts]
-    choice = select_model(scene, numbers[0].oblique)
-    trajectories = [EventLocator(load(choice), each.groups, min(rtol, 1e-6)) for each in numbers]
-    if any(trajectory.watch.tangential_edge or trajectory.model.choice != choice for trajectory in trajectories):
-        raise ComputationError("the tangential edge lies within reach, or head-on is mixed with oblique")
-    names = tuple(trajectories[0].model.groups)
-    begun = starts(trajectories, numbers, names)
+    followed = automata(numbers, rtol)
+    choice, names = followed[0].model.choice, tuple(followed[0].model.groups)
+    begun = starts(followed, names)
     states, parameters = (np.array([getattr(each, name) for each in begun]) for name in ("state", "parameters"))
     rebound = np.array([each.reversed for each in begun])
-    run = jax.jit(jax.vmap(trajectory(choice, names, trajectories[0].watch.certificate, rtol)))
+    run = jax.jit(jax.vmap(trajectory(choice, names, followed[0].proof, rtol)))
 
     def every() -> list[np.ndarray]:
         return [np.asarray(each) for each in run(states, parameters, rebound)]
@@ -54,7 +49,7 @@ def collisions(scene: Scene, impacts: Sequence[Impact], rtol: float) -> Bulk:
     return Bulk(every, read)
 
 
-def trajectory(choice: Any, names: tuple[str, ...], proved: str | None, rtol: float) -> Callable[..., Any]:
+def trajectory(choice: Any, names: tuple[str, ...], proved: str, rtol: float) -> Callable[..., Any]:
     """The trajectory of one collision as a function that jax can transform."""
     import diffrax
     import jax
@@ -86,18 +81,18 @@ def trajectory(choice: Any, names: tuple[str, ...], proved: str | None, rtol: fl
             found["film_edge"] = (2 * film - 1) * table["film_edge"]
         if proved == "energy":
             energy = sum(structure.energies(state, groups, laws).values())
-            found["certified"] = energy + (y[-1] if bridge else 0.0) - level
+            found[CERTIFIED] = energy + (y[-1] if bridge else 0.0) - level
         elif proved == "pendulum":
             held = structure.pendulum_margins(state, groups, laws)
             inward = held["outward"] - held["pull"]
-            found["certified"] = jnp.maximum(inward, jnp.maximum(held["film"], held["recoil"])) + level
+            found[CERTIFIED] = jnp.maximum(inward, jnp.maximum(held["film"], held["recoil"])) - level
         return found
 
     def watched(name: str) -> Callable[..., Any]:
         return lambda t, y, args, **_: events(y, args)[name]
 
     width = len(states) + int(proved == "energy" and bridge)
-    known = [name for name in ("glass", "contact", "rupture", "half_turn", "unwinding", "film_edge", "certified")
+    known = [name for name in ("glass", "contact", "rupture", "half_turn", "unwinding", "film_edge", CERTIFIED)
              if name in jax.eval_shape(events, jnp.zeros(width), jnp.ones(len(names) + 3))]  # fmt: skip
     event = diffrax.Event(
         [watched(name) for name in known],
@@ -120,9 +115,9 @@ def trajectory(choice: Any, names: tuple[str, ...], proved: str | None, rtol: fl
         y = y.at[1].set(speed)
         if bridge:
             args = args.at[len(names)].set(jnp.where(hit["film_edge"], 1 - args[len(names)], args[len(names)]))
-        stuck = hit.get("half_turn", False) | hit.get("unwinding", False) | hit.get("certified", False)
+        stuck = hit.get("half_turn", False) | hit.get("unwinding", False) | hit.get(CERTIFIED, False)
         if proved:
-            stuck = stuck | (rebounds & (events(y, args)["certified"] < 0))
+            stuck = stuck | (rebounds & (events(y, args)[CERTIFIED] < 0))
         any_hit = jnp.any(jnp.stack(list(hit.values())))
         ended = jnp.where(hit["rupture"], SEPARATED, jnp.where(stuck, _STUCK, jnp.where(any_hit, _RUNNING, _FAILED)))
         args = args.at[-2].set(jnp.where(ended == _RUNNING, 1.0, 0.0))

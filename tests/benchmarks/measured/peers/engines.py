@@ -9,15 +9,14 @@ from typing import Any
 import numpy as np
 from wetdoublet.generated.automaton import LOOSEST, OUTCOMES
 from wetdoublet.solvers.collision.collide import collide
-from wetdoublet.solvers.engines.settings import ENGINES
+from wetdoublet.solvers.engines.settings import CASADI_ENGINES
 from wetdoublet.solvers.host.compiler import compiler
 from wetdoublet.solvers.many.collide_many import collide_many
-from wetdoublet.solvers.model.model import load, select_model
 from wetdoublet.solvers.scene.scene import Scene
 
-from ..answers import Answer, Impact, answer, dimensionless
+from ..answers import Answer, Impact, dimensionless
 from .bulk import Bulk, Collide, Partly
-from .scipy_engine import ScipyLocator
+from .scipy_engine import ScipyAutomaton
 
 
 @dataclass(frozen=True)
@@ -47,35 +46,24 @@ HEYOKA_ALONE = "heyoka, without callbacks"
 def engines() -> tuple[Engine, ...]:
     """All engines, those that are missing here included."""
     scipy = _absent("scipy")
-    chained = [Engine(name, one=partial(_chained, name)) for name in ENGINES if name in ("cvodes", "rosenbrock")]
     absent = "" if compiler() else "no C compiler (cc, gcc, clang)"
-    bulk = [
-        Engine(in_bulk(name), many=partial(_many, name), fast=name == "taylor", missing=absent)
-        for name in ENGINES
-        if name != "cvodes"
-    ]
     return (
-        *chained,
-        *bulk,
+        *(Engine(name, one=partial(_one, name)) for name in CASADI_ENGINES),
+        Engine("taylor", many=_many, fast=True, missing=absent),
         Engine(KERNEL, many=_kernel, fast=True, missing=absent),
-        Engine(HEYOKA, many=_heyoka, fast=True, missing=_absent("heyoka")),
-        Engine(HEYOKA_ALONE, many=_heyoka_alone, fast=True, missing=_absent("heyoka")),
+        Engine(HEYOKA, many=partial(_heyoka, False), fast=True, missing=_absent("heyoka")),
+        Engine(HEYOKA_ALONE, many=partial(_heyoka, True), fast=True, missing=_absent("heyoka")),
         Engine("diffrax Tsit5", many=_diffrax, missing=_absent("diffrax")),
         Engine("scipy LSODA", one=partial(_peer, "LSODA"), builds=False, missing=scipy),
         Engine("scipy Radau", one=partial(_peer, "Radau"), builds=False, missing=scipy),
     )
 
 
-def in_bulk(engine: str) -> str:
-    """What an engine is called where `collide_many` is measured."""
-    return "rosenbrock, compiled" if engine == "rosenbrock" else engine
-
-
 def _absent(module: str, package: str = "") -> str:
     return "" if find_spec(module) else f"{package or module} is not installed (pip install wetdoublet[bench])"
 
 
-def _chained(plugin: str, scene: Scene, impacts: Sequence[Impact], rtol: float) -> Collide:
+def _one(plugin: str, scene: Scene, impacts: Sequence[Impact], rtol: float) -> Collide:
     """`collide`, as a user calls it."""
 
     def one(k: int) -> Answer:
@@ -91,7 +79,7 @@ def _columns(impacts: Sequence[Impact]) -> tuple[np.ndarray, np.ndarray]:
     return tuple(np.array([getattr(each, name) for each in impacts]) for name in ("stokes", "angle"))  # type: ignore[return-value]  # two
 
 
-def _many(engine: str, scene: Scene, impacts: Sequence[Impact], rtol: float) -> Bulk:
+def _many(scene: Scene, impacts: Sequence[Impact], rtol: float) -> Bulk:
     """`collide_many` of outcome and restitution, as a user calls it."""
     stokes, angle = _columns(impacts)
 
@@ -99,11 +87,11 @@ def _many(engine: str, scene: Scene, impacts: Sequence[Impact], rtol: float) -> 
         found = zip(data["outcome"].values.tolist(), data["restitution"].values.tolist(), data["reason"].values)
         return [str(why) if outcome < 0 else Answer(OUTCOMES[outcome], e_n) for outcome, e_n, why in found]
 
-    return Bulk(lambda: collide_many(scene, stokes=stokes, angle=angle, rtol=rtol, engine=engine), read)
+    return Bulk(lambda: collide_many(scene, stokes=stokes, angle=angle, rtol=rtol, engine="taylor"), read)
 
 
 def _kernel(scene: Scene, impacts: Sequence[Impact], rtol: float) -> Bulk:
-    """The Taylor kernel without what `collide_many` adds: checks, what the kernel hands over, labels."""
+    """The Taylor kernel without what `collide_many` adds: checks, labels."""
     from wetdoublet.solvers.engines.taylor.call import Impacts, run_kernel
 
     stokes, angle = _columns(impacts)
@@ -112,41 +100,34 @@ def _kernel(scene: Scene, impacts: Sequence[Impact], rtol: float) -> Bulk:
     def read(found: Any) -> list[Answer | str]:
         rows = zip(found["status"].tolist(), found["outcome"].tolist(), found["shown"][:, 0].tolist())
         return [
-            Answer(OUTCOMES[outcome], e_n if outcome else 0.0) if status <= 1 else f"handed over ({status})"
+            Answer(OUTCOMES[outcome], e_n if outcome else 0.0) if status <= 1 else f"undecided ({status})"
             for status, outcome, e_n in rows
         ]
 
     return Bulk(lambda: run_kernel(given, rtol), read)
 
 
-def _heyoka(scene: Scene, impacts: Sequence[Impact], rtol: float) -> Bulk:
-    """All collisions through one queue."""
-    from .heyoka_engine import collisions
+def _heyoka(alone: bool, scene: Scene, impacts: Sequence[Impact], rtol: float) -> Bulk:
+    """All collisions through one queue.
 
-    return _queue(collisions(scene, impacts, min(rtol, LOOSEST)))  # looser, its energy misses the level of a proof
-
-
-def _heyoka_alone(scene: Scene, impacts: Sequence[Impact], rtol: float) -> Bulk:
-    """The same, of which the time in Python does not count: no more than somebody who calls it from C++ would wait."""
+    Arguments:
+        alone: the time in Python's callbacks does not count: no more than somebody waits who calls it from C++.
+    """
     from .heyoka_callbacks import Inside
     from .heyoka_engine import collisions
 
-    inside = Inside()
-    bulk = _queue(collisions(scene, impacts, min(rtol, LOOSEST), watch=inside))
+    inside = Inside()  # looser than LOOSEST, its energy misses the level of a proof
+    batch = collisions(scene, impacts, min(rtol, LOOSEST), watch=inside if alone else None)
 
     def run() -> None:
         inside.reset()
-        bulk.run()
+        batch.run()
 
-    return Bulk(Partly(run, inside.left_out), bulk.read)
-
-
-def _queue(batch: Any) -> Bulk:
     def read(_: None) -> list[Answer | str]:
         pairs = zip(batch.outcomes, batch.restitutions)
         return [Answer(outcome, e_n) if outcome else "not decided" for outcome, e_n in pairs]
 
-    return Bulk(batch.run, read)
+    return Bulk(Partly(run, inside.left_out) if alone else run, read)
 
 
 def _diffrax(scene: Scene, impacts: Sequence[Impact], rtol: float) -> Bulk:
@@ -160,7 +141,6 @@ def _peer(method: str, scene: Scene, impacts: Sequence[Impact], rtol: float) -> 
     """The same collision by a method of scipy."""
 
     def one(k: int) -> Answer:
-        n = dimensionless(scene, impacts[k])
-        return answer(ScipyLocator(load(select_model(scene, n.oblique)), n.groups, rtol, method).run())
+        return ScipyAutomaton(dimensionless(scene, impacts[k]), rtol, method).run()
 
     return one

@@ -12,16 +12,12 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
-from wetdoublet.generated.automaton import CRITERIA, SAFETY
-from wetdoublet.solvers.certificates.choice import energy_proof
-from wetdoublet.solvers.engines.casadi.locate import EventLocator
-from wetdoublet.solvers.errors import ComputationError
 from wetdoublet.solvers.model.dimensionless import Problem
 from wetdoublet.solvers.model.key import ModelKey
-from wetdoublet.solvers.model.model import load, select_model
 from wetdoublet.solvers.scene.scene import Scene
 
 from ..answers import Impact, dimensionless
+from .automaton import CERTIFIED, Automaton, automata
 from .heyoka_callbacks import Inside
 from .translated import translated
 
@@ -58,16 +54,14 @@ class System:
         events: by name; `film_edge` may cross either way, the others fall through zero. Whether a doublet turned or
             fell back decides nothing here.
         varying: groups that are runtime parameters, in their order; then film, active and level.
-        margin: the pendulum certificate's largest margin as a compiled function, where it is what proves a stick.
     """
 
     rates: list[tuple[Any, Any]]
     events: dict[str, Any]
     varying: tuple[str, ...]
-    margin: Any = None
 
 
-def system(choice: ModelKey, groups: Sequence[Mapping[str, float]], proved: str | None, inside: bool = False) -> System:
+def system(choice: ModelKey, groups: Sequence[Mapping[str, float]], proved: str, inside: bool = False) -> System:
     """The equations of these collisions; what is the same for all of them is written in.
 
     Arguments:
@@ -89,7 +83,6 @@ def system(choice: ModelKey, groups: Sequence[Mapping[str, float]], proved: str 
         events["elastic"] = found["elastic"]
     events["rough"] = found["rough"]
     events["rupture"] = found["rupture"]
-    margin = None
     if inside:
         events["inside"] = y["gap"] - heyoka.par[len(varying) + 3]
     if bridge:
@@ -101,14 +94,12 @@ def system(choice: ModelKey, groups: Sequence[Mapping[str, float]], proved: str 
             rate = structure.energy_rates(y, p, laws, film, 1)["capillary"]
             rates.append((work, active * rate))
             energy = energy + work
-        events["certified"] = energy - level
+        events[CERTIFIED] = energy - level
     elif proved == "pendulum":
         held, larger = structure.pendulum_margins(y, p, laws), elementary("fmax")
         inward = held["outward"] - held["pull"]
-        largest = larger(inward, larger(held["film"], held["recoil"]))
-        events["certified"] = largest + level
-        margin = heyoka.cfunc([largest], vars=list(y.values()))
-    return System(rates, events, varying, margin)
+        events[CERTIFIED] = larger(inward, larger(held["film"], held["recoil"])) - level
+    return System(rates, events, varying)
 
 
 @dataclass
@@ -126,7 +117,7 @@ class Start:
     state: np.ndarray
     parameters: np.ndarray
     reversed: bool
-    locator: EventLocator
+    automaton: Automaton
 
 
 @dataclass
@@ -136,7 +127,6 @@ class Batch:
     Arguments:
         dry: restitution of the dry contact.
         steps: of a collision, on average, after which all are given up.
-        margin: as of `System`.
     """
 
     integrator: Any = None
@@ -149,7 +139,31 @@ class Batch:
     steps: int = STEPS
     outcomes: list[str] = field(default_factory=list)
     restitutions: list[float] = field(default_factory=list)
-    margin: Any = None
+
+    def build(self, rates: Any, events: Mapping[str, Any], rtol: float, watch: Inside | None) -> None:
+        """Compile the integrator; `watch` takes the time within callbacks."""
+        import heyoka
+
+        either, falling = heyoka.event_direction.any, heyoka.event_direction.negative
+        self.lanes = [Lane() for _ in range(BATCH)]
+        first = self.starts[0]
+        self.integrator = heyoka.taylor_adaptive_batch(
+            rates,
+            state=np.repeat(first.state[:, None], BATCH, axis=1),
+            pars=np.repeat(first.parameters[:, None], BATCH, axis=1),
+            t_events=[
+                heyoka.t_event_batch(
+                    guard,
+                    callback=watch.watched(self.callback(name)) if watch else self.callback(name),
+                    direction=either if name == "film_edge" else falling,
+                )
+                for name, guard in events.items()
+            ],
+            tol=rtol,
+            compact_mode=False,
+            force_avx512=True,
+            fast_math=True,
+        )
 
     def run(self) -> None:
         """All collisions, once."""
@@ -178,15 +192,7 @@ class Batch:
         return True
 
     def _proved(self, lane: int) -> bool:
-        locator = self.starts[self.lanes[lane].collision].locator
-        if not locator.watch.certificate:
-            return False
-        if self.margin is not None:
-            state, parameters = self.integrator.state[:, lane], self.integrator.pars[: self.margin.nparams, lane]
-            (largest,) = self.margin(state.copy(), pars=parameters.copy())
-            return bool(largest < -SAFETY * locator.proof.rtol)
-        proof = energy_proof(locator.proof) or locator.proof  # the cheap one alone, as in the kernel
-        return proof.decided(self.integrator.state[:, lane].copy(), locator.phase)
+        return self.starts[self.lanes[lane].collision].automaton.sticks(self.integrator.state[:, lane].copy())
 
     def ended(self, lane: int, separated: bool) -> bool:
         """Record how a collision ended and take the next."""
@@ -214,8 +220,7 @@ class Batch:
 
         def inside(ta: Any, _: int, lane: int) -> bool:
             """A barrier inside the film is ahead from here on."""
-            locator = self.starts[self.lanes[lane].collision].locator
-            level = locator.proof.level(ta.state[:, lane].copy(), locator.phase)
+            level = self.starts[self.lanes[lane].collision].automaton.level(ta.state[:, lane].copy())
             ta.pars[self.film + 2, lane] = _NEVER if level is None else level
             return self.ended(lane, False) if self._proved(lane) else True
 
@@ -226,7 +231,7 @@ class Batch:
             """The series is that of the largest margin where the step began, and another may be larger by now."""
             return self.ended(lane, False) if self._proved(lane) else True
 
-        if event == "certified" and self.margin is not None:
+        if event == CERTIFIED and self.starts[0].automaton.proof == "pendulum":
             return margins
         if event == "inside":
             return inside
@@ -236,15 +241,7 @@ class Batch:
         return lambda _ta, _sign, lane: self.ended(lane, separated)
 
 
-def prepare(
-    scene: Scene,
-    numbers: Sequence[Problem],
-    rtol: float,
-    size: int = BATCH,
-    inside: bool = False,
-    watch: Inside | None = None,
-    **options: Any,
-) -> Batch:
+def prepare(numbers: Sequence[Problem], rtol: float, inside: bool = False, watch: Inside | None = None) -> Batch:
     """An integrator for these collisions, compiled, with its queue.
 
     Arguments:
@@ -252,76 +249,41 @@ def prepare(
             is not proved without.
         watch: takes the time within callbacks.
 
-    ComputationError for what it does not do: a tangential edge within reach, a mixture of head-on and oblique.
+    ComputationError as of `automata`.
     """
-    import heyoka
-
-    choice = select_model(scene, numbers[0].oblique)
-    if any(select_model(scene, each.oblique) != choice for each in numbers):
-        raise ComputationError("head-on and oblique collisions are different structures")
-    model = load(choice)
-    locators = [EventLocator(model, each.groups, min(rtol, 1e-6)) for each in numbers]
-    if any(locator.watch.tangential_edge for locator in locators):
-        raise ComputationError("the tangential edge lies within reach")
-    proved = locators[0].proof.watches
-    equations = system(choice, [each.groups for each in numbers], proved, inside)
-    batch = Batch(dry=numbers[0].groups["dry_restitution"], film=len(equations.varying), margin=equations.margin)
-    batch.starts = starts(locators, numbers, equations.varying)
+    followed = automata(numbers, rtol)
+    proved = followed[0].proof
+    equations = system(followed[0].model.choice, [each.groups for each in numbers], proved, inside)
+    batch = Batch(dry=numbers[0].groups["dry_restitution"], film=len(equations.varying))
+    batch.starts = starts(followed, equations.varying)
     if inside:
-        for start in batch.starts:
-            start.parameters = np.append(start.parameters, _below(start))
+        for start in batch.starts:  # just below the outermost barrier
+            outermost = max((barrier.gap for barrier in start.automaton.barriers), default=0.0)
+            start.parameters = np.append(start.parameters, outermost * (1 - 1e-12))
     if not proved:  # heyoka wants no parameter that is not used
         for start in batch.starts:
             start.parameters = start.parameters[:-1]
-    batch.lanes = [Lane() for _ in range(size)]
-    either, falling = heyoka.event_direction.any, heyoka.event_direction.negative
-    events = [
-        heyoka.t_event_batch(
-            expression,
-            callback=watch.watched(batch.callback(name)) if watch else batch.callback(name),
-            direction=either if name == "film_edge" else falling,
-        )
-        for name, expression in equations.events.items()
-    ]
-    first = batch.starts[0]
-    batch.integrator = heyoka.taylor_adaptive_batch(
-        equations.rates,
-        state=np.repeat(first.state[:, None], size, axis=1),
-        pars=np.repeat(first.parameters[:, None], size, axis=1),
-        t_events=events,
-        tol=rtol,
-        **({"compact_mode": False, "force_avx512": True, "fast_math": True} | options),
-    )
+    batch.build(equations.rates, equations.events, rtol, watch)
     return batch
 
 
-def _below(start: Start) -> float:
-    """The gap just below the outermost barrier."""
-    proof = energy_proof(start.locator.proof)
-    barriers = () if proof is None else proof.barriers(start.locator.y)
-    return max((barrier.gap for barrier in barriers), default=0.0) * (1 - 1e-12)
-
-
-def starts(locators: Sequence[EventLocator], numbers: Sequence[Problem], varying: Sequence[str]) -> list[Start]:
+def starts(followed: Sequence[Automaton], varying: Sequence[str]) -> list[Start]:
     """State and parameters at initial contact; one that meets a criterion there rebounds there.
 
     Parameters are the groups named, then film, active and level.
     """
-    found = []
-    for locator, each in zip(locators, numbers):
-        y, film, rebound = locator.y, 1.0, False
-        values = locator.model.values("events", y, locator.p)
-        if min(values[name] for name in CRITERIA) <= 0:
-            after = locator.model.values("rebound", y, locator.p)
-            y, film, rebound = np.concatenate([list(after.values()), y[len(after) :]]), 0.0, True
-        level = locator.proof.level(y, locator.phase) if locator.watch.certificate else None
-        parameters = [*(each.groups[name] for name in varying), film, 1.0, _NEVER if level is None else level]
-        found.append(Start(y, np.array(parameters), rebound, locator))
-    return found
+    begun = []
+    for automaton in followed:
+        if word := automaton.criterion():
+            automaton.rebound(word)
+        level, film = automaton.level(automaton.y), float(automaton.phase.film)
+        parameters = [*(automaton.groups[name] for name in varying), film, 1.0, _NEVER if level is None else level]
+        begun.append(Start(automaton.y, np.array(parameters), automaton.reversed, automaton))
+    return begun
 
 
 def collisions(
     scene: Scene, impacts: Sequence[Impact], rtol: float, inside: bool = False, watch: Inside | None = None
 ) -> Batch:
     """The batch of a scene's impacts; as `prepare`."""
-    return prepare(scene, [dimensionless(scene, impact) for impact in impacts], rtol, inside=inside, watch=watch)
+    return prepare([dimensionless(scene, impact) for impact in impacts], rtol, inside=inside, watch=watch)

@@ -15,15 +15,12 @@ from typing import Any
 
 import numpy as np
 from wetdoublet.generated.automaton import CRITERIA
-from wetdoublet.solvers.engines.casadi.locate import EventLocator
-from wetdoublet.solvers.errors import ComputationError
 from wetdoublet.solvers.model.dimensionless import Problem
 from wetdoublet.solvers.model.key import ModelKey
-from wetdoublet.solvers.model.model import load, select_model
-from wetdoublet.solvers.scene.scene import Scene
 
+from .automaton import Automaton, automata
 from .heyoka_callbacks import Inside
-from .heyoka_engine import BATCH, Batch, Lane, Start, as_expression, elementary
+from .heyoka_engine import Batch, Start, as_expression, elementary
 from .translated import translated
 
 _OWN_GROUP = {"glass": "glass_number", "elastic": "elastic_gap", "rough": "rough_gap"}
@@ -236,66 +233,34 @@ class Gradients(Batch):
         return found
 
 
-def prepare(
-    scene: Scene,
-    numbers: Sequence[Problem],
-    slopes: np.ndarray,
-    rtol: float,
-    size: int = BATCH,
-    watch: Inside | None = None,
-    **options: Any,
-) -> Gradients:
+def prepare(numbers: Sequence[Problem], slopes: np.ndarray, rtol: float, watch: Inside | None = None) -> Gradients:
     """An integrator for these collisions, all of which separate, compiled, with its queue.
 
     Arguments:
         slopes: derivatives of the groups in the parameters, (collisions, groups, parameters).
         watch: takes the time within callbacks.
 
-    ComputationError for what it does not do: a tangential edge within reach, a mixture of head-on and oblique.
+    ComputationError as of `automata`.
     """
     import heyoka
 
-    choice = select_model(scene, numbers[0].oblique)
-    if any(select_model(scene, each.oblique) != choice for each in numbers):
-        raise ComputationError("head-on and oblique collisions are different structures")
-    model = load(choice)
-    locators = [EventLocator(model, each.groups, min(rtol, 1e-6)) for each in numbers]
-    if any(locator.watch.tangential_edge for locator in locators):
-        raise ComputationError("the tangential edge lies within reach")
+    followed = automata(numbers, rtol)
     criteria = [name for name in CRITERIA if name != "elastic" or numbers[0].groups["elastic_gap"] != 0.0]
-    equations = variational(choice, criteria)
+    equations = variational(followed[0].model.choice, criteria)
     batch = Gradients(film=len(equations.groups), equations=equations, slopes=slopes)
-    batch.starts = [_begin(equations, locator, each) for locator, each in zip(locators, numbers, strict=True)]
-    batch.lanes = [Lane() for _ in range(size)]
-    either, falling = heyoka.event_direction.any, heyoka.event_direction.negative
+    batch.starts = [_begin(equations, automaton) for automaton in followed]
     arguments = [heyoka.par[equations.groups.index(name)] for name in equations.smooth]
     arguments += [heyoka.make_vars(name) for name in _CARRIERS]
-    first = batch.starts[0]
-    batch.integrator = heyoka.taylor_adaptive_batch(
-        heyoka.var_ode_sys(equations.rates, arguments, order=1),
-        state=np.repeat(first.state[:, None], size, axis=1),
-        pars=np.repeat(first.parameters[:, None], size, axis=1),
-        t_events=[
-            heyoka.t_event_batch(
-                g,
-                callback=watch.watched(batch.callback(name)) if watch else batch.callback(name),
-                direction=either if name == "film_edge" else falling,
-            )
-            for name, g in equations.events.items()
-        ],
-        tol=rtol,
-        **({"compact_mode": False, "force_avx512": True, "fast_math": True} | options),
-    )
+    batch.build(heyoka.var_ode_sys(equations.rates, arguments, order=1), equations.events, rtol, watch)
     return batch
 
 
-def _begin(equations: Variational, locator: EventLocator, numbers: Problem) -> Start:
+def _begin(equations: Variational, automaton: Automaton) -> Start:
     """At initial contact; one that meets a criterion there rebounds there, at a moment that nothing moves."""
-    values = locator.model.values("events", locator.y, locator.p)
-    rebound = min(values[name] for name in CRITERIA) <= 0
+    rebound = automaton.criterion() is not None
     film = 0.0 if rebound else 1.0
-    parameters = np.array([*(numbers.groups[name] for name in equations.groups), film, 1.0])
-    count = len(locator.model.state)
+    parameters = np.array([*(automaton.groups[name] for name in equations.groups), film, 1.0])
+    count = len(automaton.model.state)
     first = equations.begin[rebound]
     state = first(np.zeros(count * (1 + equations.columns)), pars=parameters[: first.nparams])
-    return Start(np.array(state), parameters, rebound, locator)
+    return Start(np.array(state), parameters, rebound, automaton)

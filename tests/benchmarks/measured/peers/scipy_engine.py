@@ -1,4 +1,4 @@
-"""Collisions by scipy's integrators, with the same equations, events, stopping rule and certificates as our engines.
+"""Collisions by scipy's integrators, with the equations, events and rules of our engines.
 
 `solve_ivp` is used as documented: terminal events with a direction, an analytic Jacobian for implicit methods, our
 tolerances. Optimisations of an experienced user are included: functions with fixed arguments in memory, all guards of a
@@ -14,16 +14,16 @@ from typing import Any
 
 import numpy as np
 from casadi import SX, Function, densify, jacobian, jtimes, vertcat
-from wetdoublet.solvers.engines.casadi.integrators import EventHit, tolerance_for
-from wetdoublet.solvers.engines.casadi.locate import EventLocator
+from wetdoublet.solvers.engines.casadi.integrators import tolerance_for
 from wetdoublet.solvers.host.buffered import Buffered
-from wetdoublet.solvers.model.model import Model
+from wetdoublet.solvers.model.dimensionless import Problem
 from wetdoublet.solvers.model.phases import Flow, WatchedEvents, event_table, expressions
 
+from .automaton import CERTIFIED, Automaton, Hit, proof_of, proving
+
 IMPLICIT = ("LSODA", "Radau")  # methods that take a Jacobian
-_SPANS = (1e4, 1e8, 1e16)  # x0/v0; a trajectory fails after their sum
 _TIGHTEST = 2.3e-14  # smallest relative tolerance that scipy accepts without a warning
-_UNREACHABLE = -1e30  # a certificate's level
+_UNREACHABLE = -1e30  # a level that proves a stick
 Rates = Callable[[float, np.ndarray], np.ndarray]
 
 
@@ -45,57 +45,41 @@ class Equations:
 
 
 @lru_cache(maxsize=256)
-def equations(flow: Flow, watch: WatchedEvents) -> Equations:
+def equations(flow: Flow) -> Equations:
     """The equations of a flow for an external integrator; the parameters are groups, motion and level."""
     parts = expressions(flow)
     motion, level = SX.sym("motion"), SX.sym("level")
-    table = event_table(flow, watch, motion, level)
+    table = event_table(flow, WatchedEvents(), motion)
     dips = tuple(k for k, event in enumerate(table) if event.dips)
+    guards = {event.name: event.function for event in table}
+    if proof_of(flow.model):
+        guards[CERTIFIED] = proving(flow.choice)(parts.variables, flow.model.parameters) - level
     slopes = [-jtimes(table[k].function, parts.variables, parts.rates) for k in dips]
     inputs = [parts.variables, vertcat(flow.model.parameters, motion, level)]
     return Equations(
         Function("rates", inputs, [parts.rates]),
         Function("jacobian", inputs, [densify(jacobian(parts.rates, parts.variables))]),
-        Function("table", inputs, [densify(vertcat(*(event.function for event in table), *slopes))]),
-        tuple(event.name for event in table),
+        Function("table", inputs, [densify(vertcat(*guards.values(), *slopes))]),
+        tuple(guards),
         dips,
     )
 
 
-class ScipyLocator(EventLocator):
-    """A locator with a scipy method; rules, phases and certificates are those of our engines.
+class ScipyAutomaton(Automaton):
+    """A collision by a method of `solve_ivp`."""
 
-    Arguments:
-        method: a method of `solve_ivp`.
-    """
-
-    def __init__(self, model: Model, groups: dict[str, float], rtol: float, method: str) -> None:
-        super().__init__(model, groups, rtol)
+    def __init__(self, problem: Problem, rtol: float, method: str) -> None:
+        super().__init__(problem, rtol)
         self.method = method
-        tolerance = tolerance_for(rtol, "rosenbrock", groups)
+        tolerance = tolerance_for(self.rtol, "rosenbrock", problem.groups)
         relative = max(tolerance.relative, _TIGHTEST)
         self.options: dict[str, Any] = {"method": method, "rtol": relative, "atol": tolerance.absolute}
 
-    def _run_phase(self) -> bool:
-        """Integrate a phase as `EventLocator._run_phase` does, with few long calls instead of short intervals."""
-        flow, elapsed = equations(self._flow(), self.watch), 0.0
-        for span in _SPANS:
-            level = self.proof.level(self.y, self.phase) if self.watch.certificate else None
-            stop = self._solved(flow, span, _UNREACHABLE if level is None else level)
-            elapsed += stop.time
-            self.path.time += stop.time
-            self.y = self.path.y = stop.y
-            self.path.smallest_gap = min(self.path.smallest_gap, float(self.y[0]))
-            if stop.event is not None and stop.event != "certified":
-                return self._happens(stop.event, elapsed)
-            if self._proved(elapsed):
-                return True
-        raise self._error(f"no event within {elapsed:.3g} x0/v0", "try a smaller rtol")
-
-    def _solved(self, flow: Equations, span: float, level: float) -> EventHit:
+    def integrated(self, flow: Flow, span: float) -> Hit:
         """Integrate to the first event, or to the end of the span."""
-        parameters = np.append(self.p, [self.phase.motion, level])
-        rates, table, jacobian = (Buffered(each, (0, 1)) for each in (flow.rates, flow.table, flow.jacobian))
+        smooth, level = equations(flow), self.level(self.y)
+        parameters = np.append(self.p, [self.phase.motion, _UNREACHABLE if level is None else level])
+        rates, table, jacobian = (Buffered(each, (0, 1)) for each in (smooth.rates, smooth.table, smooth.jacobian))
         size = self.y.size
 
         def changes(_: float, y: np.ndarray) -> np.ndarray:
@@ -104,32 +88,32 @@ class ScipyLocator(EventLocator):
         def guards(y: np.ndarray) -> np.ndarray:
             return table(y, parameters)
 
-        options: dict[str, Any] = {"events": _events(guards, len(flow.events))}
+        options: dict[str, Any] = {"events": _events(guards, len(smooth.events))}
         if self.method in IMPLICIT:
             options["jac"] = lambda _, y: jacobian(y, parameters).reshape(size, size, order="F")
-        solution = self._integrated(changes, 0.0, span, self.y, options)
-        grazed = self._grazed(flow, solution, changes, guards)
+        solution = self._solved(changes, 0.0, span, self.y, options)
+        grazed = self._grazed(smooth, solution, changes, guards)
         if grazed is not None:
             return grazed
-        for name, times, states in zip(flow.events, solution.t_events, solution.y_events):
+        for name, times, states in zip(smooth.events, solution.t_events, solution.y_events):
             if len(times):
-                return EventHit(name, float(times[-1]), states[-1].copy(), False)
-        return EventHit(None, float(solution.t[-1]), solution.y[:, -1].copy(), False)
+                return Hit(name, float(times[-1]), states[-1])
+        return Hit(None, float(solution.t[-1]), solution.y[:, -1])
 
-    def _integrated(self, rates: Rates, start: float, end: float, y: np.ndarray, more: dict[str, Any]) -> Any:
+    def _solved(self, rates: Rates, start: float, end: float, y: np.ndarray, more: dict[str, Any]) -> Any:
         from scipy.integrate import solve_ivp
 
         try:
             solution = solve_ivp(rates, (start, end), y, **self.options, **more)
         except (ArithmeticError, ValueError) as error:
-            raise self._error(f"{self.method} failed ({error})", "") from None
+            raise self.error(f"{self.method} failed ({error})") from None
         if solution.status < 0 or not np.isfinite(solution.y[:, -1]).all():
-            raise self._error(f"{self.method} failed ({solution.message})", "")
+            raise self.error(f"{self.method} failed ({solution.message})")
         return solution
 
     def _grazed(
         self, flow: Equations, solution: Any, rates: Rates, guards: Callable[[np.ndarray], np.ndarray]
-    ) -> EventHit | None:
+    ) -> Hit | None:
         """The first crossing hidden within a step, where a guard becomes negative and returns.
 
         A cubic through values and slopes at the ends shows candidates; there the step is integrated again and searched.
@@ -142,13 +126,13 @@ class ScipyLocator(EventLocator):
             turns = np.flatnonzero((slope[:-1] < 0) & (slope[1:] > 0) & (g[:-1] > 0) & (g[1:] > 0))
             hidden += [(int(k), index) for k in turns if _lowest(g, slope, times, int(k)) < 0]
         for k, index in sorted(hidden):
-            dense = self._integrated(rates, times[k], times[k + 1], states[:, k], {"dense_output": True}).sol
+            dense = self._solved(rates, times[k], times[k + 1], states[:, k], {"dense_output": True}).sol
             below = [t for t in np.linspace(times[k], times[k + 1], 65) if guards(dense(t))[index] < 0]
             if below:
                 before, after = times[k], below[0]
                 while before < (middle := 0.5 * (before + after)) < after:  # to machine precision
                     before, after = (before, middle) if guards(dense(middle))[index] < 0 else (middle, after)
-                return EventHit(flow.events[index], after, dense(after), True)
+                return Hit(flow.events[index], after, dense(after))
         return None
 
 
