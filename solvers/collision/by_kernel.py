@@ -74,11 +74,13 @@ class Followed(NamedTuple):
 
 def sequence_of(problem: Problem, rtol: float, until: float | None = None) -> EventSequence:
     """The phases and events of one collision, as the kernel finds them; `until` (s) as for `followed`."""
-    record, decided = followed(problem, rtol, until, ledger=True)
-    answer, model = record.answers[0], problem.model(full=True)
-    return sequence(
-        answer, record.events[0, : answer["events"]], words_of(problem.scene), model, problem.groups, decided
-    )
+    return sequence_in(problem, followed(problem, rtol, until, ledger=True))
+
+
+def sequence_in(problem: Problem, ran: Followed) -> EventSequence:
+    """The phases and events of a record with a ledger."""
+    answer, words, model = ran.record.answers[0], words_of(problem.scene), problem.model(full=True)
+    return sequence(answer, ran.record.events[0, : answer["events"]], words, model, problem.groups, ran.decided)
 
 
 def collision(

@@ -9,14 +9,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..engines.casadi.confirm import confirm
-from ..engines.casadi.integrators import tolerance_for
 from ..engines.casadi.replay import Replay, Stopped, replayed
 from ..engines.casadi.sequence import EventSequence
 from ..errors import ComputationError
 from ..model.dimensionless import Problem
 from ..model.model import Model, load, slip_restitution
 from .assemble import assembled
-from .by_kernel import collision, followed, sequence_of
+from .by_kernel import collision, followed, sequence_in, sequence_of
 from .outcome import Energy
 from .result import Collision
 
@@ -42,9 +41,10 @@ def by_replay(
     choice = problem.key(full=ledger or trajectory)
     model = load(choice)
     p = model.group_values(problem.groups)
-    found = partial(sequence_of, problem, until=until)
     try:
-        path, replay = replayed(found, choice, quadratures(model, ledger), plugin, rtol)
+        path, replay = replayed(
+            partial(sequence_of, problem, until=until), choice, quadratures(model, ledger), plugin, rtol
+        )
     except Stopped as stopped:
         if not _confirmed(problem, rtol, plugin, until):
             raise problem.in_si(stopped.error(plugin, model)) from None
@@ -75,11 +75,10 @@ def by_replay(
 
 def _confirmed(problem: Problem, rtol: float, plugin: str, until: float | None) -> bool:
     """True if the kernel's trajectory agrees with the equations step by step."""
-    choice = problem.key(full=True)
     try:
-        record, _ = followed(problem, rtol, until, ledger=True, trajectory=True)
-        assert record.steps is not None  # requested
-        confirm(sequence_of(problem, rtol, until), record.steps, choice, plugin, rtol)
+        ran = followed(problem, rtol, until, ledger=True, trajectory=True)
+        assert ran.record.steps is not None  # requested
+        confirm(sequence_in(problem, ran), ran.record.steps, problem.key(full=True), plugin, rtol)
     except (ComputationError, Stopped):
         return False
     return True
@@ -124,8 +123,8 @@ def _trajectory(
     from ..engines.casadi.trajectory import attributes, dataset, stretch  # imports xarray
 
     attrs = attributes(problem.scene, path.outcome, plugin, rtol)
-    tolerance, p = tolerance_for(rtol, plugin, problem.groups), model.group_values(problem.groups)
-    pieces = [stretch(piece, model, replay, p, plugin, tolerance) for piece in replay.pieces]
+    p = model.group_values(problem.groups)
+    pieces = [stretch(piece, model, replay, p, plugin) for piece in replay.pieces]
     try:
         return dataset(pieces, model, problem, replay.y, attrs)
     except ComputationError as error:

@@ -2,21 +2,21 @@
 
 Nearer to a separatrix than about 1e-9, every error grows to the size of the motion, so that no engine can repeat the
 trajectory of another. Within one step it grows little: from where a step of the kernel begins, an engine of CasADi must
-arrive where it ends, and on its series no event may happen but the one recorded.
+arrive where it ends. The next step begins there, or where the jump of the event in between leads; and on the kernel's
+series no event may happen but the recorded one, at the end.
 """
 
 import numpy as np
 
 from ...model.key import ModelKey
-from ...model.model import load
-from ...model.phases import Flow
+from ...model.phases import Flow, Phase
 from ..steps import Steps
 from .integrators import IntegrationFailed, plain, tolerance_for
-from .replay import Stopped
-from .sequence import EventSequence
-from .watch import POINTS, first_crossing
+from .replay import Run, Stopped
+from .sequence import EventSequence, PhaseRun
+from .watch import POINTS, first_crossing, is_met
 
-_APART = 1e2  # relative tolerances of the kernel by which the ends of a step may differ; of a state near zero, those
+_APART = 1e2  # relative tolerances of the kernel by which two states may differ; of one near zero, those
 _SCALE = 1e-3  # of a motion of this size
 
 
@@ -26,37 +26,52 @@ def confirm(path: EventSequence, steps: Steps, choice: ModelKey, plugin: str, rt
     Arguments:
         steps: of the same collision as `path`, by a kernel with the states of the model `choice`.
     """
-    model, tolerance = load(choice), tolerance_for(rtol, plugin, path.groups)
-    p, size = model.group_values(path.groups), len(model.state)
-    for k, phase_run in enumerate(path.steps):
-        rows = steps.rows[steps.rows["phase"] == k]
-        if not (phase_run.duration > 0 and rows.size):
-            continue
-        phase, part = phase_run.phase, Steps(rows, steps.turned)
-        flow = Flow(choice, phase.region)
-        for row in rows:
-            start = row["series"][:size, 0].copy()
-            end = row["series"][:size] @ row["length"] ** np.arange(row["series"].shape[1])
+    _Confirmation(path, steps, choice, plugin, rtol).run()
+
+
+class _Confirmation(Run):
+    """A replay whose phases are the kernel's own steps, each confirmed by an engine."""
+
+    def __init__(self, path: EventSequence, steps: Steps, choice: ModelKey, plugin: str, rtol: float) -> None:
+        super().__init__(path, choice, (), plugin, tolerance_for(rtol, plugin, path.groups), rtol)
+        self.steps = steps
+
+    def integrate(self, k: int, step: PhaseRun) -> None:
+        """Phase k by its steps, with the state at its end."""
+        at, phase, flow = self.at, step.phase, Flow(self.choice, step.phase.region)
+        inside = Steps(self.steps.rows[self.steps.rows["phase"] == k], self.steps.turned)
+        first, engine = at.time, plain(flow, self.plugin, self.tolerance)
+        for row in inside.rows:
+            series, length = row["series"][: at.y.size], float(row["length"])
+            start, end = series[:, 0].copy(), series @ length ** np.arange(series.shape[1])
+            sizes = np.maximum(np.abs(start), np.abs(end))
+            self._compare(
+                "finds that a step of the kernel begins elsewhere than the last one led", at.y, start, sizes, phase
+            )
             try:
-                reached = plain(flow, plugin, tolerance)(start, p, float(row["length"]))
+                reached = engine(start, self.p, length)
             except IntegrationFailed as failure:
-                raise Stopped(f"gave up ({failure})", phase, float(row["time"]), start) from None
-            allowed = _APART * rtol * np.maximum(np.maximum(np.abs(start), np.abs(end)), _SCALE)
-            if not (np.abs(reached - end) <= allowed).all():
-                raise Stopped("does not agree with a step of the kernel", phase, float(row["time"]), start)
-        first, duration = float(rows[0]["time"]), phase_run.duration
+                raise Stopped(f"gave up ({failure})", phase, at.time, start) from None
+            self._compare("does not agree with a step of the kernel", reached, end, sizes, phase)
+            at.time, at.y = float(row["time"]) + length, end
+        self._watch(step, flow, inside, first)
 
-        def solution(
-            parts: np.ndarray, part: Steps = part, first: float = first, duration: float = duration
-        ) -> np.ndarray:
-            return part.states(first + parts * duration)[:size]
+    def _compare(self, what: str, y: np.ndarray, other: np.ndarray, sizes: np.ndarray, phase: Phase) -> None:
+        """Stopped if two states differ by more than the errors of kernel and engine, relative to these sizes."""
+        if not (np.abs(y - other) <= _APART * self.rtol * np.maximum(sizes, _SCALE)).all():
+            raise Stopped(what, phase, self.at.time, other)
 
-        parameters, states = np.append(p, float(phase.motion)), solution(POINTS)
-        crossing = first_crossing(
-            flow, path.watch, parameters, duration, states, solution, tolerance.relative, phase_run.event
-        )
+    def _watch(self, step: PhaseRun, flow: Flow, inside: Steps, first: float) -> None:
+        """Stopped if another event than the recorded one happens on the series of a phase, or that one does not."""
+
+        def solution(parts: np.ndarray) -> np.ndarray:
+            return inside.states(first + parts * step.duration)[: self.at.y.size]
+
+        phase, watch, rtol = step.phase, self.path.watch, self.tolerance.relative
+        parameters, states = np.append(self.p, float(phase.motion)), solution(POINTS)
+        crossing = first_crossing(flow, watch, parameters, step.duration, states, solution, rtol, step.event)
         if crossing is not None:
-            raise Stopped(
-                f"finds the event {crossing.event} inside a phase of the kernel", phase,
-                first + crossing.part * duration, states[:, -1],
-            )  # fmt: skip
+            time = first + crossing.part * step.duration
+            raise Stopped(f"finds the event {crossing.event} inside a phase of the kernel", phase, time, self.at.y)
+        if step.event is not None and not is_met(flow, watch, parameters, states, step.event, self.rtol):
+            raise Stopped(f"does not find the event {step.event} where the kernel does", phase, self.at.time, self.at.y)

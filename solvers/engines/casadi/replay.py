@@ -92,7 +92,7 @@ class Replay:
 
 
 def replayed(
-    found: Callable[[float], EventSequence], choice: ModelKey, extras: tuple[str, ...], plugin: str, rtol: float
+    record: Callable[[float], EventSequence], choice: ModelKey, extras: tuple[str, ...], plugin: str, rtol: float
 ) -> tuple[EventSequence, Replay]:
     """A sequence of events and its replay by a plugin.
 
@@ -100,14 +100,14 @@ def replayed(
     One that was tightened for a grazing start is loosened where the engine cannot meet it.
 
     Arguments:
-        found: the sequence at a relative tolerance.
+        record: the sequence at a relative tolerance.
         choice: the model that is integrated, with the quadratures `extras`.
 
     Raises:
         Stopped: the replay fails at every tolerance.
-        ComputationError: nothing is found, as `found` says.
+        ComputationError: there is no sequence, as `record` says.
     """
-    used, looser, path = rtol, None, found(rtol)
+    used, looser, path = rtol, None, record(rtol)
     while True:
         tolerance = looser or tolerance_for(used, plugin, path.groups)
         try:
@@ -120,7 +120,7 @@ def replayed(
                 raise
             used = max(used * 1e-2, TIGHTEST)
             try:
-                path = found(used)
+                path = record(used)
             except ComputationError:
                 raise stopped from None
 
@@ -134,10 +134,10 @@ def replay(
         choice: the model that is integrated, with the quadratures `extras`.
         rtol: relative tolerance of the record.
     """
-    return _Run(path, choice, extras, plugin, tolerance, rtol).run()
+    return Run(path, choice, extras, plugin, tolerance, rtol).run()
 
 
-class _Run:
+class Run:
     """One replay of a sequence at one tolerance."""
 
     def __init__(
@@ -158,39 +158,41 @@ class _Run:
 
     def run(self) -> Replay:
         """The whole replay."""
-        if self.path.separated != self._parts():
+        if self.path.separated != self._separates():
             what = "separation has no event" if self.path.separated else "event of separation separates nothing"
             raise Stopped(f"cannot follow the record: its {what}", self.path.steps[-1].phase, self.path.time, self.at.y)
-        for step in self.path.steps:
+        for k, step in enumerate(self.path.steps):
             if step.duration > 0:
-                self._integrate(step)
+                self.integrate(k, step)
             self.at.events += [(kind, self.at.time) for kind in step.kinds]
             self.at.smallest_gap = min(self.at.smallest_gap, float(self.at.y[0]))
             self._jump(step)
         return self.at
 
-    def _parts(self) -> bool:
+    def _separates(self) -> bool:
         """True if the last event is one that separates the doublet."""
         last = self.path.steps[-1]
         if last.own:
             return any(event.name == last.own and event.row.actions[-1] == "part" for event in self.model.own_events)
         return KINDS[EventKind.RUPTURE] in last.kinds
 
-    def _integrate(self, step: PhaseRun) -> None:
-        """A phase: onto its event, by way of the kinks of its laws."""
-        left, phase = step.duration, step.phase
+    def integrate(self, k: int, step: PhaseRun) -> None:
+        """Phase k: onto its event, by way of the kinks of its laws."""
+        remaining, phase = step.duration, step.phase
         while True:
             phase = self._sided(phase)
             flow = Flow(self.choice, phase.region, self.extras)
             solution = _Solution(self, flow, phase)
             if self.model.kinks:  # first of all, as behind a kink the solution is another
-                kink = solution.crossing(left, solution.end(left)[1], step.event)
+                kink = solution.crossing(remaining, solution.end(remaining)[1], step.event)
                 if kink is not None and kink.event in self.model.kinks:
-                    duration, y, _ = solution.onto(kink.event, kink.part * left, moved=True)
+                    duration, y, _ = solution.onto(kink.event, kink.part * remaining, moved=True)
                     self._record(phase, kink.event, flow, duration, y)
-                    left -= duration
+                    remaining -= duration
                     continue
-            duration, y, states = (left, *solution.end(left)) if step.event is None else solution.onto(step.event, left)
+            duration, y, states = (
+                (remaining, *solution.end(remaining)) if step.event is None else solution.onto(step.event, remaining)
+            )
             crossing = solution.crossing(duration, states, step.event)
             if crossing is not None:
                 time = self.at.time + crossing.part * duration
@@ -219,7 +221,7 @@ class _Run:
             guards, rates = kinks_along(flow)(self.at.y, self.p).full().T
             sides = tuple(np.where(np.where(abs(guards) > _ON_KINK, guards, rates) < 0, -1, 1).tolist())
         if sides != phase.sides and not phase.resting:
-            where = ", ".join(name for name, one, other in zip(model.kinks, sides, phase.sides) if one != other)
+            where = ", ".join(name for name, side, last in zip(model.kinks, sides, phase.sides) if side != last)
             raise Stopped(
                 f"stays on a step of a law's force ({where}); write the step as a steep slope, as tanh(u/u0)",
                 phase,
@@ -267,7 +269,7 @@ class _Run:
 class _Solution:
     """The engine's solution from the present state of a replay on."""
 
-    run: _Run
+    run: Run
     flow: Flow
     phase: Phase
 

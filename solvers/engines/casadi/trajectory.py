@@ -11,7 +11,7 @@ from ...errors import ComputationError
 from ...model.dimensionless import Problem
 from ...model.model import Model
 from ...scene.scene import Scene
-from .integrators import IntegrationFailed, Tolerance, plain
+from .integrators import IntegrationFailed, plain
 from .replay import Piece, Replay
 
 # Per phase, denser towards its ends, where the fast transients are; the integrator's steps do not depend on them.
@@ -58,29 +58,30 @@ class Stretch:
     sample: Sample
 
 
-def stretch(piece: Piece, model: Model, replayed: Replay, p: np.ndarray, plugin: str, tolerance: Tolerance) -> Stretch:
+def stretch(piece: Piece, model: Model, replayed: Replay, p: np.ndarray, plugin: str) -> Stretch:
     """A phase of a replay, integrated again through the requested times; ComputationError if that fails."""
     size, turned = len(model.state), tuple(name for name in replayed.extras if name == "rotation")
-    names, offset = (*model.state, *turned), replayed.tolerance.offset if turned else 0.0
-    kept = [*range(size), *(size + replayed.extras.index(name) for name in turned)]
+    names, tolerance = (*model.state, *turned), replayed.tolerance
+    offset = tolerance.offset if turned else 0.0
+    shown = [*range(size), *(size + replayed.extras.index(name) for name in turned)]
 
     def sample(parts: np.ndarray) -> tuple[np.ndarray, np.ndarray | None]:
         try:
             inside = integrated(parts)
-        except IntegrationFailed as failure:  # the located trajectory, with smaller steps, may succeed
+        except IntegrationFailed as failure:
             state = dict(zip(model.state, piece.start.tolist(), strict=False))
             message, advice = f"the trajectory by {plugin} gave up ({failure})", "try the other --engine"
             raise ComputationError(message, str(piece.phase), piece.time, state, advice) from None
-        y = np.column_stack([piece.start[kept], inside])
+        y = np.column_stack([piece.start[shown], inside])
         return y[:size], y[names.index("rotation")] - offset if "rotation" in names else None
 
     def integrated(parts: np.ndarray) -> np.ndarray:
         grid = tuple(parts[1:])
         try:
-            return plain(piece.flow, plugin, tolerance, grid)(piece.start, p, piece.duration)[kept]
+            return plain(piece.flow, plugin, tolerance, grid)(piece.start, p, piece.duration)[shown]
         except IntegrationFailed:  # possibly due to the ledger, which is not needed here
             flow = replace(piece.flow, extras=turned)
-            return plain(flow, plugin, tolerance, grid)(piece.start[kept], p, piece.duration)
+            return plain(flow, plugin, tolerance, grid)(piece.start[shown], p, piece.duration)
 
     return Stretch(str(piece.phase), piece.time, piece.duration, sample)
 
@@ -102,12 +103,12 @@ def dataset(
     columns: list[np.ndarray] = []
     angles: list[np.ndarray] = []
     phases: list[str] = []
-    for one in stretches:
-        states, angle = one.sample(_GRID)
-        times.append(one.time + one.duration * _GRID)
+    for phase in stretches:
+        states, angle = phase.sample(_GRID)
+        times.append(phase.time + phase.duration * _GRID)
         columns.append(states)
         angles.append(np.zeros(_GRID.size) if angle is None else angle)
-        phases += [one.name] * _GRID.size
+        phases += [phase.name] * _GRID.size
     if not columns:  # decided at initial contact
         times, columns, phases = [np.zeros(1)], [first[:size, None]], ["initial contact"]
         angles = [np.zeros(1)]

@@ -75,7 +75,7 @@ def first_crossing(
     rates *= duration
     crossings = []
     for k, name in enumerate(names):
-        size = max(float(np.abs(values[k]).max()), _LEAST.get(name, 0.0))
+        size = _size(name, values[k])
         limit = -_ERRORS * rtol * size
         if landed is None and name in _MET and values[k][-1] < -limit:
             crossings.append(Crossing(name, 1.0, float(values[k][-1]) / size))
@@ -87,15 +87,31 @@ def first_crossing(
             continue
         for at in _low_minima(POINTS, values[k], rates[k], _LOW * size):
 
-            def looked(parts: np.ndarray, k: int = k) -> tuple[np.ndarray, np.ndarray]:
-                found, slopes = (result.full() for result in function(solution(parts), parameters))
-                return found[k], slopes[k] * duration
+            def guard(parts: np.ndarray, k: int = k) -> tuple[np.ndarray, np.ndarray]:
+                inside, slopes = (result.full() for result in function(solution(parts), parameters))
+                return inside[k], slopes[k] * duration
 
-            dip = _narrowed(looked, POINTS[at], POINTS[at + 1], limit)
+            dip = _narrowed(guard, POINTS[at], POINTS[at + 1], limit)
             if dip is not None:
                 crossings.append(Crossing(name, dip[0], dip[1] / size))
                 break
     return min(crossings, key=lambda crossing: crossing.part, default=None)
+
+
+def is_met(
+    flow: Flow, watch: WatchedEvents, parameters: np.ndarray, states: np.ndarray, event: str, rtol: float
+) -> bool:
+    """True if the last of a phase's states lies on an event's surface, to the error of an engine of this tolerance."""
+    function, names = guards(flow, watch)
+    if event not in names:
+        return False
+    values = function(states, parameters)[0].full()[names.index(event)]
+    return bool(abs(values[-1]) <= _ERRORS * rtol * _size(event, values))
+
+
+def _size(name: str, values: np.ndarray) -> float:
+    """The size of an event's guard in a phase, by which its values are judged."""
+    return max(float(np.abs(values).max()), _LEAST.get(name, 0.0))
 
 
 def _root(parts: np.ndarray, values: np.ndarray, after: int) -> float:
@@ -116,17 +132,17 @@ def _low_minima(parts: np.ndarray, values: np.ndarray, rates: np.ndarray, low: f
         at = np.where(np.abs(cubic) > 1e-14 * np.abs(square), (root - square) / (3 * cubic), -slope / (2 * square))
     at = np.clip(np.nan_to_num(at, nan=0.5), 0.0, 1.0)
     least = ((cubic * at + square) * at + slope) * at + first
-    low_ones: np.ndarray = dips[least < low]
-    return low_ones
+    intervals: np.ndarray = dips[least < low]
+    return intervals
 
 
 def _narrowed(
-    looked: Callable[[np.ndarray], tuple[np.ndarray, np.ndarray]], start: float, end: float, limit: float
+    guard: Callable[[np.ndarray], tuple[np.ndarray, np.ndarray]], start: float, end: float, limit: float
 ) -> tuple[float, float] | None:
-    """Place and value of a minimum below the limit within an interval; None if there is none."""
+    """Place and value of a guard's minimum below the limit within an interval; None if there is none."""
     for _ in range(_LOOKS):
         parts = np.linspace(start, end, _FINER)
-        values, rates = looked(parts)
+        values, rates = guard(parts)
         at = 1 + int(np.argmin(values[1:-1]))
         if values[at] < limit:
             return float(parts[at]), float(values[at])
