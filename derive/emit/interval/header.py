@@ -212,9 +212,9 @@ def _values(model: Model, constants: Constants) -> list[str]:
     lines = ["enum { CONTACT_GAP, RUPTURE_GAP, TANGENTIAL_EDGE, LEVELS };"]
     lines += documented("Gaps of events.", "static void levels(const constants *c, dual *level)", body)
     for name, array in (("start", "y"), ("rebound", "after")):
-        further = ", const dual *y, dual *after" if array == "after" else ", dual *y"
+        passed = ", const dual *y, dual *after" if array == "after" else ", dual *y"
         wanted = {f"{array}[{state.name.upper()}]": model[name][state.name] for state in model.states}
-        lines += _value(model, constants, f"static void {name}(const constants *c{further})", model[name].doc, wanted)
+        lines += _value(model, constants, f"static void {name}(const constants *c{passed})", model[name].doc, wanted)
     least = model["effective_potential"]
     held = sp.Add(*model["energies"].by_name.values())
     doc = "Energy above the least at the same gap and angular momentum, over m v0^2."

@@ -9,7 +9,7 @@ from functools import cached_property, lru_cache
 from typing import NamedTuple
 
 import numpy as np
-from casadi import SX, Function, fmax, sum1, vertcat
+from casadi import SX, Function, sum1, vertcat
 from wetdoublet.generated import automaton as rules
 from wetdoublet.generated.automaton import CLOSING, OPENING, STICK
 from wetdoublet.solvers.engines.casadi.sequence import tangential_edge
@@ -44,23 +44,17 @@ class Barrier(NamedTuple):
 
 
 def proof_of(model: Model) -> str:
-    """What proves a stick: `energy` below a barrier, the film of a `pendulum`, or nothing."""
-    if model.has("effective_potential") and model.choice.law("arm") in (None, "midgap"):
-        return "energy"
-    return "pendulum" if model.has("pendulum_margins") else ""
+    """What proves a stick: `energy` below a barrier, or nothing."""
+    return "energy" if model.has("effective_potential") and model.choice.law("arm") in (None, "midgap") else ""
 
 
 @lru_cache(maxsize=64)
 def proving(choice: ModelKey) -> Function:
-    """Function (state, groups) -> what falls below a level where a stick is proved: energy, or the largest margin."""
+    """Function (state, groups) -> the energy that falls below a level where a stick is proved."""
     model = load(choice)
     works = SX.sym("works", len(model.works))
-    if proof_of(model) == "energy":
-        energy = sum(model(model.escape).values()) + sum1(works)
-        return Function("energy", [vertcat(model.column, works), model.parameters], [energy])
-    margins = model("pendulum_margins")
-    largest = fmax(margins["outward"] - margins["pull"], fmax(margins["film"], margins["recoil"]))
-    return Function("margin", [model.column, model.parameters], [largest])
+    energy = sum(model(model.escape).values()) + sum1(works)
+    return Function("energy", [vertcat(model.column, works), model.parameters], [energy])
 
 
 class Automaton:
@@ -69,8 +63,9 @@ class Automaton:
     def __init__(self, problem: Problem, rtol: float) -> None:
         model, groups = problem.model(), problem.groups
         rupture = groups["rupture_gap"] if model.bridge else 1.0
-        if model.friction or model.own_events or tangential_edge(model, groups) < rupture:
-            raise ComputationError("peers have no friction, no declared events, no tangential edge within reach")
+        if model.friction or model.own_events or model.strings or tangential_edge(model, groups) < rupture:
+            what = "no friction, no declared events, no proof on strings, no tangential edge within reach"
+            raise ComputationError(f"peers have {what}")
         self.model, self.groups, self.rtol = model, groups, min(rtol, rules.LOOSEST)
         self.p, self.proof = model.group_values(groups), proof_of(model)
         self.works = model.works if self.proof == "energy" else ()
@@ -179,7 +174,7 @@ class Automaton:
     def level(self, y: np.ndarray) -> float | None:
         """The level below which a stick is proved from a state on; None if there is none."""
         if self.proof != "energy":
-            return -rules.SAFETY * self.rtol if self.proof else None
+            return None
         height = next((barrier.height for barrier in self.barriers if barrier.gap > y[0]), None)
         if height is None:
             return None

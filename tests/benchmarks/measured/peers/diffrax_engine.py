@@ -82,10 +82,6 @@ def trajectory(choice: Any, names: tuple[str, ...], proved: str, rtol: float) ->
         if proved == "energy":
             energy = sum(structure.energies(state, groups, laws).values())
             found[CERTIFIED] = energy + (y[-1] if bridge else 0.0) - level
-        elif proved == "pendulum":
-            held = structure.pendulum_margins(state, groups, laws)
-            inward = held["outward"] - held["pull"]
-            found[CERTIFIED] = jnp.maximum(inward, jnp.maximum(held["film"], held["recoil"])) - level
         return found
 
     def watched(name: str) -> Callable[..., Any]:

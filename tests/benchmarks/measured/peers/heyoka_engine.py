@@ -95,10 +95,6 @@ def system(choice: ModelKey, groups: Sequence[Mapping[str, float]], proved: str,
             rates.append((work, active * rate))
             energy = energy + work
         events[CERTIFIED] = energy - level
-    elif proved == "pendulum":
-        held, larger = structure.pendulum_margins(y, p, laws), elementary("fmax")
-        inward = held["outward"] - held["pull"]
-        events[CERTIFIED] = larger(inward, larger(held["film"], held["recoil"])) - level
     return System(rates, events, varying)
 
 
@@ -227,12 +223,6 @@ class Batch:
         if event in ("glass", "elastic", "rough"):
             return rebounds
 
-        def margins(ta: Any, _: int, lane: int) -> bool:
-            """The series is that of the largest margin where the step began, and another may be larger by now."""
-            return self.ended(lane, False) if self._proved(lane) else True
-
-        if event == CERTIFIED and self.starts[0].automaton.proof == "pendulum":
-            return margins
         if event == "inside":
             return inside
         if event == "film_edge":
