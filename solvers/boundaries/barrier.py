@@ -19,6 +19,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ...generated.automaton import SAFETY
+from ..engines.casadi.sequence import tangential_edge
 from ..model.model import Model
 from ..scene.contact import contact_gap
 
@@ -49,7 +50,7 @@ class Potential:
     @cached_property
     def edge(self) -> float:
         """Gap beyond which neither film nor tangential force acts."""
-        return max(float(self.model.laws.shear.edge(self.groups["aspect"])), 1.0)
+        return max(tangential_edge(self.model, self.groups), 1.0)
 
     def passes_saddle(self, y: np.ndarray) -> bool:
         """True if the effective potential is highest before the rupture gap."""
@@ -79,8 +80,8 @@ class Potential:
         """Energies of a cycle; None unless it is shallow and the net force at the edge is outward."""
         if not self.edge < self.rim:
             return None
-        there = np.array([self.edge, 0.0, *y[2 : len(self.model.state)]])
-        settled = np.array(list(self.model.values("rigid_rotation", there, self.p).values()))
+        on_edge = np.array([self.edge, 0.0, *y[2 : len(self.model.state)]])
+        settled = np.array(list(self.model.values("rigid_rotation", on_edge, self.p).values()))
         outward = -self._inward(np.array([self.edge]), settled)[0]
         radial = float(y[1]) ** 2 / 2 - self._work(y, float(y[0]), self.edge)
         if not outward > 0 or not 0 <= radial < _SHALLOW * outward * (self.edge - self.contact):

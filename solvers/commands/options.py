@@ -163,7 +163,8 @@ _OPTIONS = options_of(
     --plot FILE.png: Draw a picture: .png, .pdf or .svg.
     -o FILE (output): Write to FILE instead of standard output.
     --rtol R: Relative tolerance, 1e-13..1e-3 [1e-9].
-    --engine E: cvodes, rosenbrock or taylor [the best for the scene].
+    --engine E: taylor, or cvodes or rosenbrock, which integrate and check what it has found [taylor; for
+        derivatives that it lacks, rosenbrock].
     --uncertainty NAME=VALUE: A standard deviation, as liquid.viscosity="5 %" or impact.angle="1 deg"; repeatable.
     --prior NAME=PRIOR (priors): What is known of an entry, as particles.roughness="2 um +- 20 %"; repeatable.
 """.strip("\n")

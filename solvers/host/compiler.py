@@ -19,7 +19,7 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import NamedTuple
 
-from ..errors import InputError
+from ..errors import InputError, install_extra
 from . import interrupts
 from . import user_cache as cache
 from .remarks import say
@@ -91,8 +91,8 @@ def compiler() -> Compiler | None:
         if named == wanted:
             say(f"CC={named} does not work here ({wrong}): others are tried")
     say(
-        f"no C compiler ({'; '.join(failed) or ', '.join(_COMPILERS)}): where the package has no Taylor kernel, "
-        "other engines answer; their integrators run interpreted, about five times slower"
+        f"no C compiler ({'; '.join(failed) or ', '.join(_COMPILERS)}): only scenes whose kernels the package "
+        f"has can be computed; install gcc or clang, or {install_extra('compiler')}"
     )
     return None
 

@@ -153,11 +153,6 @@ def _cell(one: Moving, of: str, name: str) -> str:
     return f"* {slope_:.4g}" if elasticity is None else f"{elasticity:.5g}" if elasticity else "none"
 
 
-def _elasticity(one: Moving, name: str) -> str:
-    value = one.elasticity[one.shown[-1]].get(name) if one.elasticity else None
-    return "-" if value is None else f"{value:.5g}"
-
-
 def boundary_sensitivities(
     scene: Scene | str | FilePath,
     *,

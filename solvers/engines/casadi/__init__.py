@@ -1,1 +1,1 @@
-"""The reference engines, CVODES and Rosenbrock: location of events, and replay of the phases."""
+"""The reference engines, CVODES and Rosenbrock: replay of the phases that the kernel has found."""

@@ -100,7 +100,7 @@ class Tolerance:
         return 1.0 if self.absolute < 1e-4 * self.relative else 0.0
 
     def options(self, plugin: str, space: bool = False) -> dict[str, Any]:
-        """The plugin's options; CVODES' steps, of a located trajectory, are cheaper than those of Rosenbrock."""
+        """The plugin's options; a step of CVODES is cheaper than one of Rosenbrock, so that it may take more."""
         options: dict[str, Any] = {
             "reltol": self.relative,
             "abstol": self.absolute,
@@ -170,7 +170,7 @@ def plain(flow: Flow, plugin: str, tolerance: Tolerance, grid: tuple[float, ...]
 def landing(flow: Flow, watch: WatchedEvents, event: str) -> Function:
     """One second-order Taylor step of a flow onto an event's surface: (y, parameters) -> (y*, dt, g(y*)).
 
-    dt = -g/g' - g'' g^2/(2 g'^3), y* = y + f dt + f' dt^2/2. At a located event the step is nearly zero, but its
+    dt = -g/g' - g'' g^2/(2 g'^3), y* = y + f dt + f' dt^2/2. Where the event is met the step is nearly zero, but its
     derivative is the saltation; with the second-order terms its error is the square of the step.
     """
     parts, model = expressions(flow), flow.model

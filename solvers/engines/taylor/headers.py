@@ -39,7 +39,7 @@ def headers(choice: ModelKey) -> tuple[str, ...] | None:
 @once
 def tangents(choice: ModelKey) -> tuple[str, ...] | None:
     """Texts of the headers with derivatives of a choice, laws first; None if a law has none, with one warning."""
-    return _sound("no derivatives by the Taylor kernel", _texts(choice, tangent=True))
+    return _sound("derivatives are Rosenbrock's, not the Taylor kernel's", _texts(choice, tangent=True))
 
 
 def _texts(choice: ModelKey, tangent: bool) -> list[str]:
@@ -74,4 +74,4 @@ def _folder(tangent: bool) -> str:
 
 @once  # once per process
 def _say(without: str, why: str) -> None:
-    say(f"{without} ({why}): other engines answer")
+    say(f"{without} ({why})")

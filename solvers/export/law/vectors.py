@@ -26,8 +26,6 @@ TOLERANCE = 1000 * RTOL
 """Relative difference that a check allows: both errors, of the worst-conditioned vectors that are kept."""
 _TIGHTER = 0.01
 _CANDIDATES, _WANTED = 512, 64
-_FEWER = 4
-"""So many times fewer candidates where an interpreted engine computes them."""
 _DRAWN, _KEPT = 96, 12
 _SEED = 17
 _DIMENSIONS = (0.7548776662466927, 0.5698402909980532, 0.4301597090019468, 0.3247179572447461)

@@ -48,17 +48,8 @@ static const char *misfit(const task *t)
     return 0;
 }
 
-#if GRADIENTS
-#if PROOF_BY_ENERGY
-const int proved_by_energy = 1;
-#else
-const int proved_by_energy = 0;
-#endif
-#endif
-
 /* Integrates `count` collisions, with derivatives by the quantities if the kernel has them; output buffers must be
- * zeroed. A kernel with a limit follows one collision, a stick as well, up to `until` if
- * that is not zero.
+ * zeroed. A kernel with a limit follows a single collision, a stick as well, up to `until` unless that is zero.
  *
  * Returns null, or the reason why nothing was done.
  */

@@ -2,8 +2,8 @@
  *
  * The gap is held and the tangential states go on, by recurrences of their own (derive/emit/taylor/resting.py). A lane
  * slides until its slip vanishes, and rolls while friction can hold the surfaces together; in space it slides in the
- * direction of its slip, and creeps. As solvers/engines/casadi/locate.py. No derivative passes resting contact, so that
- * those of a trajectory through it mean nothing.
+ * direction of its slip, and creeps. No derivative passes resting contact, so that those of a trajectory through it mean
+ * nothing.
  */
 #pragma once
 

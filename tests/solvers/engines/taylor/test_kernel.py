@@ -8,9 +8,8 @@ import numpy as np
 import pytest
 from wetdoublet.solvers import Scene, collide, collide_many, sensitivities
 from wetdoublet.solvers.engines.taylor import build as library
-from wetdoublet.solvers.engines.taylor import call as engine
 from wetdoublet.solvers.engines.taylor import headers
-from wetdoublet.solvers.engines.taylor.record import run_recorded
+from wetdoublet.solvers.errors import ComputationError
 from wetdoublet.solvers.host.compiler import compiler
 from wetdoublet.solvers.scene.scenefile import PRESETS
 
@@ -80,25 +79,8 @@ def test_collisions_that_end_at_initial_contact_do_not_move():
     np.testing.assert_allclose(found["smallest_gap"], 5e-6, rtol=1e-15)
 
 
-def test_what_is_handed_over_is_computed_all_the_same(monkeypatch: pytest.MonkeyPatch):
-    """A lane without budget leaves its collision to Rosenbrock: the same answer, and `collide` says whose it is."""
-    impossible = run_recorded(_one("granulation", 0.02, 1.3), True, 1e-9, ledger=True, budget=5)
-    assert impossible is not None
-    assert impossible.answers["status"].tolist() == [2]
-    monkeypatch.setattr("wetdoublet.solvers.collision.by_kernel.run_recorded", lambda *given: impossible)
-    found = collide("granulation", stokes=0.02, angle=1.3, engine="taylor")
-    assert found.engine == "rosenbrock"
-    assert found.energy is not None
-    assert found.restitution == pytest.approx(collide("granulation", stokes=0.02, angle=1.3).restitution, rel=1e-7)
-
-
-def _one(preset: str, stokes: float, angle: float) -> engine.Impacts:
-    scene = Scene.load(preset)
-    return engine.Impacts(scene, np.array([scene.speed_of(stokes)]), np.array([angle]), {})
-
-
 def test_the_engine_of_many(monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str], tmp_path: Path) -> None:
-    """One collision, a few and many go to the kernel and have the same bits; without a compiler Rosenbrock answers."""
+    """One collision, a few and many go to the kernel and have the same bits; without a compiler the error names one."""
     monkeypatch.setenv("WETDOUBLET_CACHE", str(tmp_path))
     monkeypatch.setenv("WETDOUBLET_CFLAGS", QUICK)  # flags with which no kernel is shipped
     library.kernel.cache_clear()
@@ -110,12 +92,11 @@ def test_the_engine_of_many(monkeypatch: pytest.MonkeyPatch, capfd: pytest.Captu
     compiler.cache_clear()
     library.kernel.cache_clear()
     try:
-        without = collide_many("granulation", stokes=0.02, angle=1.3, engine="taylor")
+        with pytest.raises(ComputationError, match=r"\.\[compiler\]"):
+            collide_many("granulation", stokes=0.02, angle=1.3)
     finally:
         compiler.cache_clear()
         library.kernel.cache_clear()
-    assert without.attrs["engine"] == "rosenbrock"
-    assert without.restitution.values[0] == pytest.approx(few.restitution.values[0], rel=1e-7)
 
 
 def test_a_kernel_is_compiled_once(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
@@ -136,7 +117,7 @@ def test_a_kernel_is_compiled_once(tmp_path: Path, monkeypatch: pytest.MonkeyPat
 
 
 def test_what_has_no_tangent_is_named(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]):
-    """A law whose slopes are not emitted: one line says why, once, and CasADi answers."""
+    """A law whose slopes are not emitted: one line says why, once, and Rosenbrock differentiates."""
     texts = headers._texts
     none = ["#error no slopes of it\n"]
     monkeypatch.setattr(headers, "_texts", lambda choice, tangent: none if tangent else texts(choice, tangent))
@@ -148,4 +129,4 @@ def test_what_has_no_tangent_is_named(monkeypatch: pytest.MonkeyPatch, capsys: p
             assert found.engine == "rosenbrock"
     finally:
         headers.tangents.cache_clear()
-    assert capsys.readouterr().err == "no derivatives by the Taylor kernel (no slopes of it): other engines answer\n"
+    assert capsys.readouterr().err == "derivatives are Rosenbrock's, not the Taylor kernel's (no slopes of it)\n"
