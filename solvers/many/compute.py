@@ -1,7 +1,7 @@
 """A batch of collisions on the cores of this machine.
 
-The Taylor kernel computes them in blocks; those of other engines, and those that it does not complete, whose reason is
-then found, go in blocks to worker processes. A collision that fails is marked and the rest go on.
+The Taylor kernel computes them in blocks. Those of other engines go in blocks to worker processes, and so do those that
+it does not complete, for their reasons. A collision that fails is marked and the rest go on.
 """
 
 from collections.abc import Callable

@@ -33,7 +33,7 @@ from .boundary_distance import FINE, Course, Courses, checked, course, courses_o
 from .by_casadi import STATE, differentiated
 from .pair_maps import RESULTS, pair_maps, quantities_of
 from .parameters import kind_of, parameter_map, references
-from .problem import LOCATED, Query
+from .problem import RECORDED, Query
 
 if TYPE_CHECKING:
     import xarray
@@ -184,7 +184,7 @@ def _of_one_pair(request: _Request, pair: Pairs, rtol: float) -> tuple[int, tupl
     n = replace(n, groups={**n.groups, **dict(zip(model.groups, p.tolist(), strict=True))})
     found, courses = _followed(pair, n)
     try:
-        path = found(LOCATED)
+        path = found(RECORDED)
         if not path.separated:
             return OUTCOMES.index(path.outcome), None
         near = checked(courses, True, rtol)

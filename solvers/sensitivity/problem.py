@@ -16,7 +16,7 @@ from ..scene.scene import Scene
 from .parameters import RELATIVE, Kind, kind_of, parameter_map, references
 from .result import Near
 
-LOCATED = 1e-9  # tolerance of the events; landings on them correct the remaining error
+RECORDED = 1e-9  # tolerance of the record; landings on its events correct the remaining error
 NEAR = 1e-2  # at smaller distances to a boundary errors are amplified, so the tolerance is reduced with the distance
 SHARPEST = 1e-13
 _TILT = 1e-8  # rad: its square is rounding, and states are scaled by it, so that steps follow the tangential motion
@@ -55,7 +55,7 @@ class Problem:
     @cached_property
     def path(self) -> EventSequence:
         """The phases and events of the collision; ComputationError if its outcome is not decided."""
-        return sequence_of(self.n, LOCATED)
+        return sequence_of(self.n, RECORDED)
 
     def tilted(self) -> Problem:
         """The collision at a tiny angle: it has the derivatives that a head-on one has by its sideways motion."""

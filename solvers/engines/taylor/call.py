@@ -69,7 +69,7 @@ def run_kernel(
 
     Arguments:
         rotation: also compute the angle through which the line of centres turns.
-        budget: number of steps after which a collision is handed over.
+        budget: number of steps after which a collision is left undecided.
         jumps: what the slow manifold may replace: 0 nothing, 1 what follows the turn (times are not needed), 2 the
             approach as well (nor is the smallest gap).
     """

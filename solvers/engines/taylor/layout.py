@@ -14,7 +14,7 @@ from ...results import DEFINITIONS
 BUFFER = np.dtype([("at", np.uintp), ("bytes", "i8")], align=True)
 SHOWN, SHOWN_IN_SPACE = 5, 13  # results of a collision: the outputs of its structure; in space also of a stick
 _ANSWER = [
-    # restitution, tangential restitution, rotation rate, spin, partner's spin; if handed over: states after the gap
+    # restitution, tangential restitution, rotation rate, spin, partner's spin; if undecided: states after the gap
     ("shown", "f8", SHOWN),
     ("time", "f8"),
     ("smallest_gap", "f8"),

@@ -63,7 +63,7 @@ def run_tangent(
         moved: quantities to differentiate by; None: all.
         order: of the series; None: that of the tolerance.
         backward: of the restitution alone, by the adjoint, at about the cost of one direction.
-            Trajectories of more than some hundred steps are left to other engines.
+            Trajectories of more than some hundred steps get no answer.
         fold: treat a pair of equal spheres as such; False where a quantity of one sphere alone varies.
         nearest: by the adjoint, derivatives of collisions nearer to a boundary by their measure are left at zero.
     """

@@ -213,7 +213,7 @@ static void settle(queue *q, const lanes *l, const fixed *f, int lane, int statu
 #elif OBLIQUE && STRINGS
     a->turned = LANE(l->y[ROTATION], lane);
 #endif
-    if (status > PROVED_AT_TOUCH) /* handed over: the state reached */
+    if (status > PROVED_AT_TOUCH) /* undecided: the state reached */
         for (int state = NORMAL_VELOCITY; state < MODEL_STATES; state++)
             a->shown[state - NORMAL_VELOCITY] = LANE(l->y[state], lane);
     if (status == DECIDED && (SPACE || outcome != STICK)) {
