@@ -65,14 +65,14 @@ def changes_along(
     """
     if not angles:
         return []
-    samples = [known(each) for each in samples]
-    joined, line = np.concatenate(samples), np.repeat(np.arange(len(angles)), [each.size for each in samples])
+    samples = [known(line_samples) for line_samples in samples]
+    joined, line = np.concatenate(samples), np.repeat(np.arange(len(angles)), [part.size for part in samples])
     brackets = _enclosed(angles, sampler, Brackets.between(line, joined["stokes"], joined["outcome"]))
     results = [_attempt(_located, sampler, angle, brackets.part(brackets.line == k)) for k, angle in enumerate(angles)]
-    done = [k for k, each in enumerate(results) if not isinstance(each, ComputationError)]
+    done = [k for k, result in enumerate(results) if not isinstance(result, ComputationError)]
     agree = _confirmed(sampler, [(angles[k], results[k]) for k in done])
-    for k, each in zip(done, agree, strict=True):
-        results[k] = _attempt(_accepted, results[k], each, samples[k])
+    for k, agrees in zip(done, agree, strict=True):
+        results[k] = _attempt(_accepted, results[k], agrees, samples[k])
     return results
 
 
@@ -101,7 +101,7 @@ def _enclosed(angles: Sequence[float], sampler: SceneSampler, brackets: Brackets
 def _located(sampler: SceneSampler, angle: float, brackets: Brackets) -> list[Change]:
     """The changes in the narrow brackets of a line; ComputationError where collisions in one are not decided."""
     changes = []
-    for _, low, high, first, last in zip(*(each.tolist() for each in vars(brackets).values()), strict=True):
+    for _, low, high, first, last in zip(*(column.tolist() for column in vars(brackets).values()), strict=True):
         if math.log(high / low) >= MERGED:
             reason = sampler.reason(angle, low, high)
             raise ComputationError(f"a change of outcome between St {low:.10g} and {high:.10g}: {reason}")
@@ -124,18 +124,18 @@ def _accepted(changes: list[Change], agree: np.ndarray, samples: np.ndarray) -> 
             advice="try a smaller --rtol",
         )
     first = changes[0].before if changes else OUTCOMES[samples["outcome"][0]]
-    expected = np.array([OUTCOMES.index(word) for word in (first, *(one.after for one in changes))])
-    wrong = samples["outcome"] != expected[np.searchsorted([one.stokes for one in changes], samples["stokes"])]
+    expected = np.array([OUTCOMES.index(word) for word in (first, *(change.after for change in changes))])
+    wrong = samples["outcome"] != expected[np.searchsorted([change.stokes for change in changes], samples["stokes"])]
     if wrong.any():
         at = samples["stokes"][wrong][0]
         raise ComputationError(f"the outcome at St {at:.10g} disagrees with the adjacent changes of outcome")
     merged: list[Change] = []
-    for one in changes:
-        if merged and one.stokes < merged[-1].stokes * (1 + MERGED):
-            both = replace(merged.pop(), after=one.after, kind=PLAIN, merged=True)
+    for change in changes:
+        if merged and change.stokes < merged[-1].stokes * (1 + MERGED):
+            both = replace(merged.pop(), after=change.after, kind=PLAIN, merged=True)
             merged += [both] if both.before != both.after else []
         else:
-            merged.append(one)
+            merged.append(change)
     return merged
 
 
@@ -147,9 +147,9 @@ def _confirmed(sampler: SceneSampler, lines: Sequence[tuple[float, list[Change]]
     """
     angle, places, fits = [], [], []
     for at, changes in lines:
-        stokes = np.array([one.stokes for one in changes])
+        stokes = np.array([change.stokes for change in changes])
         gaps = np.diff(stokes, prepend=0.0, append=math.inf) / 3
-        below, above = (np.minimum(_ACCEPTED * stokes, each) for each in (gaps[:-1], gaps[1:]))
+        below, above = (np.minimum(_ACCEPTED * stokes, gap) for gap in (gaps[:-1], gaps[1:]))
         places += [stokes - below, stokes + above]
         narrow = 3 * gaps < MERGED * np.append(stokes, math.inf)
         narrow[[0, -1]] = False
@@ -158,9 +158,9 @@ def _confirmed(sampler: SceneSampler, lines: Sequence[tuple[float, list[Change]]
     fit = np.concatenate([*fits, np.zeros(0, bool)])
     if angle:
         words = [word for _, changes in lines for side in ("before", "after") for word in
-                 (getattr(one, side) for one in changes)]  # fmt: skip
+                 (getattr(change, side) for change in changes)]  # fmt: skip
         fit |= sampler.outcomes(np.array(angle), np.concatenate(places)) == [OUTCOMES.index(word) for word in words]
-    sides = np.split(fit, np.cumsum([each.size for each in places])[:-1])
+    sides = np.split(fit, np.cumsum([pair.size for pair in places])[:-1])
     return [below & above for below, above in zip(sides[::2], sides[1::2])]
 
 

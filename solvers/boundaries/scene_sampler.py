@@ -89,14 +89,14 @@ class SceneSampler:
         answers, _ = self._collided(angle, stokes, budget=budget)
         self.collisions += int(np.count_nonzero(answers["time"] != 0))
         if budget == KERNEL_STEPS:
-            left = answers["outcome"] < 0
-            self.undecided.update(zip(angle[left].tolist(), stokes[left].tolist(), strict=True))
+            unknown = answers["outcome"] < 0
+            self.undecided.update(zip(angle[unknown].tolist(), stokes[unknown].tolist(), strict=True))
         return np.asarray(answers["outcome"])
 
     def events(self, angle: float, *stokes: float) -> list[Events] | None:
         """The events of collisions at an angle (rad); None if one is not decided with the steps of a sample."""
         self.collisions += len(stokes)
-        speed = np.array([self.scene.speed_of(each) for each in stokes])
+        speed = np.array([self.scene.speed_of(number) for number in stokes])
         impacts = Impacts(self.scene, speed, np.full(speed.size, angle), {})
         ran = run_recorded(impacts, self.scene.turns(angle), self.rtol, trajectory=True, budget=SAMPLE_BUDGET,
                            keep=False, fold=False)  # fmt: skip
@@ -146,7 +146,7 @@ class SceneSampler:
                 self._take_limits(ran.answers, impacts, oblique, budget)
             parts.append((which, ran.answers, ran.peaks))
         order = np.argsort(np.concatenate([which for which, *_ in parts]))
-        answers, peaks = (np.concatenate(each)[order] for each in list(zip(*parts, strict=True))[1:])
+        answers, peaks = (np.concatenate(columns)[order] for columns in list(zip(*parts, strict=True))[1:])
         return answers, peaks
 
     def _take_limits(self, answers: np.ndarray, impacts: Impacts, oblique: bool, budget: int) -> None:
@@ -167,7 +167,8 @@ class SceneSampler:
                 continue
             p = model.group_values(nondimensionalise(scene, float(speed), float(angle)).groups)
             states = [
-                np.array([one["final_gap"], *one["shown"][: len(model.state) - 1]]) for one in (early, answers[k])
+                np.array([answer["final_gap"], *answer["shown"][: len(model.state) - 1]])
+                for answer in (early, answers[k])
             ]
             stays = Potential(model, p, self.rtol).limit_of_circling(*states)
             if stays is not None:
@@ -181,22 +182,22 @@ class SceneSampler:
         Of each run of them along a line these are both ends and one in _EVERY. Between the first and the last that
         still chatter only _ROW in the middle are added, unless one there does not.
         """
-        left = np.isin(answers["status"], (Status.NO_BUDGET, Status.CHATTER))
-        which, wanted = np.flatnonzero(left), np.zeros(left.size, dtype=bool)
+        undecided = np.isin(answers["status"], (Status.NO_BUDGET, Status.CHATTER))
+        which, wanted = np.flatnonzero(undecided), np.zeros(undecided.size, dtype=bool)
         parts = np.split(which, 1 + np.flatnonzero((np.diff(which) > 1) | (np.diff(stokes[which]) < 0)))
         for part in parts:
             wanted[part[::_EVERY]] = wanted[part[-1:]] = True
         while wanted.any():
             answers[wanted], peaks[wanted] = self._collided(angle[wanted], stokes[wanted])
-            left &= ~wanted
-            chatters = ~left & (answers["status"] == Status.CHATTER) & (answers["outcome"] < 0)
-            wanted = left.copy()
+            undecided &= ~wanted
+            chatters = ~undecided & (answers["status"] == Status.CHATTER) & (answers["outcome"] < 0)
+            wanted = undecided.copy()
             for part in parts:
                 still = part[chatters[part]]
-                if still.size and (left | chatters)[still[0] : still[-1]].all():
+                if still.size and (undecided | chatters)[still[0] : still[-1]].all():
                     inside = part[(still[0] < part) & (part < still[-1])]
                     wanted[inside[abs(inside - (still[0] + still[-1]) // 2) > _ROW // 2]] = False
-        self.untried.update(zip(angle[left].tolist(), stokes[left].tolist(), strict=True))
+        self.untried.update(zip(angle[undecided].tolist(), stokes[undecided].tolist(), strict=True))
 
 
 def blank(stokes: np.ndarray) -> np.ndarray:

@@ -128,14 +128,14 @@ def _completed(samples: np.ndarray, grid: np.ndarray, sampler: SceneSampler, ang
         some = missing[np.unique(np.linspace(0, missing.size - 1, _SLOW).astype(int))]
         stokes = samples["stokes"][some]
         samples["outcome"][some] = sampler.outcomes(np.full(some.size, angle), stokes)
-        sampler.untried.difference_update((angle, each) for each in stokes.tolist())
+        sampler.untried.difference_update((angle, number) for number in stokes.tolist())
         hole = _HOLE if (samples["outcome"][some] >= 0).any() else 0
     widest = int(np.argmax(np.diff(at)))
     low, high = float(np.exp(at[widest])), float(np.exp(at[widest + 1]))
     if high > low * math.exp(_HOLE * spacing):
-        left = samples["stokes"][missing]
-        inside = left[(low < left) & (left < high)]
-        untried = sampler.untried & {(angle, each) for each in inside.tolist()}
+        places = samples["stokes"][missing]
+        inside = places[(low < places) & (places < high)]
+        untried = sampler.untried & {(angle, number) for number in inside.tolist()}
         tried = f" ({inside.size - len(untried)} of {inside.size} tried to the end)" if untried else ""
         reason = sampler.reason(angle, low, high)
         raise ComputationError(f"collisions between St {low:.4g} and {high:.4g} could not be computed{tried}: {reason}")

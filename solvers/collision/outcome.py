@@ -56,7 +56,7 @@ class Energy:
     def residual(self) -> float:
         spent = self.normal_lubrication + self.tangential_lubrication + self.capillary + self.dry_contact + self.strings
         more = (self.attraction, self.dry_friction, self.own_events)
-        return self.initial - self.final - spent - sum(each or 0.0 for each in more)
+        return self.initial - self.final - spent - sum(term or 0.0 for term in more)
 
     def check(self, rtol: float) -> None:
         """ComputationError if the residual exceeds what the tolerance explains: the trajectory must be wrong."""

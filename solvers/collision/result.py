@@ -27,7 +27,7 @@ class Collision(Outcome, Drawn):
     _picture = "collision.plot.figure.draw"
 
     def __repr__(self) -> str:
-        names = [each.name for each in fields(self) if each.repr and each.name != "events"]
+        names = [entry.name for entry in fields(self) if entry.repr and entry.name != "events"]
         shown = {name: repr(getattr(self, name)) for name in names}
         first, last = (", ".join(map(repr, part)) for part in (self.events[:_ENDS], self.events[-_ENDS:]))
         hidden = len(self.events) - 2 * _ENDS

@@ -94,7 +94,7 @@ def reason(collision: Outcome) -> str:
 def _declared(collision: Outcome) -> OwnEvent | None:
     """The event of a user's model that happened last of all events, if it did."""
     package = collision.scene.package
-    return next((each for each in package.events if each.word == _last(collision)), None) if package else None
+    return next((event for event in package.events if event.word == _last(collision)), None) if package else None
 
 
 def stopped(collision: Outcome) -> str:
@@ -158,8 +158,8 @@ def table(collision: Outcome) -> str:
     """Return the short table that `wetdoublet collide` prints."""
     lines = [*_title(collision), "", *_outcome(collision), "", *_events(collision.events), ""]
     lines += [*_energy(collision), "", *_numerics(collision)]
-    said = [*collision.validity, *filter(None, [collision.long_contact])]
-    remarks = [line for sentence in said for line in wrap(f"note: {sentence}", WIDTH, break_on_hyphens=False)]
+    notes = [*collision.validity, *filter(None, [collision.long_contact])]
+    remarks = [line for sentence in notes for line in wrap(f"note: {sentence}", WIDTH, break_on_hyphens=False)]
     return "\n".join([*lines, *_model(collision.scene), *assumed(collision.scene), *remarks])
 
 
@@ -186,10 +186,10 @@ def _outcome(collision: Outcome) -> list[str]:
     gained = "> 1: rotation has given it energy" if restitution > 1 else ""
     lines = [_line("outcome", collision.outcome), _line("", reason(collision))]
     if collision.proof is not None:
-        said = [str(collision.proof).partition("\n")[0]]
+        texts = [str(collision.proof).partition("\n")[0]]
         if collision.proof.restitution is not None and collision.proof.restitution[1] > 0:
-            said.append("e_n between {:.15g} and {:.15g}".format(*collision.proof.restitution))
-        lines += [_line("" if k else "enclosure", each) for k, each in enumerate(said)]
+            texts.append("e_n between {:.15g} and {:.15g}".format(*collision.proof.restitution))
+        lines += [_line("" if k else "enclosure", text) for k, text in enumerate(texts)]
     if collision.outcome == "stick" and collision.reversal:
         lines.append(_line("", f"the {collision.reversal} criterion had made it rebound on the way"))
     if collision.outcome == "stick" and stopped(collision):

@@ -38,8 +38,8 @@ def of_one_length(arrays: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
 
 def check_outputs(of: Sequence[str], known: Sequence[str] = MAPPED) -> tuple[str, ...]:
     """The quantities to keep, with those that the limits of the model need; InputError for an unknown one."""
-    kept = check_names(of, known, "of")
-    return tuple(dict.fromkeys((*kept, *NEEDS))) if VALIDITY in kept else kept
+    names = check_names(of, known, "of")
+    return tuple(dict.fromkeys((*names, *NEEDS))) if VALIDITY in names else names
 
 
 def checked_impact(
@@ -89,9 +89,9 @@ def checked_columns(
     """
     loaded, varied = checked_vary(Scene.load(scene), {} if vary is None else vary, most=most, texts=texts)
     quantity = held_quantity(loaded, hold)
-    kept = (varied or hold) and not any(impact.get(name) is not None for name in HOLDS)
-    columns = checked_impact(loaded, impact, most, quantity if kept else None) | varied
-    return loaded, columns, held_text(loaded, quantity) if kept else ""
+    holds = (varied or hold) and not any(impact.get(name) is not None for name in HOLDS)
+    columns = checked_impact(loaded, impact, most, quantity if holds else None) | varied
+    return loaded, columns, held_text(loaded, quantity) if holds else ""
 
 
 def checked_vary(
@@ -135,7 +135,7 @@ def _carry_units(name: str, values: Any) -> bool:
     leaves = values.tolist() if isinstance(values, np.ndarray) and values.dtype.kind in "OU" else values
     if not isinstance(leaves, (list, tuple)):
         return carries_unit(values)
-    kinds = {_carry_units(name, each) for each in leaves}
+    kinds = {_carry_units(name, leaf) for leaf in leaves}
     if len(kinds) > 1:
         raise InputError(name, values, "quantities with their units, or plain numbers, not both", "is a list of both")
     return kinds == {True}
@@ -174,7 +174,7 @@ def checked_choices(name: str, values: Any, entry: Field) -> np.ndarray:
         raise InputError(name, values, entry.accepts, "is not a list of names") from None
     names = column.ravel().tolist()
     # text is checked once for each distinct value; values of other types may not be hashable
-    for value in dict.fromkeys(names) if all(isinstance(each, str) for each in names) else names:
+    for value in dict.fromkeys(names) if all(isinstance(name, str) for name in names) else names:
         entry.read(value)
     return column.astype(str)
 

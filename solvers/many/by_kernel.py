@@ -39,7 +39,7 @@ def collide_by_kernel(
     Arguments:
         finished: called with the indices and results of every finished block.
     """
-    left = [which[:0]]
+    incomplete = [which[:0]]
     ledger = any(name in LEDGER for name in request.of)
     jumps = min((DEFINITIONS[name].jumps for name in request.of if name in DEFINITIONS), default=2)
     for first in range(0, which.size, _STRETCH):
@@ -50,19 +50,20 @@ def collide_by_kernel(
             answers, books = run_with_books(impacts, request.rtol, threads)
         else:
             answers, books = run_kernel(impacts, request.rtol, "rotation" in request.of, threads, jumps=jumps), None
-        kept = answers["status"] <= LAST_ANSWER
+        decided = answers["status"] <= LAST_ANSWER
         if books is not None:  # where the ledger is open the trajectory is wrong
-            kept &= _closed(answers, books, request.rtol)
-        if part.size == kept.size and kept.all():  # the usual case; avoids copies
+            decided &= _closed(answers, books, request.rtol)
+        if part.size == decided.size and decided.all():  # the usual case; avoids copies
             finished(part, block_of(request, answers, impacts, books))
             continue
         done = sound.copy()
-        done[sound] = kept
+        done[sound] = decided
         finished(
-            part[done], block_of(request, answers[kept], impacts.part(kept), None if books is None else books[kept])
+            part[done],
+            block_of(request, answers[decided], impacts.part(decided), None if books is None else books[decided]),
         )
-        left.append(part[~done])
-    return np.concatenate(left)
+        incomplete.append(part[~done])
+    return np.concatenate(incomplete)
 
 
 def impacts_of(request: Impacts) -> tuple[call.Impacts, np.ndarray]:
@@ -171,8 +172,8 @@ def _ledger(request: Impacts, books: np.ndarray, impacts: call.Impacts) -> Block
     initial, final, *spent = terms.values()
     block = {f"energy.{name}": values for name, values in terms.items()}
     block["energy.residual"] = initial - final - sum(map(np.nan_to_num, spent))
-    kept = scene.pendulum is None and not scene.wall
-    drift = np.abs(books["momentum"] - 1.0) if kept else np.nan
+    conserved = scene.pendulum is None and not scene.wall
+    drift = np.abs(books["momentum"] - 1.0) if conserved else np.nan
     block["angular_momentum_drift"] = np.where(impacts.oblique, drift, 0.0 if scene.pendulum is None else np.nan)
     return block
 

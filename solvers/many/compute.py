@@ -59,10 +59,10 @@ def complete(
 def _compute(request: Impacts, which: np.ndarray, finished: Finished, cores: int) -> None:
     size, few = _BLOCK, FEW
     if request.engine == "taylor":
-        left = collide_by_kernel(request, which, cores if which.size > FEW else 1, finished)
-        if 0 < left.size < which.size:
-            size, few = max(1, min(_BLOCK, left.size // (4 * cores))), _SLOW
-        which = left
+        incomplete = collide_by_kernel(request, which, cores if which.size > FEW else 1, finished)
+        if 0 < incomplete.size < which.size:
+            size, few = max(1, min(_BLOCK, incomplete.size // (4 * cores))), _SLOW
+        which = incomplete
     blocks = [which[k : k + size] for k in range(0, which.size, size)]
     cores = min(len(blocks), cores)
     if which.size <= few or cores == 1:

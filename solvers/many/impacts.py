@@ -136,7 +136,7 @@ class Impacts:
             name: (dims, values[tuple(at[self.dims.index(dim)] for dim in dims)])
             for name, (dims, values) in self.columns.items()
         }
-        return replace(self, shape=tuple(one.stop - one.start for one in at), columns=columns, beside=None)
+        return replace(self, shape=tuple(part.stop - part.start for part in at), columns=columns, beside=None)
 
     def by_text(self) -> Iterator[tuple[np.ndarray, Impacts | InputError]]:
         """Indices of impacts with the same choices, and these impacts, or the InputError of the scene."""
@@ -324,9 +324,9 @@ def laid_out(
         if name not in dims_of:
             if _broadcast(name, array, shape) != shape:
                 raise _misfit(name, array, shape)
-            kept = [axis for axis in range(-array.ndim, 0) if array.shape[axis] == shape[axis]]
-            array = array.reshape([array.shape[axis] for axis in kept])
-            dims_of[name] = tuple(dims[axis] for axis in kept)
+            axes = [axis for axis in range(-array.ndim, 0) if array.shape[axis] == shape[axis]]
+            array = array.reshape([array.shape[axis] for axis in axes])
+            dims_of[name] = tuple(dims[axis] for axis in axes)
         columns_of[name] = dims_of[name], array
     _check_dims(dims, dims_of)
     return dims, shape, columns_of, _beside(named)
@@ -362,7 +362,7 @@ def _beside(named: Mapping[str, Any]) -> xarray.Dataset | None:
     if not named:
         return None
     try:
-        return xr.merge([one.coords.to_dataset() for one in named.values()], compat="minimal", join="exact")
+        return xr.merge([array.coords.to_dataset() for array in named.values()], compat="minimal", join="exact")
     except ValueError as error:
         problem = f"is not aligned: {' '.join(str(error).split())[:120]}"
         raise InputError([*named][-1], None, "DataArrays with the same coordinates", problem) from None

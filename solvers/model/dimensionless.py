@@ -124,7 +124,7 @@ def _finite(name: str, formula: Formula, values: Mapping[str, float]) -> float:
     if least <= abs(value) <= most and math.isfinite(value):
         return value
     numbers = dict(zip(arguments, inputs, strict=True))
-    spins = [each for each in ("impact_spin", "impact_partner_spin") if numbers.get(each)]
+    spins = [spin for spin in ("impact_spin", "impact_partner_spin") if numbers.get(spin)]
     quantity = spins[0] if spins else "speed" if "speed" in arguments else arguments[0]
     entry, shown = _ENTRIES.get(quantity, quantity), numbers[quantity]
     kind = "scale" if name in _SCALES else "number"

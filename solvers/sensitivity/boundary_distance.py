@@ -154,7 +154,7 @@ def along_speed(courses: Courses, ladder: Sequence[float]) -> Near | None:
     numbers: dict[tuple[str, ...] | None, int] = {None: -1}
 
     def labels(_: np.ndarray, place: np.ndarray) -> np.ndarray:
-        keys = [None if one.separated is None else one.label for one in courses(1 + place)]
+        keys = [None if other.separated is None else other.label for other in courses(1 + place)]
         return np.array([numbers.setdefault(key, len(numbers)) for key in keys])
 
     label = labels(places, places)
@@ -197,7 +197,7 @@ def _name(courses: Courses, change: Brackets) -> str:
         return _CUT_OFF[word]
     width = np.ptp(ends) if high.separated else -np.ptp(ends)
     beyond = (ends[1] if high.separated else ends[0]) + _BEYOND * width
-    slow, middle, fast = (one.speed**2 for one in courses(1 + beyond))
+    slow, middle, fast = (beside.speed**2 for beside in courses(1 + beyond))
     rise = abs(middle - slow)
     if criteria and rise > max(_BENT * abs(fast - middle), _NOISE * middle):  # a stick that is proved before it turns
         return graze

@@ -301,9 +301,9 @@ def slopes(problem: Problem, query: Query, plugin: str) -> Slopes:
     mapping = parameter_map(problem.kind, problem.wrt, tuple(load(choice).groups))
     p, scales = np.split(mapping.values(problem.reference).full().ravel(), [-len(SCALES)])
     by_theta = np.asarray(mapping.slopes(problem.reference)[0].full())
-    found, parting = partial(sequence_of, n), problem.path.parting
+    record, parting = partial(sequence_of, n), problem.path.parting
     try:
-        z, dz, dp = differentiated(found, choice, query, plugin, parting, p, by_theta[: p.size])
+        z, dz, dp = differentiated(record, choice, query, plugin, parting, p, by_theta[: p.size])
     except ComputationError as error:
         raise n.in_si(error) from None
     # in SI: a result is its dimensionless value times a scale
@@ -316,7 +316,7 @@ def slopes(problem: Problem, query: Query, plugin: str) -> Slopes:
 
 
 def differentiated(
-    found: Callable[[float], EventSequence],
+    record: Callable[[float], EventSequence],
     choice: ModelKey,
     query: Query,
     plugin: str,
@@ -327,7 +327,7 @@ def differentiated(
     """The results of a collision that is replayed, their derivatives in the groups, and the directions that matter.
 
     Arguments:
-        found: as for `replayed`.
+        record: as for `replayed`.
         parting: opening speed at separation over v0.
         p, dp: groups, and directions (groups, n) along which derivatives are needed.
 
@@ -341,7 +341,7 @@ def differentiated(
             raise ComputationError(f"{message} {near}, nearer than {NEAR:g}", advice="--engine rosenbrock")
         sharp = max(sharp, _SHARPEST_CVODES)
     try:
-        path, replay = replayed(found, choice, quadratures(load(choice), query.of), plugin, sharp)
+        path, replay = replayed(record, choice, quadratures(load(choice), query.of), plugin, sharp)
     except Stopped as stopped:
         raise stopped.error(plugin, load(choice)) from None
     check_grip(replay.grip, query.rtol)

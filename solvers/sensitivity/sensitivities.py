@@ -137,7 +137,7 @@ def _combined(
         if name == "restitution":  # the restitution of a stick
             return 0.0, np.zeros(size)
         return None, None
-    weights = np.array([parts.get(one, 0.0) for one in todo])
+    weights = np.array([parts.get(term, 0.0) for term in todo])
     return float(weights @ slopes.value) + 0.0, weights @ slopes.first
 
 

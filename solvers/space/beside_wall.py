@@ -146,7 +146,7 @@ def _energies(pairs: Pairs, sliding: np.ndarray, rolling: np.ndarray, planar: li
     Arguments:
         planar: terms of one that slides, one with both, one that spins, and one with both against each other.
     """
-    slides, both, spins, against = (each[:, TRANSVERSE] for each in planar)
+    slides, both, spins, against = (terms[:, TRANSVERSE] for terms in planar)
     along = slides + spins - (both + against) / 2  # the normal motion's
     forms = slides - along, spins - along, (both - against) / 2
     mass, speed = float(pairs.scene.material["reduced_mass"]), -pairs.opening[:, None]

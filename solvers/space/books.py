@@ -31,7 +31,7 @@ def of_casadi(
     model: Model, p: np.ndarray, y: np.ndarray, extras: Mapping[str, float], dry: float, rubbed: float = 0.0
 ) -> np.ndarray:
     """The terms of a trajectory by CasADi, from its last state and quadratures."""
-    first, last = (model.values("energies", each, p)["kinetic"] for each in (model.start(p), y))
+    first, last = (model.values("energies", state, p)["kinetic"] for state in (model.start(p), y))
     known = dict(extras) | {"initial": first, "final": last, "dry_contact": dry}
     known["dry_friction"] = known.get("dry_friction", 0.0) + rubbed
     return np.array([known.get(name, 0.0) for name in TERMS])

@@ -60,8 +60,8 @@ def by_kernel(pairs: Pairs, rtol: float, threads: int, ledger: bool = False) -> 
         if not which.size:
             continue
         part = pairs.part(which), _part(motion, which)
-        found = _in_planes(*part, rtol, threads, ledger) if planar else _in_space(part[0], rtol, threads, ledger)
-        ends.put(which, found)
+        group = _in_planes(*part, rtol, threads, ledger) if planar else _in_space(part[0], rtol, threads, ledger)
+        ends.put(which, group)
     if ledger:  # where it is open the trajectory is wrong
         wrong = is_open(ends.energy, ends.outcome > 0, rtol)
         ends.outcome[wrong], ends.reason[wrong] = FAILED, OPEN

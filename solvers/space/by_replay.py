@@ -56,7 +56,7 @@ def own_axes(pair: Pairs) -> np.ndarray:
     normal = pair.normal[0]
     radii = Bodies.of(pair.scene).radius
     speeds = [pair.distance * pair.turning[0], radii[0] * pair.spins[0, 0], radii[1] * pair.spins[0, 1]]
-    across = np.array([each - (each @ normal) * normal for each in speeds])
+    across = np.array([speed - (speed @ normal) * normal for speed in speeds])
     sizes = length(across)
     second = across[int(np.argmax(sizes))]
     if not sizes.max() > TURNLESS * max(length(np.array(speeds)).max(), _LEAST):  # nothing turns n: any direction does
@@ -79,7 +79,7 @@ def groups_of(pair: Pairs, axes: np.ndarray) -> Problem:
     quantities |= {f"impact_{name}_{axis}": float(v[k]) for name, v in vectors.items() for k, axis in enumerate(AXES)}
 
     def formula(name: str) -> float:
-        return float(getattr(scaling, name)(*(quantities[each] for each in scaling.ARGUMENTS[name])))
+        return float(getattr(scaling, name)(*(quantities[argument] for argument in scaling.ARGUMENTS[name])))
 
     quantities["obliquity"] = formula("obliquity_space")
     rate = formula("rate_scale_pair")
@@ -100,12 +100,12 @@ def groups_of(pair: Pairs, axes: np.ndarray) -> Problem:
 def _end(pair: Pairs, plugin: str, rtol: float, ledger: bool) -> Ends:
     turns, axes = not pair.head_on[0], own_axes(pair)
     n = groups_of(pair, axes) if turns else nondimensionalise(without_spins(pair.scene), -float(pair.opening[0]), 0.0)
-    found = partial(sequence_in_space, pair, n) if turns else partial(sequence_of, n)
+    record = partial(sequence_in_space, pair, n) if turns else partial(sequence_of, n)
     choice = select_model(pair.scene, turns, full=ledger, space=turns)
     model = load(choice)
     extras = (EXTRAS if turns else ()) + (extras_of(model) if ledger else ())
     try:
-        path, replay = replayed(found, choice, extras, plugin, rtol)
+        path, replay = replayed(record, choice, extras, plugin, rtol)
     except Stopped as stopped:
         raise n.in_si(stopped.error(plugin, model)) from None
     p, y = model.group_values(n.groups), replay.y
@@ -121,7 +121,7 @@ def _end(pair: Pairs, plugin: str, rtol: float, ledger: bool) -> Ends:
         vectors = [np.array([shown[f"{name}_{axis}"] for axis in AXES]) @ axes for name in names]
         ends.normal[0], ends.turning[0], ends.spins[0] = vectors[0], vectors[1] * n.rate, np.array(vectors[2:]) * n.rate
     if turns and path.separated:
-        first, last = (model.values("surface_slip", each, p)["surface_slip"] for each in (model.start(p), y))
+        first, last = (model.values("surface_slip", state, p)["surface_slip"] for state in (model.start(p), y))
         ends.slip[0] = last / first if first > LEAST_SLIP else np.nan
     if ledger:
         ends.energy[0] = n.energy * of_casadi(

@@ -123,8 +123,8 @@ def collide_pair(
     until = ends.put_at_contact(pairs)
     with np.errstate(invalid="ignore"):
         motions = after_wall(pairs, ends) if loaded.wall else after(pairs, ends)
-    said = {"scene": loaded.to_toml(), "rtol": rtol, "engine": chosen, "validity": _validity(pairs, ends, motions)}
-    return _dataset(pairs, ends, until, motions, said, ledger)
+    attrs = {"scene": loaded.to_toml(), "rtol": rtol, "engine": chosen, "validity": _validity(pairs, ends, motions)}
+    return _dataset(pairs, ends, until, motions, attrs, ledger)
 
 
 def check_scene(scene: Scene) -> None:
@@ -150,7 +150,7 @@ def refusals(pairs: Pairs) -> dict[int, str]:
         stokes = -pairs.opening * pairs.scene.stokes_per_speed
         surfaces = float(pairs.scene.material["reduced_radius"]) * np.max(np.abs(pairs.spins), axis=(1, 2))
         near = (stokes >= 1 / _FURTHEST) & (stokes <= _FURTHEST) & (surfaces <= -_FURTHEST * pairs.opening)
-    found: dict[int, str] = {}
+    reasons: dict[int, str] = {}
     for k in np.flatnonzero(~(finite & approaches & near)).tolist():
         if not 0.5 < np.abs(pairs.normal[k]).max() <= 1.0:  # of a unit vector at least 1/sqrt(3)
             given = ", ".join(f"{part:g}" for part in pairs.normal[k])
@@ -172,8 +172,8 @@ def refusals(pairs: Pairs) -> dict[int, str]:
         else:
             bad = float(numbers[k][~np.isfinite(numbers[k])][0])
             error = InputError("velocities, spins", bad, "finite numbers", "is not finite")
-        found[k] = str(error)
-    return found
+        reasons[k] = str(error)
+    return reasons
 
 
 def _ends(pairs: Pairs, engine: str, rtol: float, ledger: bool) -> Ends:
@@ -202,7 +202,7 @@ def _validity(pairs: Pairs, ends: Ends, motions: Motions) -> list[str]:
     if not which.size:
         return []
     some = pairs.part(which)
-    before, after = (each[:, 1] - each[:, 0] for each in (some.velocities, motions.velocities[which]))
+    before, after = (velocities[:, 1] - velocities[:, 0] for velocities in (some.velocities, motions.velocities[which]))
     bent = np.arctan2(length(np.cross(before, after)), dot(before, after)[:, 0])
     known: dict[str, Any] = si_values(some.scene, None, None)
     touching = np.inf if some.scene.wall else sum(Bodies.of(some.scene).radius)
@@ -219,7 +219,7 @@ def _validity(pairs: Pairs, ends: Ends, motions: Motions) -> list[str]:
 
 
 def _dataset(
-    pairs: Pairs, ends: Ends, until: np.ndarray, motions: Motions, said: dict[str, Any], ledger: bool
+    pairs: Pairs, ends: Ends, until: np.ndarray, motions: Motions, attrs: dict[str, Any], ledger: bool
 ) -> xarray.Dataset:
     import xarray as xr
 
@@ -230,22 +230,22 @@ def _dataset(
         restitution = np.where(separated, ends.opening / -pairs.opening, np.where(failed, np.nan, 0.0))
     for column in (ends.time, ends.gap):
         column[failed] = np.nan
-    made = {"restitution": restitution, "slip_restitution": ends.slip, "until": until} | vars(ends) | vars(motions)
-    made |= {"normal": motions.position / np.linalg.norm(motions.position, axis=1, keepdims=True)}
-    found: dict[str, Any] = {
+    columns = {"restitution": restitution, "slip_restitution": ends.slip, "until": until} | vars(ends) | vars(motions)
+    columns |= {"normal": motions.position / np.linalg.norm(motions.position, axis=1, keepdims=True)}
+    variables: dict[str, Any] = {
         "outcome": (dims, ends.outcome, outcome_attributes()),
         "certified": (dims, ends.certified, {"long_name": "the stick is proved"}),
         "reason": (dims, ends.reason.astype(str), {"long_name": "why it failed"}),
     }
-    found |= {name: (dims, made[name], about) for name, about in NUMBERS.items()}
+    variables |= {name: (dims, columns[name], about) for name, about in NUMBERS.items()}
     if ledger:
         terms = named(pairs.scene, ends.energy)
-        found |= {f"energy.{key}": (dims, column, attributes(f"energy.{key}")) for key, column in terms.items()}
+        variables |= {f"energy.{key}": (dims, column, attributes(f"energy.{key}")) for key, column in terms.items()}
     for name, (more, about) in VECTORS.items():
-        values = np.where(failed.reshape(-1, *[1] * len(more)), np.nan, made[name])
-        found[name] = (*dims, *more), values, about
+        values = np.where(failed.reshape(-1, *[1] * len(more)), np.nan, columns[name])
+        variables[name] = (*dims, *more), values, about
     shaped = {
         name: (own, values.reshape((*pairs.shape, *values.shape[1:])), notes)
-        for name, (own, values, notes) in found.items()
+        for name, (own, values, notes) in variables.items()
     }
-    return xr.Dataset(shaped, {"axis": list(AXES)}, said)
+    return xr.Dataset(shaped, {"axis": list(AXES)}, attrs)

@@ -47,10 +47,10 @@ def run_in_space(
 
     def chunk(first: int) -> None:
         part = slice(first, min(first + CHUNK, speed.size))
-        one = _task(library, values, part, rtol, answers[part])
+        call = _task(library, values, part, rtol, answers[part])
         if books is not None:
-            one.buffer("books", books[part])
-        one.run()
+            call.buffer("books", books[part])
+        call.run()
 
     in_chunks(speed.size, chunk, threads)
     return answers, books
@@ -63,9 +63,9 @@ def recorded_in_space(
     library, room = kernel(variant_in_space(scene, rtol)), _ROOM
     while True:
         answers, log = np.zeros(1, ANSWER_IN_SPACE), np.zeros(room, HAPPENING)
-        one = _task(library, _values(scene, vectors, speed), slice(0, 1), rtol, answers)
-        one.buffer("log", log)
-        one.run()
+        call = _task(library, _values(scene, vectors, speed), slice(0, 1), rtol, answers)
+        call.buffer("log", log)
+        call.run()
         events = int(answers["events"][0])
         if events <= room:
             return answers[0], log[:events]

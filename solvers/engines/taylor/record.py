@@ -80,23 +80,23 @@ def run_recorded(
         answers, log = np.zeros(size, ANSWER), np.zeros((size, log_room), HAPPENING)
         books = np.zeros(size if ledger else 0, OWN_LEDGER if has_events(wanted.choice) else LEDGER)
         rows = np.empty(step_room, step_row(library)) if keep else None  # the kernel counts the rows that it fills
-        one = task(library, impacts, rtol, budget, answers)
-        one.number("purpose", purpose)
-        one.number("until", until or 0.0)
+        call = task(library, impacts, rtol, budget, answers)
+        call.number("purpose", purpose)
+        call.number("until", until or 0.0)
         if events:
-            one.buffer("log", log)
-        one.buffer("books", books)
+            call.buffer("log", log)
+        call.buffer("books", books)
         if rows is not None:
-            one.buffer("rows", rows)
+            call.buffer("rows", rows)
         if margins is not None:
-            one.buffer("peaks", margins)
-        steps, most = one.run(), int(answers["events"][answers["status"] <= LAST_ANSWER].max(initial=0))
+            call.buffer("peaks", margins)
+        steps, most = call.run(), int(answers["events"][answers["status"] <= LAST_ANSWER].max(initial=0))
         if (most <= log_room or not events) and (rows is None or steps <= rows.size):
             break
         log_room, step_room = max(most, log_room), max(steps, step_room)
     turned = number(library, "row_turned") if trajectory else -1
-    kept = None if rows is None else Steps(rows[:steps], None if turned < 0 else turned)
-    return Recorded(answers, log, books if ledger else None, kept, margins)
+    written = None if rows is None else Steps(rows[:steps], None if turned < 0 else turned)
+    return Recorded(answers, log, books if ledger else None, written, margins)
 
 
 def run_with_books(

@@ -85,11 +85,13 @@ def test_no_derivative_at_the_switch_between_sliding_and_sticking() -> None:
         found = sensitivities(rough({}, friction, 0.4), "final_spin", WRT[:1], stokes=8.0, angle=ANGLE)
         return found.gradient["final_spin"][WRT[0]]
 
-    def approach(low: float, high: float) -> None:
+    low, high = 0.05, 0.8  # slides, sticks
+    assert slope(low) != 0.0 and slope(high) == 0.0
+
+    def bisected(low: float, high: float) -> None:
         while high / low > 1 + 1e-8:
             middle = math.sqrt(low * high)
             low, high = (low, middle) if slope(middle) == 0.0 else (middle, high)
 
-    assert slope(0.05) != 0.0 and slope(0.8) == 0.0  # slides, sticks
     with pytest.raises(ComputationError, match="switch between sliding and sticking contact"):
-        approach(0.05, 0.8)
+        bisected(low, high)
