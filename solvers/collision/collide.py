@@ -92,7 +92,12 @@ def integrated(
 ) -> Collision:
     """The collision by the kernel, or as an engine of CasADi replays it; `until` in s."""
     if engine in (None, "taylor"):
-        return collision(problem, rtol, ledger, trajectory, until)
+        try:
+            return collision(problem, rtol, ledger, trajectory, until)
+        except ComputationError:  # implicit steps, which creeping motion needs, are not recorded
+            if engine == "taylor" or not trajectory:
+                raise
+            engine = "rosenbrock"
     from .by_replay import by_replay
 
     return by_replay(problem, rtol, engine, ledger, trajectory, until)

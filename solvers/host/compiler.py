@@ -1,7 +1,8 @@
 """The machine's C compiler, or else Zig's from `wetdoublet[compiler]`: search, test and compilation with a time limit.
 
-A compiler is accepted if it compiles a two-line program that then runs. Without one everything is interpreted, with one
-remark on standard error. WETDOUBLET_COMPILE_SECONDS sets the time limit for a file.
+A compiler is accepted if it compiles a two-line program that then runs. Without one only shipped and cached kernels
+answer and CasADi's integrators are interpreted, with one remark on standard error. WETDOUBLET_COMPILE_SECONDS sets the
+time limit for a file.
 """
 
 import hashlib
@@ -254,7 +255,7 @@ def _compiled(command: tuple[str, ...], flags: Sequence[str], place: Path, limit
     binary = place / "made"
     status, output = _run((*command, *flags, "-o", str(binary), str(place / "source.c"), "-lm"), limit, place)
     if status:
-        lines = output.strip().splitlines() or ["no message"]
+        lines = output.strip().splitlines() or [f"ended by signal {-status}" if status < 0 else "no message"]
         raise CannotCompile(next((line for line in lines if "error" in line), lines[-1]))
     if not binary.is_file():
         raise CannotCompile("nothing came of it")

@@ -178,7 +178,8 @@ class Run:
 
     def integrate(self, k: int, step: PhaseRun) -> None:
         """Phase k: onto its event, by way of the kinks of its laws."""
-        remaining, phase = step.duration, step.phase
+        # a last phase without an event ends at the record's time, which earlier landings have moved away from
+        remaining, phase = self.path.time - self.at.time if step.event is None else step.duration, step.phase
         while True:
             phase = self._sided(phase)
             flow = Flow(self.choice, phase.region, self.extras)

@@ -73,11 +73,21 @@ def test_a_compiler_of_ones_own(
         ("exit 0", "it does not say its version"),
         ("[ $1 = --version ] || exit 0", "nothing came of it"),
         ("[ $1 = --version ] || { echo error: no licence >&2; exit 1; }", "error: no licence"),
+        ("[ $1 = --version ] || kill -9 $$", "ended by signal 9"),
         ("grep -q 'main(' $source 2>/dev/null && sed -i s/42/41/ $source", "what it compiles does not run"),
         ("sleep 600", "it has not ended after 0.2 s"),
         ("[ $1 = --version ] || { sleep 600 & wait; }", "it has not ended after 0.2 s"),
     ],
-    ids=["missing", "silent", "compiles nothing", "fails", "for another machine", "hangs", "hangs when it compiles"],
+    ids=[
+        "missing",
+        "silent",
+        "compiles nothing",
+        "fails",
+        "is killed",
+        "for another machine",
+        "hangs",
+        "hangs when it compiles",
+    ],
 )
 def test_what_is_no_compiler(
     does: str | None, wrong: str, tmp_path: Path, anew: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
