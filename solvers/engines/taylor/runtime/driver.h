@@ -186,20 +186,6 @@ static first_event event_of_step(queue *q, expansion *e, const lanes *l, const f
     return first;
 }
 
-static const double NO_MOTION = 1e-13; /* in v0: rounding alone turns what is as slow */
-
-/* Passes over the turning points of what moves along the line of centres no more than rounding lets it. */
-static void pass_over_rounding(const lanes *l, const series *s, vec h, first_event *first)
-{
-    mask slow = l->alive & (first->time <= 1.0) & (first->event == splat_mask(AT_TURNING));
-    slow &= vec_abs(l->y[NORMAL_VELOCITY]) < NO_MOTION;
-    if (!bits(slow))
-        return;
-    slow &= vec_abs(sum_at(s->normal_velocity, h)) < NO_MOTION;
-    slow &= vec_abs(sum_at(s->normal_velocity, 0.5*h)) < NO_MOTION;
-    first->time = choose(slow, splat(NO_ROOT), first->time);
-}
-
 /* What is kept of the step: nearness to boundaries, derivatives, tape, rows. */
 static void keep_step(queue *q, expansion *e, lanes *l, const fixed *f, vec h, mask creeps, mask falls, mask event)
 {
@@ -305,7 +291,9 @@ static void run(queue *q)
         h = before_kinks(&e.s, h, creeps);
 #endif /* KINKS */
         first_event first = event_of_step(q, &e, &l, &f, h);
-        pass_over_rounding(&l, &e.s, h, &first);
+#if WITH_LIMIT
+        pass_over_rounding(q, &l, &e.s, h, &first);
+#endif
         mask falls = l.alive & (first.time <= 1.0);
         h = choose(falls, h*first.time, h);
 #if WITH_LIMIT

@@ -110,6 +110,18 @@ static void leave_within(queue *q, lanes *l, const fixed *f, vec (*a)[TERMS], do
     LANE(l->alive, lane) = 0;
 }
 
+static const double NO_MOTION = 1e-13; /* in v0: rounding alone turns a stick that is as slow */
+
+/* Passes over the turning points of a stick that no longer moves along the line of centres. */
+static void pass_over_rounding(const queue *q, const lanes *l, const series *s, vec h, first_event *first)
+{
+    if (!q->contact || !q->contact->stuck)
+        return;
+    mask still = (first->event == splat_mask(AT_TURNING)) & (vec_abs(l->y[NORMAL_VELOCITY]) < NO_MOTION);
+    still &= (vec_abs(sum_at(s->normal_velocity, h)) < NO_MOTION) & (vec_abs(sum_at(s->normal_velocity, 0.5*h)) < NO_MOTION);
+    first->time = choose(still, splat(NO_ROOT), first->time);
+}
+
 /* The answer of a collision that was followed to its limit: a stick, with the state reached. */
 static void answer_at_limit(const struct interrupted *h, answer *a)
 {
