@@ -204,6 +204,9 @@ static mask own_events_due(const lanes *l, const fixed *f, mask *event)
     return due;
 }
 #endif /* OWN_EVENTS */
+/* Relative: what falls back this near to contact never gets there, as its steps are rounded away. */
+static const double ROUNDING_OF_GAP = 0x1p-49;
+
 /* Rebound by the first criterion of the table that is met already, in these lanes, which start a closing phase. */
 static void criteria_met_by(queue *q, lanes *l, fixed *f, mask candidates)
 {
@@ -211,7 +214,7 @@ static void criteria_met_by(queue *q, lanes *l, fixed *f, mask candidates)
 #if WITH_TRAJECTORY
     glass = q->t->purpose == APPROACH ? 0 : glass;
 #endif
-    unsigned any = glass | bits(candidates & (l->y[GAP] <= f->contact));
+    unsigned any = glass | bits(candidates & (l->y[GAP] <= f->contact*(1.0 + ROUNDING_OF_GAP)));
 #if GRADIENTS
     if (glass) {
         vec met = vec_abs(vec_log(1.0 - pressure_margin(&f->c, l->y)));
@@ -220,8 +223,10 @@ static void criteria_met_by(queue *q, lanes *l, fixed *f, mask candidates)
     }
 #endif
     EACH_LANE(lane)
-        if (any >> lane & 1)
-            rebounds(q, l, f, lane, glass >> lane & 1 ? KIND_GLASS : kind_at_gap(&f->c, LANE(l->y[GAP], lane), lane));
+        if (any >> lane & 1) {
+            double gap = fmin(LANE(l->y[GAP], lane), LANE(f->contact, lane));
+            rebounds(q, l, f, lane, glass >> lane & 1 ? KIND_GLASS : kind_at_gap(&f->c, gap, lane));
+        }
 }
 
 #if TURNS
