@@ -7,14 +7,12 @@ import sympy as sp
 from ...equations.automaton import EVENTS, WORDS
 from ...equations.model import Model
 from ...user.own_events import OwnEvent
-from ..casadi.printer import EmissionError
 from .c_text import Constants, Recurrences
 from .layout import comment, function, struct
 from .ledger import Valued
 from .program import Program
 
 _FIELDS = "event, kind, motion, film, mark, by_gap, opening, closing, known, harmless"
-_SHOWN = 5  # states beside the gap that an answer of the kernel has room for
 
 
 def own_event_functions(
@@ -23,13 +21,11 @@ def own_event_functions(
     """Lines for a structure's header: what stands before its functions, and these; nothing without events.
 
     Raises:
-        EmissionError: a guard has an operation without a recurrence, or there are more marks than room for states.
+        EmissionError: a guard has an operation without a recurrence.
     """
     present = [each for each in events if each.there(model.structure)]
     if not present:
         return [], []
-    if len(model.states) - 1 > _SHOWN:
-        raise EmissionError(f"{len(present)} declared events are more than the kernel has room for")
     guards = model["events"].by_name
     program = Program.for_outputs(model.states, (guards[each.name] for each in present), model.definitions)
     result = {each.name: program.series(sp.sympify(guards[each.name]), f"guard_of_{each.name}") for each in present}

@@ -87,7 +87,7 @@ def _compiled(variant: Variant) -> bytes:
     with say_after(_PATIENCE, "a kernel for this kind of scene is compiled, once; this takes some seconds"):
         emitted = None if tool is None else emitted_headers(variant)
         if emitted is None:
-            raise no_kernel()
+            raise no_kernel() if tool is None else ComputationError("a law or event of this scene has no Taylor series")
         text, flagged = source(variant, emitted), flags(variant, here()[0])
         try:
             return kept(_entry(variant, text, flagged), lambda: compiled(text, flagged))

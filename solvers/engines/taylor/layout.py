@@ -31,9 +31,8 @@ _ANSWER = [
 ANSWER = np.dtype(_ANSWER, align=True)
 ANSWER_IN_SPACE = np.dtype([("shown", "f8", SHOWN_IN_SPACE), *_ANSWER[1:]], align=True)
 MODE = ("closing", "resting", "film", "shear", "sliding", "rolling")
-HAPPENING = np.dtype(
-    [("kind", "i4"), *((name, "i4") for name in MODE), ("time", "f8")], align=True
-)  # the mode after it
+# an event, and the mode after it
+HAPPENING = np.dtype([("kind", "i4"), *((name, "i4") for name in MODE), ("time", "f8")], align=True)
 _TERMS = "initial final lifted normal tangential capillary attraction dry friction"
 # then the angular momentum over its initial value
 LEDGER = np.dtype([(name, "f8") for name in (*_TERMS.split(), "momentum")], align=True)

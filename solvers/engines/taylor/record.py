@@ -102,8 +102,8 @@ def run_recorded(
 def run_with_books(
     impacts: Impacts, rtol: float, threads: int, budget: int = KERNEL_STEPS
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Answers and ledgers of impacts, oblique or head-on."""
-    answers, books = np.zeros(impacts.angle.size, ANSWER), np.zeros(impacts.angle.size, LEDGER)
+    """Answers and ledgers of impacts, oblique or head-on; these with the loss by declared events, 0 without any."""
+    answers, books = np.zeros(impacts.angle.size, ANSWER), np.zeros(impacts.angle.size, OWN_LEDGER)
     turns, fold = impacts.oblique, not impacts.others
     for oblique, which in ((True, np.flatnonzero(turns)), (False, np.flatnonzero(~turns))):
 
@@ -111,7 +111,9 @@ def run_with_books(
             part = which[first : first + CHUNK]
             recorded = run_recorded(impacts.part(part), oblique, rtol, True, budget=budget, events=False, fold=fold)
             assert recorded.ledger is not None  # as requested
-            answers[part], books[part] = recorded.answers, recorded.ledger
+            answers[part] = recorded.answers
+            for name in recorded.ledger.dtype.names or ():
+                books[name][part] = recorded.ledger[name]
 
         in_chunks(which.size, chunk, threads)
     return answers, books

@@ -49,7 +49,7 @@ class Kernel:
     def _headers(self) -> tuple[str, ...]:
         emitted = headers(self.choice)
         if emitted is None:
-            accepted = "a model that has one: laws with recurrences, and few events (docs/reference/models.md)"
+            accepted = "a model that has one: laws with recurrences (docs/reference/models.md)"
             raise InputError("--to", "c", accepted, "cannot be written for this model, which has no Taylor kernel")
         return emitted
 

@@ -192,7 +192,6 @@ static void park_for_jump(queue *q, lanes *l, fixed *f, mask rebounds)
 }
 #endif
 
-STATIC_ASSERT(MODEL_STATES - NORMAL_VELOCITY <= sizeof ((answer *)0)->shown/sizeof(double)); /* shown */
 
 /* Writes the answer of a trajectory. */
 static void settle(queue *q, const lanes *l, const fixed *f, int lane, int status, int outcome, int certified)
@@ -209,9 +208,9 @@ static void settle(queue *q, const lanes *l, const fixed *f, int lane, int statu
 #elif OBLIQUE && STRINGS
     a->turned = LANE(l->y[ROTATION], lane);
 #endif
-    if (status > PROVED_AT_TOUCH) /* undecided: the state reached */
-        for (int state = NORMAL_VELOCITY; state < MODEL_STATES; state++)
-            a->shown[state - NORMAL_VELOCITY] = LANE(l->y[state], lane);
+    if (status > PROVED_AT_TOUCH) /* undecided: the state reached, without marks of declared events beyond the room */
+        for (int k = 0; k < MODEL_STATES - NORMAL_VELOCITY && k < (int)(sizeof a->shown/sizeof(double)); k++)
+            a->shown[k] = LANE(l->y[NORMAL_VELOCITY + k], lane);
     if (status == DECIDED && (SPACE || outcome != STICK)) {
         vec shown[OUTPUTS];
         outputs(&f->c, l->y, shown);
