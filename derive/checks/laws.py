@@ -74,8 +74,7 @@ def small_angle_is_linear() -> Evidence:
 
 def head_on_closed_form(laws: Iterable[Law]) -> tuple[Check, ...]:
     """Head-on with a film only, u = -v0 (1 - Lf(s)/St) solves the emitted equations, Lf the integral of resistance."""
-    head_on = next(s for s in structures() if not (s.oblique or s.bridge or s.strings))
-    model = derive(head_on)
+    model = derive(Structure(oblique=False, bridge=False, strings=False))
     closing, film_flag, stokes = model.states[1], sp.Symbol("film", nonnegative=True), model.groups[0]
     checks = []
     for law in laws:

@@ -47,7 +47,9 @@ _TARGETS: dict[str, Callable[[Structure], sp.Expr]] = {
     "tangential edge": lambda _: slot_call("shear", "edge", q.aspect),
     "half turn": lambda _: sp.pi,
 }
-TARGET_GROUPS = tuple(q.VOCABULARY[event.target].symbol for event in EVENTS if event.target in q.VOCABULARY)
+TARGET_GROUPS = tuple(
+    dict.fromkeys(q.VOCABULARY[event.target].symbol for event in EVENTS if event.target in q.VOCABULARY)
+)
 
 
 def events(structure: Structure) -> dict[str, sp.Expr]:

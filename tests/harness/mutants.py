@@ -77,8 +77,8 @@ MUTANTS = {
     ),
     "an approach in space that is too fast": Mutant(
         "solvers/space/by_kernel.py",
-        "run_in_space(pairs.scene, vectors, -pairs.opening,",
-        "run_in_space(pairs.scene, vectors, -1.0001*pairs.opening,",
+        "run_in_space(pairs.scene, vectors_of(pairs), -pairs.opening,",
+        "run_in_space(pairs.scene, vectors_of(pairs), -1.0001*pairs.opening,",
         "test_reference.py::test_equals_the_reference_in_space",
     ),
     "no range": Mutant(

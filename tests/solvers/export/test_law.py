@@ -67,19 +67,15 @@ def test_builds_and_checks(compiler: str, folder: Path, tmp_path: Path):
 
 @NEED
 @pytest.mark.slow
-def test_is_exported_without_a_compiler(tmp_path: Path):
-    """Test vectors then come from CasADi; the law, compiled elsewhere, reproduces them."""
+def test_is_not_exported_without_a_compiler(tmp_path: Path):
+    """Test vectors come from the kernel: what is missing is named."""
     without = os.environ | {"CC": "", "WETDOUBLET_NO_COMPILER": "1", "WETDOUBLET_CACHE": str(tmp_path / "cache")}
     words = ["export", "pendulum", "--to", "c", "--out", tmp_path / "law"]
-    subprocess.run([sys.executable, "-m", "wetdoublet.solvers", *words], env=without, check=True)
-    assert not list((tmp_path / "cache").glob("*.so"))
-    make = ["make", "-s", "check", "CC=gcc", f"CFLAGS={QUICK}"]
-    done = subprocess.run(make, cwd=tmp_path / "law", capture_output=True, text=True, check=False)
-    assert done.returncode == 0, done.stdout
-    (impacts,) = re.findall(r"^0 of (\d+)", done.stdout, re.MULTILINE)
-    assert int(impacts) >= 50
-    rows = re.findall(r"^ +\{0, (\d), ", (tmp_path / "law" / "vectors.h").read_text(), re.MULTILINE)
-    assert {*rows[: int(impacts)]} == {"0", "1", "2"}
+    done = subprocess.run(
+        [sys.executable, "-m", "wetdoublet.solvers", *words], env=without, capture_output=True, text=True, check=False
+    )
+    assert done.returncode == 1
+    assert "install gcc or clang" in done.stderr
 
 
 def test_needs_no_x86_and_names_its_own_macro(folder: Path):

@@ -70,12 +70,6 @@ def test_films_tracked_badly_are_refused_or_said(kind: str) -> None:
         assert said or max(map(abs, errors), default=0.0) < 4
 
 
-def on_the_page(row: str) -> list[float]:
-    """The numbers in a row of the page's table."""
-    [line] = [each for each in PAGE.read_text(encoding="utf-8").splitlines() if each.startswith(f"| {row} |")]
-    return [float(each.replace("−", "-")) for each in re.findall(r"[-−]?\d+\.\d+", line)]
-
-
 def located(pictures: np.ndarray, mask: int, ground: int, **settings: object) -> np.ndarray:
     """The two largest discs of each picture that has two, (pictures, 2, 2)."""
     table = tracked(pictures, mask, ground, reach=0.1, **settings)
@@ -89,26 +83,3 @@ def pairs(gap: float, random: np.random.Generator, count: int = 30) -> tuple[np.
     film = {"x1": place[:, 0], "y1": place[:, 1]}
     film |= {"x2": place[:, 0] + distance * np.cos(turn), "y2": place[:, 1] + distance * np.sin(turn)}
     return rendered(film, 12, random, grey=2), distance
-
-
-def test_the_masks_of_the_how_to() -> None:
-    """Scatter of the distance of two discs of 24 px that are far apart: the numbers of the page, to a quarter."""
-    random = np.random.default_rng(1)
-    pictures, _ = pairs(60, random)
-    found = []
-    for mask in (21, 25, 27, 29):
-        two = located(pictures, mask, 60, preprocess=False, minmass=5000)
-        found.append(float(np.std(np.linalg.norm(two[:, 0] - two[:, 1], axis=1)) / math.sqrt(2)))
-    assert found == pytest.approx(on_the_page("a mask of 21, 25, 27, 29 px for a disc of 24 px"), rel=0.25, abs=0.005)
-    assert np.all(np.diff(found) < 0)
-
-
-def test_the_near_discs_of_the_how_to() -> None:
-    """How far two discs of 24 px are pushed apart at a gap of 0, 4 and 12 px: the numbers of the page, to 0.1 px."""
-    for row, ground, preprocess in (("`preprocess=True`", 0, True), ("`preprocess=False`", 60, False)):
-        found = []
-        for gap in (0, 4, 12):
-            pictures, distance = pairs(gap, np.random.default_rng(gap), 15)
-            two = located(pictures, 27, ground, preprocess=preprocess, minmass=3000, separation=20)
-            found.append(float(np.mean(np.linalg.norm(two[:, 0] - two[:, 1], axis=1)) - distance))
-        assert found == pytest.approx(on_the_page(f"{row}, near discs"), abs=0.1)

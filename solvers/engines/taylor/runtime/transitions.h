@@ -205,7 +205,7 @@ static mask own_events_due(const lanes *l, const fixed *f, mask *event)
 }
 #endif /* OWN_EVENTS */
 /* Relative: what falls back this near to contact never gets there, as its steps are rounded away. */
-static const double ROUNDING_OF_GAP = 0x1p-49;
+static const double ROUNDING_OF_GAP = 1.8e-15;
 
 /* Rebound by the first criterion of the table that is met already, in these lanes, which start a closing phase. */
 static void criteria_met_by(queue *q, lanes *l, fixed *f, mask candidates)
