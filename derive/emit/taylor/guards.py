@@ -131,7 +131,7 @@ def _search(event: Event) -> list[str]:
                       f"        {name}_coefficients(&{name}, s, &f->c, k);"]  # fmt: skip
         if event.least:
             target = f"only({sign}*{series}[0] < {event.least}, -{event.least}*{sign})"
-        if event.bound == "terms":
+        if event.bound == "terms" or event.target:  # `least_of` tells of zero alone
             excluded = f"{_guard(event, f'{series}[0]')} > reach({series}, h)"
         elif event.follows:  # the component has the sign of the series
             excluded = f"least_of({series}, h) > 0.0"
