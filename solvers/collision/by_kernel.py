@@ -131,8 +131,7 @@ def _row(rows: np.ndarray) -> dict[str, Any]:
 
 
 def _energy(problem: Problem, books: Mapping[str, float]) -> Energy:
-    terms = {name: books[field] * problem.energy for name, field in TERMS.items()}
-    terms |= {"own_events": books["own_events"] * problem.energy} if "own_events" in books else {}
+    terms = {name: books[field] * problem.energy for name, field in TERMS.items() if field in books}
     absent = absent_terms(problem.scene) | (set() if problem.oblique else {"dry_friction"})
     return Energy(**{"strings": 0.0} | {name: value for name, value in terms.items() if name not in absent})
 

@@ -27,7 +27,10 @@ def open_beyond(rtol: float) -> float:
 
 def absent_terms(scene: Scene) -> set[str]:
     """Terms of the ledger whose forces a scene does not have."""
-    absent = {"attraction": scene.attraction, "dry_friction": scene.particles.friction, "strings": scene.pendulum}
+    absent = {
+        "attraction": scene.attraction, "dry_friction": scene.particles.friction, "strings": scene.pendulum,
+        "own_events": (scene.package and scene.package.events) or None,
+    }  # fmt: skip
     return {name for name, part in absent.items() if part is None}
 
 

@@ -171,7 +171,7 @@ def _ledger(request: Impacts, books: np.ndarray, impacts: call.Impacts) -> Block
     terms |= {name: np.full(books.size, 0.0 if name == "strings" else np.nan) for name in absent_terms(scene)}
     initial, final, *spent = terms.values()
     block = {f"energy.{name}": values for name, values in terms.items()}
-    block["energy.residual"] = initial - final - sum(map(np.nan_to_num, spent)) - books["own_events"] * unit
+    block["energy.residual"] = initial - final - sum(map(np.nan_to_num, spent))
     conserved = scene.pendulum is None and not scene.wall
     drift = np.abs(books["momentum"] - 1.0) if conserved else np.nan
     block["angular_momentum_drift"] = np.where(impacts.oblique, drift, 0.0 if scene.pendulum is None else np.nan)
@@ -180,7 +180,7 @@ def _ledger(request: Impacts, books: np.ndarray, impacts: call.Impacts) -> Block
 
 def _closed(answers: np.ndarray, books: np.ndarray, rtol: float) -> np.ndarray:
     """Where the ledger is as closed as a tolerance leaves it, or the outcome is a stick."""
-    terms = np.array([books[name] for name in (*TERMS.values(), "own_events")])
+    terms = np.array([books[name] for name in TERMS.values()])
     residual = np.abs(terms[0] - terms[1:].sum(axis=0))
     largest = np.maximum(np.abs(terms).max(axis=0), residual)
     return np.asarray((answers["outcome"] == 0) | (residual <= open_beyond(rtol) * largest))

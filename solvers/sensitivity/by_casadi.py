@@ -131,16 +131,17 @@ class End:
     smallest_gap: MX
     dry: MX
     friction: MX
+    own: MX
     shifts: list[MX]  # by the landings, relative to the durations
 
 
 def follow(course: Course, p: MX, durations: MX, plugin: str, tolerance: Tolerance) -> End:
     """A course from initial contact on."""
     model, k = course.model, 0
-    size = len(model.state)
+    size, kinetic = len(model.state), model.names("energies").index("kinetic")
     start = model.function("start")(DM.zeros(size), p)
     y = vertcat(start, DM.ones(len(course.extras)) * tolerance.offset)
-    at = End(start, y, MX(0), start[0], MX(0), MX(0), [])
+    at = End(start, y, MX(0), start[0], MX(0), MX(0), MX(0), [])
     for leg in course.legs:
         if leg.phase is not None:
             flow = Flow(course.choice, leg.phase.region, course.extras)
@@ -161,7 +162,9 @@ def follow(course: Course, p: MX, durations: MX, plugin: str, tolerance: Toleran
         if leg.holds:
             at.y = vertcat(at.y[0], 0, at.y[2:])
         if leg.declared:
+            before = model.function("energies")(at.y[:size], p)[kinetic]
             at.y = vertcat(model.function(f"jump_{leg.declared}")(at.y[:size], p), at.y[size:])
+            at.own += before - model.function("energies")(at.y[:size], p)[kinetic]
     return at
 
 
@@ -188,6 +191,7 @@ def results(course: Course, p: MX, end: End, tolerance: Tolerance) -> dict[str, 
     named = dict(zip(model.names("outputs"), (outputs[k] for k in range(outputs.numel())), strict=True))
     energies = {name: (before[k], after[k]) for k, name in enumerate(model.names("energies"))}
     named |= {"contact_time": end.time, "smallest_gap": end.smallest_gap, "energy.dry_contact": end.dry}
+    named["energy.own_events"] = end.own
     named["energy.initial"], named["energy.final"] = energies["kinetic"]
     if "strings" in energies:
         named["energy.strings"] = energies["strings"][1] - energies["strings"][0]

@@ -98,6 +98,26 @@ def test_what_a_jump_takes_is_booked(snaps: Path):
     assert abs(many["energy.residual"].item()) < 1e-8 * found.energy.initial
 
 
+def test_what_a_jump_takes_has_derivatives(snaps: Path):
+    """By the surface tension they are those of differences, and the residual has none."""
+    tension = "bridge.surface_tension"
+    own = scene(snaps, braking_gap="20 um")
+    found = sensitivities(own, ["energy.own_events", "energy.residual"], stokes=0.5, angle=0.0, rtol=1e-10)
+
+    def taken(factor: float) -> float:
+        changed = own.with_entries({tension: own.bridge.surface_tension * factor})
+        energy = collide(changed, speed=speed, angle=0.0, rtol=1e-12).energy
+        assert energy is not None and energy.own_events is not None
+        return energy.own_events
+
+    speed = collide(own, stokes=0.5, angle=0.0).speed
+    assert found.value["energy.own_events"] == pytest.approx(taken(1.0), rel=1e-8)
+    difference = (taken(1 + 1e-4) - taken(1 - 1e-4)) / (2e-4 * own.bridge.surface_tension)
+    assert found.gradient["energy.own_events"][tension] == pytest.approx(difference, rel=1e-5)
+    for name, value in found.reference.items():
+        assert abs((found.gradient["energy.residual"][name] or 0.0) * value) < 1e-7 * taken(1.0)
+
+
 @pytest.mark.skipif(compiler() is None, reason="no C compiler")
 def test_the_kernel_does_as_casadi(snaps: Path):
     """Outcome, restitution and every proved stick by both engines, where all events happen at some collision."""
