@@ -5,6 +5,7 @@ answer and CasADi's integrators are interpreted, with one remark on standard err
 time limit for a file.
 """
 
+import ctypes
 import hashlib
 import math
 import os
@@ -109,7 +110,7 @@ def library(source: str, flags: Sequence[str]) -> bytes:
     """A C file compiled to a shared library.
 
     Raises:
-        CannotCompile: the compilation failed; gives the reason.
+        CannotCompile: the compilation failed, or what it wrote does not load; gives the reason.
         KeyboardInterrupt: the compiler was interrupted, as by Ctrl-C.
     """
     working = compiler()
@@ -119,7 +120,8 @@ def library(source: str, flags: Sequence[str]) -> bytes:
     try:
         with cache.room() as place:
             (place / "source.c").write_text(source, encoding="utf-8")
-            return _compiled(working.command, flags, place, limit)
+            content = _compiled(working.command, flags, place, limit)
+        cache.loaded(content, ctypes.CDLL)  # one that does not load is not kept
     except subprocess.TimeoutExpired:
         os.environ[_GIVEN_UP] = "1"
         compiler.cache_clear()
@@ -127,6 +129,7 @@ def library(source: str, flags: Sequence[str]) -> bytes:
         raise CannotCompile(why) from None
     except OSError as error:
         raise CannotCompile(error.strerror or str(error)) from None
+    return content
 
 
 def webassembly(source: str, flags: Sequence[str]) -> bytes:

@@ -200,3 +200,20 @@ def test_a_compiler_that_fails(tmp_path: Path, anew: pytest.MonkeyPatch):
             collide_many("granulation-dry-bridge", stokes=0.5, angle=0.3)
     finally:
         kernel.cache_clear()
+
+
+def test_a_library_that_does_not_load_is_not_kept(tmp_path: Path, anew: pytest.MonkeyPatch):
+    """A compiler that leaves half a file, as on a full disk, and says nothing: the next attempt is made anew."""
+    spoilt = tmp_path / "full"
+    spoilt.touch()
+    half = f"""{ON_MORE} [ ! -e {spoilt} ] || {{
+        while [ "$1" != -o ]; do shift; done; echo half > "$2"; exit 0; }}"""
+    anew.setenv("CC", str(script(tmp_path / "cc", half)))
+    kernel.cache_clear()
+    try:
+        with pytest.raises(ComputationError, match="cannot compile the Taylor kernel"):
+            collide_many("granulation-dry-bridge", stokes=0.5, angle=0.3)
+        spoilt.unlink()
+        assert collide_many("granulation-dry-bridge", stokes=0.5, angle=0.3)["outcome"].item() >= 0
+    finally:
+        kernel.cache_clear()
