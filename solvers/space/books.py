@@ -9,7 +9,7 @@ from ..model.model import Model
 from ..results import TERMS as OF_KERNEL
 from ..scene.scene import Scene
 
-TERMS = tuple(name for name in OF_KERNEL if name != "strings")
+TERMS = tuple(name for name in OF_KERNEL if name not in ("strings", "own_events"))  # no kernel in space has them
 _INITIAL, _FINAL, _SHEAR = (TERMS.index(name) for name in ("initial", "final", "tangential_lubrication"))
 OPEN = "the energy ledger is open: try a smaller rtol, or another engine"
 GREW = "energy has grown: errors have added up over a long trajectory; try a smaller rtol, or another engine"
