@@ -7,6 +7,7 @@ from typing import Any
 
 import pytest
 from hypothesis import HealthCheck, settings
+from wetdoublet.solvers.engines.interval.build import engine
 from wetdoublet.solvers.engines.taylor.build import kernel
 
 from .helpers.data import BOUNDARIES, COLLISIONS
@@ -50,8 +51,20 @@ def reference_boundaries() -> dict[str, Any]:
 @pytest.fixture(scope="module")
 def optimized() -> Iterator[None]:
     """Kernels of this module are optimized."""
+    yield from _compiled(OPTIMIZED)
+
+
+@pytest.fixture(scope="module")
+def released() -> Iterator[None]:
+    """What this module compiles is compiled as users do: enclosures take ten times as long without optimization."""
+    yield from _compiled("")
+
+
+def _compiled(flags: str) -> Iterator[None]:
     with pytest.MonkeyPatch.context() as patch:
-        patch.setenv("WETDOUBLET_CFLAGS", OPTIMIZED)
-        kernel.cache_clear()
+        patch.setenv("WETDOUBLET_CFLAGS", flags)
+        for known in (kernel, engine):
+            known.cache_clear()
         yield
-    kernel.cache_clear()
+    for known in (kernel, engine):
+        known.cache_clear()

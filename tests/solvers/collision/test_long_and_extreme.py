@@ -9,7 +9,7 @@ from wetdoublet.solvers.export.law.kernels import SPACE, kernels
 from ...helpers.entries import CIRCLES
 from ...helpers.reference import collide
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.usefixtures("optimized")]
 
 
 def test_what_is_left_of_sliding_keeps_its_sign_and_digits() -> None:

@@ -16,7 +16,7 @@ from wetdoublet.solvers import Scene, collide, explore
 
 from .page import GRANULATION, Page
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.usefixtures("optimized")]
 
 ADDRESSES = 60
 

@@ -10,10 +10,10 @@ from wetdoublet.solvers import InputError, Scene, collide, collide_many, explore
 
 from .page import LACTOSE, SCENES
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.usefixtures("optimized")]
 
 RESULTS = ("restitution", "tangential_restitution", "contact_time", "rotation", "smallest_gap", "final_spin")
-SETTINGS = 120  # random ones, of all scenes together
+SETTINGS = 80  # random ones, of all scenes together
 LEDGERS = 4  # separations of each scene
 TERMS = {
     "normal_lubrication": "lost squeezing the film",

@@ -6,6 +6,8 @@ from wetdoublet.solvers import boundary, regime_map
 from wetdoublet.solvers.boundaries.on_map import map_curves
 from wetdoublet.solvers.many.plot_map import draw_map
 
+pytestmark = pytest.mark.usefixtures("optimized")
+
 
 @pytest.fixture(scope="module")
 def chart():

@@ -222,6 +222,7 @@ def test_progress_bar_on_a_terminal(tmp_path):
 
 
 @pytest.mark.slow
+@pytest.mark.usefixtures("optimized")
 def test_pictures(data, unlucky, tmp_path):
     """Every kind of map is drawn with nothing clipped: two panels, small multiples, one row, one cell, failures."""
     scene = Scene.load("pendulum").with_entries({"name": "cost $5 " * 20, "model.glass": "film-corrected"})

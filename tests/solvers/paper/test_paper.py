@@ -16,7 +16,7 @@ from wetdoublet.solvers.paper import PARTS, granules, pendulum, report, table1
 from wetdoublet.solvers.paper.printed import DOUBLED, PRINTED, SHOTS
 from wetdoublet.solvers.paper.report import PENDULUM, Comparison, number
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.usefixtures("optimized")]
 
 FACTORS = {"V": 1.038, "x₀": 0.762, "μ": 0.983, "σ": 1.010, "m": 1.010, "a": 1.136}  # an independent prototype's
 

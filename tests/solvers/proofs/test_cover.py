@@ -9,7 +9,7 @@ from wetdoublet.solvers import ProvedBoundary, collide, prove, prove_boundary
 from wetdoublet.solvers.host.compiler import compiler
 from wetdoublet.solvers.proofs import proved_boundary
 
-pytestmark = pytest.mark.skipif(compiler() is None, reason="no C compiler")
+pytestmark = [pytest.mark.skipif(compiler() is None, reason="no C compiler"), pytest.mark.usefixtures("released")]
 LINE = {"angle": "60 deg", "stokes": (0.09, 0.2)}  # across one change of granulation
 WIDE = 1e-4  # relative width of stretches that `prove` encloses by the same steps
 

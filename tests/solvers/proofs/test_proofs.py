@@ -19,7 +19,7 @@ from wetdoublet.solvers.model.model import select_model
 from ...helpers.data import COLLISIONS
 from ...helpers.own_arm import described
 
-pytestmark = pytest.mark.skipif(compiler() is None, reason="no C compiler")
+pytestmark = [pytest.mark.skipif(compiler() is None, reason="no C compiler"), pytest.mark.usefixtures("released")]
 OUTCOMES = ("stick", "stick-rotate-separate", "bounce")
 
 

@@ -13,7 +13,7 @@ from ...helpers.command import run
 from ...helpers.data import DATA
 from ...helpers.sensitive import HARD
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.usefixtures("optimized")]
 
 # scene, its changes, degrees, Stokes numbers about the one change that is looked at
 LINES = {
