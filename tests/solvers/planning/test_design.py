@@ -211,17 +211,3 @@ def test_the_command_says_the_same() -> None:
     refused = run("design", "granulation", "--free", "liquid.viscosty", *window)
     assert refused.exit_code == 2
     assert refused.stderr.startswith('--free: "liquid.viscosty" is not known, did you mean liquid.viscosity?')
-
-
-def test_a_candidate_that_is_best_by_its_error_is_not_chosen() -> None:
-    """Errors of a fifth on single candidates, which their exact information has not: as good as without errors."""
-
-    def with_errors(points: np.ndarray) -> np.ndarray:
-        return regression(points) * (1 + 0.2 * np.sin(1e3 * points[:, 0]))[:, None, None]
-
-    first = np.column_stack([np.linspace(0, 1, 8), np.zeros(8)])
-    known = 1e-9 * np.eye(3)
-    plain = search(regression, known, Criterion(None), 9, first, 1 / 7)
-    made = search(with_errors, known, Criterion(None), 9, first, 1 / 7, regression)
-    value, best = (np.linalg.slogdet(summed(each, regression))[1] for each in (made, plain))
-    assert value == pytest.approx(best, abs=1e-3)
