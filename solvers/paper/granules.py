@@ -25,6 +25,7 @@ _STEEPEST, _FIRST = math.radians(89.0), math.radians(0.5)  # the lowest oblique 
 _OBLIQUE, _AT = CURVES[2:], math.radians(45)  # angles of the table of Ce*, and that at which ours is read
 _PRESSURE = "liquid.glass_transition_pressure"
 _OUT_OF_REACH = 1e9  # factor on the glass-transition pressure
+_INSET = (0.61, 0.135, 0.36, 0.5)  # of Fig. 4a: left, bottom, width and height, as parts of its axes
 _BLUE, _ORANGE = "#0072B2", "#D55E00"
 _SHOWN = 0.25  # St at the right edge
 _POINTS = 1500  # of a curve
@@ -45,7 +46,7 @@ def fig4a(folder: Path) -> Part:
     stokes, centrifugal = report.critical_stokes(scene), report.critical_centrifugal(scene, _AT)
     with sheet(folder / "fig4a.png", 7.6) as figure:
         axes = figure.add_subplot()
-        draw_map(axes, whole)
+        draw_map(axes, whole, covered=_INSET)
         _draw_critical(axes, centrifugal, report.end_of_sticking(scene, _AT).stokes * math.tan(_AT), 1.15 * stokes)
         _draw_dry(axes, dry_oblique, report.critical_stokes(dry))
     sides = {dry_oblique.background}.union(*((curve.before, curve.after) for curve in dry_oblique.curves))
@@ -95,7 +96,7 @@ def _draw_critical(axes: Axes, centrifugal: float, tangential: float, largest: f
 
 def _draw_dry(axes: Axes, whole: Atlas, stokes: float) -> None:
     """Draw the inset, without capillary force; head-on collisions stick up to `stokes`."""
-    inset = axes.inset_axes((0.61, 0.135, 0.36, 0.5), zorder=6)
+    inset = axes.inset_axes(_INSET, zorder=6)
     inset.patch.set_zorder(5)
     draw_map(inset, whole, linewidth=0.9, size=8)
     inset.plot([0, stokes], [0, 0], color=INK, linewidth=3, solid_capstyle="butt", clip_on=False, zorder=7)

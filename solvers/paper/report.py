@@ -145,11 +145,14 @@ def sheet(file: Path, height: float, width: float = COLUMN) -> Iterator[Figure]:
         save(figure, file, dpi=300)
 
 
-def draw_map(axes: Axes, whole: Atlas, linewidth: float = 1.2, size: float = 12) -> None:
+def draw_map(
+    axes: Axes, whole: Atlas, linewidth: float = 1.2, size: float = 12, covered: tuple[float, ...] = (0, 0, 0, 0)
+) -> None:
     """Draw the regions and boundaries of an atlas of the impact angle, in degrees, continued to St = 0 and 90 deg.
 
     Arguments:
         size: of the regions' letters.
+        covered: what has no letters: left, bottom, width and height as parts of the axes.
     """
     degrees, stokes = np.linspace(0.0, 90.0, _ROWS), np.linspace(0.0, whole.window[1], _COLUMNS)
     places = np.meshgrid(np.clip(np.radians(degrees), *whole.span), np.clip(stokes, *whole.window), indexing="ij")
@@ -160,6 +163,9 @@ def draw_map(axes: Axes, whole: Atlas, linewidth: float = 1.2, size: float = 12)
     fills.set_linewidth(0)
     for curve in whole.curves:
         axes.plot(curve.stokes, np.degrees(curve.x), color=INK, linewidth=linewidth, zorder=3)
+    left, bottom, width, height = covered
+    across, up = (np.linspace(0, 1, count) for count in (_COLUMNS, _ROWS))
+    outcome[np.ix_((up - bottom) * (up - bottom - height) < 0, (across - left) * (across - left - width) < 0)] = -1
     letters(axes, outcome, stokes, degrees, size=size)
     axes.set(xlim=(0, whole.window[1]), ylim=(0, 90), yticks=range(0, 91, 15), xlabel=STOKES, ylabel=ANGLE)
 
