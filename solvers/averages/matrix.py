@@ -217,9 +217,9 @@ def _block(request: Request, sizes: np.ndarray, finer: float) -> Columns:
     experiment = experiment_of(list(scenes.values()), request.wrt, request.rtol)
     tolerance, speeds = request.tolerance / finer, request.speeds
     along = partial(over_angles, experiment, speeds.moment(2))
-    mean, error = means(along, experiment, rows.size, speeds, tolerance, _CUT)
-    columns["mean"][rows], columns["error"][rows] = mean, error
-    columns["reason"][rows[np.isnan(mean).any(axis=1)]] = "collisions that no engine completes"
+    columns["mean"][rows], columns["error"][rows] = means(along, experiment, rows.size, speeds, tolerance, _CUT)
+    failed = rows[np.isnan(columns["mean"][rows]).any(axis=1)]
+    columns["reason"][failed] = "collisions that no engine completes"
     if request.wrt:
         of_gradients = _OF_GRADIENTS * tolerance
         slopes = means(partial(gradients, experiment), experiment, rows.size, speeds, of_gradients, _SHARP_CUT)

@@ -204,12 +204,12 @@ class Design(Drawn):
         ]  # fmt: skip
         entries = [("entry", "expected 95 % interval", "before", "beside a {} x {} grid".format(*self.grid))]
         for name, expected in self.expected.items():
-            both = (interval(scene, name, each.low, each.high) for each in (expected, self.before[name]))
+            now, known = (interval(scene, name, each.low, each.high) for each in (expected, self.before[name]))
             is_open = expected.low is expected.high
-            entries.append((name, *both, "-" if is_open else f"{self.against_grid[name]:.2g} of its interval"))
+            entries.append((name, now, known, "-" if is_open else f"{self.against_grid[name]:.2g} of its interval"))
         noise = "outcomes only" if scatter.restitution is None else f"restitution to {scatter.restitution:.3g}"
         values = zip(self.free.names, self.values.tolist(), strict=True)
-        now = ", ".join(f"{name} = {in_unit(scene, name, value)}" for name, value in values)
+        at = ", ".join(f"{name} = {in_unit(scene, name, value)}" for name, value in values)
         scattered = (
             f"scatter {100 * scatter.speed:.3g} % of the {speed}, {math.degrees(scatter.angle):.3g} deg; {noise}"
         )
