@@ -213,7 +213,7 @@ class Design(Drawn):
         scattered = (
             f"scatter {100 * scatter.speed:.3g} % of the {speed}, {math.degrees(scatter.angle):.3g} deg; {noise}"
         )
-        sentences = [f"Planned for {now}; {scattered}."]
+        sentences = [f"Planned for {at}; {scattered}."]
         if self.combinations and any(each.low is each.high for each in self.expected.values()):
             sentences.append(
                 "Entries open at both ends are told in combination only; a prior on one may close the others."

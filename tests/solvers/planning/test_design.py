@@ -170,6 +170,9 @@ def test_the_table_shows_the_impacts(found: Design) -> None:
     assert text.startswith("6 impacts for liquid.viscosity, liquid.film_thickness")
     assert all(f"{each.stokes:.4g}" in text for each in found.impacts)
     assert "beside a 6 x 1 grid" in text
+    assert (
+        "Planned for liquid.viscosity = 2 Pa s, liquid.film_thickness = 8 um; scatter 2 % of the normal speed" in text
+    )
     assert sum(each["count"] for each in found.to_dict()["impacts"]) == 6
 
 
