@@ -67,7 +67,7 @@ def integrals(
         length, new = (high - low)[every, None], slice(None, None, 2 if doubling else 1)
         place = low[every, None] + length * part[:, new]
         columns = np.stack(function(np.repeat(every, place.shape[1]), place.ravel()))
-        columns = columns.reshape(2, *place.shape, -1)
+        columns = columns.reshape(2, *place.shape, columns.shape[-1])
         if doubling:
             columns, odd = np.empty((2, *part.shape, columns.shape[-1])), columns
             columns[:, :, ::2], columns[:, :, 1::2] = odd, known
