@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -13,35 +13,24 @@ from ..changes.experiment import free_names
 from ..engines.settings import RTOL, check_rtol
 from ..errors import InputError
 from ..host.arguments import check_function, check_name, check_names
-from ..host.cores import usable_cores
 from ..host.outputs import check_file
 from ..host.progress import Progress
-from ..host.workers import in_workers
 from ..many.arguments import checked_numbers
-from ..many.blocks import kept
-from ..many.impacts import software
-from ..many.results import fill
 from ..model.validity import warn
 from ..scene.scene import Scene
-from ..scene.schema import MEETING, Field, Range
-from .dataset import Columns, dataset
-from .geometry import COLUMNS, SLOPES
-from .gradients import gradients
-from .interpolation import CHECKS, FINEST, STEPS, Interpolation, nodes
-from .over_speeds import SHARP_CUT, means
-from .sizes import FILMS, FIXED, experiment_of, scene_of_sizes, target
+from ..scene.schema import Field, Range
+from .dataset import dataset
+from .matrix import Request, averages
+from .sizes import FILMS, FIXED
 from .speeds import Speeds
 
 if TYPE_CHECKING:
     import xarray
 
 MOST = 400  # radii
-_BLOCK = 32  # pairs that are computed together
-_OF_GRADIENTS = 100.0  # tolerance of the lines of derivatives, over that of the means
 _TOLERANCE = Field(
     "tolerance", "an error", "1e-6", Range("from 1e-9 to 1e-2", 1e-9, 1e-2, low_open=False, high_open=False)
 )
-_OF_ONE = ("particles.radius", "particles.density")  # entries of one sphere of a pair, as those of its partner
 
 
 def collision_averages(
@@ -62,7 +51,7 @@ def collision_averages(
     magnitude has the distribution `speeds`. The normal speed of a collision is V cos(theta). Spins are the scene's.
 
     Of many radii, without `wrt`, most pairs are interpolated between others if that is as accurate: held against pairs
-    drawn at random, and by how the interpolating series ends.
+    drawn at random.
 
     Arguments:
         scene: a Scene, a path or a preset's name; its [impact] has no influence but for its spins.
@@ -109,79 +98,12 @@ def collision_averages(
     request = _checked(loaded, speeds, radii, films, tolerance, rtol, wrt)
     beside = None if resume is None else check_file(resume, "resume", replaced=True)
     warn(loaded)
-    size = int(np.prod(request.shape)) + int(np.prod(request.grid))
-    columns, done = _blank(size, len(request.wrt)), np.zeros(size, bool)
-    with kept(beside, request.identity, columns, done, "pairs"):
-        columns = _computed(request, columns, done, progress)
-    return dataset(loaded, request.axes, columns, request.attributes(), request.wrt)
-
-
-@dataclass(frozen=True)
-class _Request:
-    """Averages as requested."""
-
-    scene: Scene
-    speeds: Speeds
-    axes: dict[str, np.ndarray]
-    films: str
-    tolerance: float
-    rtol: float
-    wrt: tuple[str, ...]
-
-    @property
-    def shape(self) -> tuple[int, ...]:
-        return tuple(axis.size for axis in self.axes.values())
-
-    @property
-    def symmetric(self) -> bool:
-        """True if an exchange of the two spheres changes no result."""
-        spins = self.scene.impact.spin, self.scene.impact.partner_spin
-        equal_spins = spins[1] is None or spins[0] == spins[1]
-        of_one_sphere = any(name in _OF_ONE or name.startswith("partner.") for name in self.wrt)
-        return len(self.shape) == 2 and self.scene.partner is None and equal_spins and not of_one_sphere
-
-    @property
-    def grid(self) -> tuple[int, ...]:
-        """Shape of the finest grid of nodes of an interpolation; without nodes where there is none."""
-        return (FINEST,) * len(self.shape) if self.shape and not self.wrt and self.shape[0] > FINEST else (0,)
-
-    def scene_at(self, flat: int) -> Scene:
-        """The scene of a pair, or from the number of pairs on, of a node of the interpolation."""
-        size = int(np.prod(self.shape))
-        if flat < size:
-            return self.scene_of(tuple(map(int, np.unravel_index(flat, self.shape))))
-        at = replace(self, axes={name: nodes(axis) for name, axis in self.axes.items()})
-        return at.scene_of(tuple(map(int, np.unravel_index(flat - size, self.grid))))
-
-    def scene_of(self, index: tuple[int, ...]) -> Scene:
-        """The scene of a pair; InputError if it is impossible."""
-        if not index:
-            entries = tuple((name, value) for name, value in self.scene.given if name not in MEETING)
-            return Scene(self.scene.name, entries, package=self.scene.package)
-        radius, *other = (float(axis[k]) for axis, k in zip(self.axes.values(), index, strict=True))
-        return scene_of_sizes(self.scene, radius, other[0] if other else None, self.films)
-
-    def attributes(self) -> dict[str, Any]:
-        return {"speeds": self.speeds.text, "films": self.films, "tolerance": self.tolerance, "rtol": self.rtol}
-
-    def identity(self) -> dict[str, Any]:
-        """Everything that the results depend on, as JSON values."""
-        distribution = None if self.speeds.density is None else self.speeds.density(self.speeds.knots).tolist()
-        return {
-            **self.attributes(),
-            "averages": [entry for entry in self.scene.si if entry[0] not in MEETING],
-            "volume": self.scene.ways.volume,
-            "speeds": [self.speeds.text, self.speeds.knots.tolist(), distribution],
-            "axes": {name: axis.tolist() for name, axis in self.axes.items()},
-            "wrt": list(self.wrt),
-            **software(),
-            "model": self.scene.package and self.scene.package.digest,
-        }
+    return dataset(loaded, request.axes, averages(request, beside, progress), request.attributes(), request.wrt)
 
 
 def _checked(
     scene: Scene, speeds: Any, radii: Any, films: str, tolerance: float, rtol: float, wrt: Sequence[str] | str
-) -> _Request:
+) -> Request:
     if scene.pendulum is not None:
         raise InputError("scene", scene.name, "a scene without [pendulum]", "has strings, so that nothing is isotropic")
     distribution = Speeds.of(scene.impact.relative_speed if speeds is None else speeds)
@@ -191,115 +113,16 @@ def _checked(
         if not 1 <= np.unique(axis).size == axis.size <= MOST:
             raise InputError("radii", axis, f"1 to {MOST} different radii", f"has {axis.size}")
         axes = {"radius": axis} if scene.wall else {"radius": axis, "partner_radius": axis.copy()}
-    request = _Request(
+    request = Request(
         scene, distribution, axes, check_name(films, FILMS, "films"), _TOLERANCE.number(tolerance), check_rtol(rtol), ()
     )
     first: InputError | None = None
-    for index in np.ndindex(request.shape):
+    for sizes in request.sizes:
         try:
-            known = free_names(request.scene_of(index))
+            known = free_names(request.scene_of(sizes))
         except InputError as error:
             first = first or error
         else:
             return replace(request, wrt=check_names(wrt, known, "wrt"))
     assert first is not None  # there is a pair
     raise first
-
-
-def _computed(request: _Request, columns: Columns, done: np.ndarray, progress: Progress | None) -> Columns:
-    """The columns of all pairs: those that are done, and the others as they are computed or interpolated."""
-    size, points = int(np.prod(request.shape)), int(np.prod(request.grid))
-    mirror = np.arange(size + points)
-    if request.symmetric:
-        mirror = np.concatenate([mirror[:size].reshape(request.shape).T.ravel(), mirror[size:]])
-        if points:
-            mirror[size:] = mirror[size:].reshape(request.grid).T.ravel()
-        mirror = np.minimum(mirror, np.arange(size + points))
-    tell = progress or (lambda _done, _total: None)
-
-    def compute(which: np.ndarray) -> None:
-        which = np.unique(mirror[which])
-        left = which[~done[which]]
-        total = int(np.count_nonzero(done)) + left.size
-        tell(total - left.size, total)
-        for where, block in _blocks(request, [left[k : k + _BLOCK] for k in range(0, left.size, _BLOCK)]):
-            fill(columns, where, block)
-            done[where] = True
-            tell(int(np.count_nonzero(done)), total)
-
-    wanted = np.unique(mirror[:size])
-    checks = np.random.default_rng(0).choice(wanted, min(CHECKS, wanted.size), replace=False)
-    for step in STEPS if points and np.count_nonzero(done[wanted]) < wanted.size else ():
-        interpolation = Interpolation(step, tuple(request.axes.values()))
-        which = size + interpolation.which
-        if 2 * (np.unique(mirror[which]).size + checks.size) > wanted.size:
-            continue
-        compute(which)
-        compute(checks)
-        if _is_interpolated(request, interpolation, columns, mirror[which], checks, wanted[~done[wanted]]):
-            tell(int(np.count_nonzero(done)), int(np.count_nonzero(done)))
-            break
-    else:
-        compute(wanted)
-    return {name: values[mirror[:size]] for name, values in columns.items()}
-
-
-def _is_interpolated(
-    request: _Request, interpolation: Interpolation, columns: Columns, which: np.ndarray, checks: np.ndarray,
-    left: np.ndarray,
-) -> bool:  # fmt: skip
-    """Whether the pairs that are left are interpolated, into the columns, from nodes; checks are known pairs."""
-    value, error = interpolation(columns["mean"][which])
-    apart = 2 * np.abs(value[checks] - columns["mean"][checks]).max(axis=0)
-    of_nodes = columns["error"][which].reshape(-1, COLUMNS).max(axis=0)
-    if not (np.maximum(apart, error) <= np.maximum(request.tolerance / 2, of_nodes)).all():  # nor where any is NaN
-        return False
-    try:
-        rates = [request.speeds.mean * target(request.scene_at(flat)) for flat in left.tolist()]
-    except InputError:
-        return False
-    columns["mean"][left], columns["error"][left], columns["rate"][left] = value[left], of_nodes + apart, rates
-    return True
-
-
-def _blocks(request: _Request, blocks: list[np.ndarray]) -> Iterator[tuple[np.ndarray, Columns]]:
-    """Pairs and their columns: the first in this process, which compiles the kernel, many others on all cores."""
-    cores = min(usable_cores(), len(blocks) - 1)
-    for where in blocks[:1] if cores > 1 else blocks:
-        yield where, _block(request, where)
-    if cores > 1:
-        yield from in_workers(cores, _block, ((where, (request, where)) for where in blocks[1:]))
-
-
-def _blank(size: int, parameters: int) -> Columns:
-    columns: Columns = {name: np.full((size, COLUMNS), np.nan) for name in ("mean", "error")}
-    columns |= {name: np.full((size, SLOPES * parameters), np.nan) for name in ("gradient", "gradient_error")}
-    columns["rate"] = np.full(size, np.nan)
-    return columns | {"reason": np.full(size, "", dtype=object)}
-
-
-def _block(request: _Request, where: np.ndarray) -> Columns:
-    """The columns of some pairs."""
-    columns = _blank(where.size, len(request.wrt))
-    scenes: dict[int, Scene] = {}
-    for k, flat in enumerate(where.tolist()):
-        try:
-            scenes[k] = request.scene_at(flat)
-        except InputError as error:
-            columns["reason"][k] = str(error)
-        else:
-            columns["rate"][k] = request.speeds.mean * target(scenes[k])
-    rows = np.array(list(scenes), dtype=int)
-    if not rows.size:
-        return columns
-    experiment = experiment_of(list(scenes.values()), request.wrt, request.rtol)
-    of_nodes = where.min() >= np.prod(request.shape)  # their errors leave room for that of the interpolation
-    mean, uncertain, _ = means(experiment, rows.size, request.speeds, request.tolerance / (2 if of_nodes else 1))
-    columns["mean"][rows], columns["error"][rows] = mean, uncertain
-    columns["reason"][rows[np.isnan(mean).any(axis=1)]] = "collisions that no engine completes"
-    if request.wrt:
-        batches = means(experiment, rows.size, request.speeds, _OF_GRADIENTS * request.tolerance, SHARP_CUT)[2]
-        slopes, errors = gradients(experiment, rows.size, batches)
-        columns["gradient"][rows] = slopes.reshape(rows.size, -1)
-        columns["gradient_error"][rows] = errors.reshape(rows.size, -1)
-    return columns

@@ -5,19 +5,17 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from importlib.metadata import version
+from itertools import product
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..formatting.markdown import csv_text
-from ..many.csv_map import cells_of
 from ..scene.scene import Scene
 from .geometry import BOUNCES, ENERGY, LOST, NORMAL, ROTATES, SLOPES, STICKS, TANGENTIAL, TURNING
+from .matrix import Columns
 
 if TYPE_CHECKING:
     import xarray
-
-Columns = dict[str, np.ndarray]
 
 
 @dataclass(frozen=True)
@@ -105,24 +103,19 @@ def dataset(
 
 def _averaged(quantity: Quantity, columns: Columns) -> tuple[np.ndarray, ...]:
     """A quantity and its error, (pairs,), and its derivatives and their errors, (pairs, parameters)."""
-
-    def column(name: str, k: int) -> np.ndarray:
-        values = columns[name]
-        return values[:, k] if name in ("mean", "error") else values.reshape(len(values), SLOPES, -1)[:, k]
-
     k = quantity.column
-    value = quantity.constant + quantity.factor * column("mean", k)
-    error = abs(quantity.factor) * column("error", k)
+    value = quantity.constant + quantity.factor * columns["mean"][:, k]
+    error = abs(quantity.factor) * columns["error"][:, k]
     if k >= SLOPES:
         return value, error
-    slope, slope_error = column("gradient", k), column("gradient_error", k)
+    slope, slope_error = columns["gradient"][:, k], columns["gradient_error"][:, k]
     if not quantity.separated:
         return value, error, slope, slope_error
-    separate, of_share = column("mean", ROTATES) + column("mean", BOUNCES), column("error", STICKS)
+    separate, of_share = columns["mean"][:, [ROTATES, BOUNCES]].sum(axis=1), columns["error"][:, STICKS]
     share = np.where(separate > np.maximum(of_share, 1e-12), separate, np.nan)
     ratio = value / share
-    slope = (slope + ratio[:, None] * column("gradient", STICKS)) / share[:, None]
-    slope_error = (slope_error + np.abs(ratio)[:, None] * column("gradient_error", STICKS)) / share[:, None]
+    slope = (slope + ratio[:, None] * columns["gradient"][:, STICKS]) / share[:, None]
+    slope_error = (slope_error + np.abs(ratio)[:, None] * columns["gradient_error"][:, STICKS]) / share[:, None]
     return ratio, (error + np.abs(ratio) * of_share) / share, slope, slope_error
 
 
@@ -132,18 +125,15 @@ def to_csv(data: xarray.Dataset) -> str:
     The column `relative_speeds` names the speed, as text. Numbers round-trip; a field is empty where a result is not
     defined.
     """
-    dims = [str(name) for name in data["stick_probability"].dims]
-    sizes = np.meshgrid(*(data[name].values for name in dims), indexing="ij")
-    columns: dict[str, np.ndarray] = {f"{name} [m]": size.ravel() for name, size in zip(dims, sizes, strict=True)}
-    columns["relative_speeds"] = np.full(data["stick_probability"].size, data.attrs["speeds"])
-    plain = [str(name) for name in data.data_vars if data[name].dims == data["stick_probability"].dims]
-    columns |= {name: data[name].values.ravel() for name in sorted(plain, key=lambda name: name == "reason")}
+    dims = data["stick_probability"].dims
+    plain = sorted((name for name in data.data_vars if data[name].dims == dims), key="reason".__eq__)
+    frame = _frame(data[plain].rename({name: f"{name} [m]" for name in dims}))
+    frame.insert(len(dims), "relative_speeds", data.attrs["speeds"])
     for variable, suffix in (("gradient", ""), ("gradient_error", " error")) if "gradient" in data else ():
-        values = data[variable].transpose("quantity", "parameter", *dims).values
-        for quantity, row in zip(data["quantity"].values, values, strict=True):
-            for parameter, cells in zip(data["parameter"].values, row, strict=True):
-                columns[f"d({quantity})/d({parameter}){suffix}"] = cells.ravel()
-    return csv_text(columns, zip(*map(cells_of, columns.values()), strict=True))
+        for quantity, parameter in product(data["quantity"].values, data["parameter"].values):
+            cells = data[variable].sel(quantity=quantity, parameter=parameter).values
+            frame[f"d({quantity})/d({parameter}){suffix}"] = cells.ravel()
+    return str(frame.to_csv(index=False, lineterminator="\n"))
 
 
 def table(data: xarray.Dataset) -> str:
@@ -152,8 +142,14 @@ def table(data: xarray.Dataset) -> str:
     rate = data["collision_rate"].attrs["units"].replace("m s-1", "m/s").replace("m3 s-1", "m^3/s")
     heads = {name: each.head for name, each in _TABLE.items() if each.head} | {"collision_rate": f"rate ({rate})"}
     data = data.assign_coords({name: 1e6 * data[name] for name in sizes}).rename(sizes)
-    blocks = [data[list(heads)].rename(heads).expand_dims([] if sizes else ["pair"])]
+    blocks = [data[list(heads)].rename(heads)]
     blocks += [data["gradient"].to_dataset("parameter")] if "gradient" in data else []
-    frames = [each.to_dataframe().reset_index(drop="pair" in each.dims) for each in blocks]
-    texts = [each.to_string(index=False, na_rep="-", float_format="{:.5g}".format) for each in frames]
+    texts = [_frame(each).to_string(index=False, na_rep="-", float_format="{:.5g}".format) for each in blocks]
     return "\n\n".join([f"{data.attrs['speeds']}, all impact angles", *texts]) + "\n"
+
+
+def _frame(data: xarray.Dataset) -> Any:
+    """The DataFrame of a Dataset, its coordinates in the first columns; one row without dimensions."""
+    if data.dims:
+        return data.to_dataframe().reset_index()
+    return data.expand_dims("pair").to_dataframe().reset_index(drop=True)

@@ -6,13 +6,14 @@ results are smooth.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cache
 
 import numpy as np
 
-from ..changes.brackets import Changes, Labels, locate
+from ..changes.brackets import Changes, locate
 from ..changes.experiment import STEEPEST, UNDECIDED, Experiment
-from .rule import GAUSS, KRONROD, Panels, summed
 from .sizes import collide, outcome_of
 
 RIGHT_ANGLE = np.pi / 2
@@ -21,7 +22,7 @@ STICKS, ROTATES, BOUNCES, NORMAL, TANGENTIAL, ENERGY, TURNING, LOST = range(8)  
 # of e_n and e_t, of the normal energy that is left, of what rotations gain and of what is lost, over the energy
 COLUMNS = 8
 SLOPES = 5  # columns that have derivatives
-_ROUNDS = 12  # halvings of a panel
+_FIRST, _DOUBLINGS = 8, 6  # parts of an interval whose ends are the first places, and numbers of them that are tried
 _MOST = 64  # changes of a line within one bracket; more are those of chatter, and are left to the quadrature
 _HINTS = 4  # angles of a line that are kept to sample another one
 _EVEN, _GRAZING = 30, 22  # angles at which a line is sampled: evenly, and evenly in ln cos(angle)
@@ -29,6 +30,65 @@ _FROM = 0.4  # the largest cosine of the latter
 _HEAD_ON = (1e-5, 1e-4, 1e-3, 5e-3)  # rad; more of them
 _GRAZING_ANGLES = np.arccos(np.geomspace(_FROM, np.cos(STEEPEST), _GRAZING))
 _SAMPLED = np.concatenate([_HEAD_ON, (np.arange(_EVEN) + 0.5) * (_GRAZING_ANGLES[0] / _EVEN), _GRAZING_ANGLES])
+
+
+def summed(owner: np.ndarray, values: np.ndarray, count: int) -> np.ndarray:
+    """Sums of the rows of `values` that have the same owner: (count, columns)."""
+    return np.stack([np.bincount(owner, column, count) for column in values.T], axis=1)
+
+
+def integrals(
+    function: Callable[[np.ndarray, np.ndarray], tuple[np.ndarray, np.ndarray]],
+    owner: np.ndarray,
+    ends: np.ndarray,
+    sharp: np.ndarray | bool,
+    tolerance: float,
+    count: int,
+) -> tuple[np.ndarray, np.ndarray]:
+    """Integrals of what is smooth in intervals, and their errors: sums over those of one owner, (count, columns) each.
+
+    All intervals are integrated together, each with twice as many places until it or the sum changes by little enough.
+    scipy's adaptive rules would divide all of them where one needs it.
+
+    Arguments:
+        function: indices of intervals and places in them -> values and their errors, (places, columns) each.
+        owner, ends: (intervals,), (intervals, 2).
+        sharp: (intervals, 2), the ends at which a function may begin as a square root; places are dense there.
+        tolerance: of the sums.
+    """
+    (low, high), (below, above) = ends.T, np.broadcast_to(sharp, ends.shape).T
+    allowed = tolerance / np.bincount(owner)[owner]
+    every, known, sums = np.arange(low.size), np.zeros(0), np.zeros((3, 0, 0))
+    for doubling in range(_DOUBLINGS):
+        u, weight = _fejer(_FIRST << doubling)
+        where = [each[every, None] for each in (below & above, below, above)]
+        part = np.select(where, [u * u * (3 - 2 * u), u * u, u * (2 - u)], u)
+        rate = np.select(where, [6 * u * (1 - u), 2 * u, 2 * (1 - u)], 1.0)
+        length, new = (high - low)[every, None], slice(None, None, 2 if doubling else 1)
+        place = low[every, None] + length * part[:, new]
+        columns = np.stack(function(np.repeat(every, place.shape[1]), place.ravel()))
+        columns = columns.reshape(2, *place.shape, columns.shape[-1])
+        if doubling:
+            columns, odd = np.empty((2, *part.shape, columns.shape[-1])), columns
+            columns[:, :, ::2], columns[:, :, 1::2] = odd, known
+        value, error = np.einsum("bknc,kn->bkc", columns, weight * rate * length)
+        if not doubling:
+            sums, known = np.stack([value, np.full(value.shape, np.inf), error]), columns
+            continue
+        sums[:, every] = value, np.abs(value - sums[0, every]), error
+        total = summed(owner, sums[1], count).max(axis=1)[owner]
+        coarse = ((sums[1] > allowed[:, None]).any(axis=1) & (total > tolerance))[every]  # nor where it is NaN
+        every, known = every[coarse], columns[:, coarse]
+        if not every.size:
+            break
+    return summed(owner, sums[0], count), summed(owner, sums[1] + sums[2], count)
+
+
+@cache
+def _fejer(count: int) -> tuple[np.ndarray, np.ndarray]:
+    """Places and weights on (0, 1) of Fejer's second rule, whose places are among those of twice the count."""
+    angle, odd = np.pi * np.arange(1, count) / count, np.arange(1, count, 2)
+    return (1 - np.cos(angle)) / 2, np.sin(np.outer(angle, odd)) @ (2 / odd) * np.sin(angle) / count
 
 
 @dataclass(frozen=True)
@@ -55,6 +115,9 @@ class Segments:
             np.where(first < 0, 0.0, width[first]),
         )  # fmt: skip
 
+    def part(self, which: np.ndarray) -> Segments:
+        return Segments(*(values[which] for values in vars(self).values()))
+
     def hints(self, lines: int) -> np.ndarray:
         """The middle of the narrowest segments of each line, rad, (lines, hints); where another line is sampled."""
         order = np.lexsort((self.high - self.low, self.line))
@@ -65,78 +128,52 @@ class Segments:
         return hints
 
 
-def segments(labels: Labels, lines: int, width: float, hints: np.ndarray | None = None) -> Segments:
-    """The segments of lines.
+def segments(
+    experiment: Experiment, pair: np.ndarray, speed: np.ndarray, hints: np.ndarray | None, width: float = WIDTH
+) -> Segments:
+    """The segments of lines, each a pair (by index) at a relative speed (m/s).
 
     Arguments:
-        labels: of lines and angles.
-        width: to which changes are enclosed, rad.
         hints: angles at which lines are sampled besides, (lines, any number).
+        width: to which changes are enclosed, rad.
     """
-    angles = np.tile(_SAMPLED, (lines, 1))
+
+    def labels(line: np.ndarray, angle: np.ndarray) -> np.ndarray:
+        return collide(experiment, pair[line], speed[line], angle, locating=True).label
+
+    angles = np.tile(_SAMPLED, (pair.size, 1))
     if hints is not None:
         angles = np.sort(np.hstack([angles, hints]), axis=1)
     return Segments.between(locate(labels, angles, width, UNDECIDED, _MOST))
 
 
-@dataclass(frozen=True)
-class OverAngles:
-    """Means along lines of constant relative speed, and their errors: (lines, COLUMNS); sticks count 0 in e_n and e_t.
-
-    Attributes:
-        segments: the parts of the lines.
-        line, angle: of the collisions that separate, whose weighted sums the means are.
-        kronrod, gauss: their weights by either rule.
-    """
-
-    mean: np.ndarray
-    error: np.ndarray
-    segments: Segments
-    line: np.ndarray
-    angle: np.ndarray
-    kronrod: np.ndarray
-    gauss: np.ndarray
-
-
 def over_angles(
-    experiment: Experiment, pair: np.ndarray, speed: np.ndarray, hints: np.ndarray | None, tolerance: float
-) -> OverAngles:
-    """The means of lines, each a pair (by index) at a relative speed (m/s); `hints` as for `segments`."""
+    experiment: Experiment, mean_square: float, pair: np.ndarray, speed: np.ndarray, hints: np.ndarray | None,
+    tolerance: float,
+) -> tuple[np.ndarray, np.ndarray]:  # fmt: skip
+    """Means along lines and their errors, (lines, COLUMNS) each; sticks count 0 in e_n and e_t.
 
-    def labels(line: np.ndarray, angle: np.ndarray) -> np.ndarray:
-        return collide(experiment, pair[line], speed[line], angle, locating=True).label
-
-    parts = segments(labels, pair.size, WIDTH, hints)
-    outcome, share = outcome_of(parts.label), np.sin(parts.high) ** 2 - np.sin(parts.low) ** 2
-    mean, error = np.zeros((pair.size, COLUMNS)), np.zeros((pair.size, COLUMNS))
+    Arguments:
+        mean_square: of all relative speeds, to which energies relate.
+        pair, speed, hints: as for `segments`.
+    """
+    parts = segments(experiment, pair, speed, hints)
+    share = np.sin(parts.high) ** 2 - np.sin(parts.low) ** 2
+    mean, error = np.zeros((2, pair.size, COLUMNS))
     for k in (STICKS, ROTATES, BOUNCES):
-        mean[:, k] = np.bincount(parts.line, share * (outcome == k), pair.size)
+        mean[:, k] = np.bincount(parts.line, share * (outcome_of(parts.label) == k), pair.size)
     error += np.bincount(parts.line, np.sin(2 * parts.low) * parts.width, pair.size)[:, None]
-    panels = Panels.over(parts.low, parts.high, parts.low > 0, parts.high < RIGHT_ANGLE)
-    panels = panels.part(parts.high - parts.low > WIDTH)
-    grazing = panels.high == RIGHT_ANGLE  # e_n varies over decades of the cosine there
-    panels = panels.part(~grazing).joined(panels.part(grazing).halved())
-    kept: list[tuple[np.ndarray, ...]] = []
-    for last in (k == _ROUNDS for k in range(_ROUNDS + 1)):
-        angle, length = panels.nodes()
-        line = parts.line[panels.owner]
-        lines, flat = np.repeat(line, angle.shape[1]), angle.ravel()
-        collided = collide(experiment, pair[lines], speed[lines], flat)
-        weight = length * np.sin(2 * angle)
-        expected = outcome[panels.owner]
-        strange = ((collided.outcome.reshape(angle.shape) != expected[:, None]) * weight * KRONROD).sum(axis=1)
-        values = collided.results.reshape(-1, *angle.shape)
-        fine, rough = ((values * weight * rule).sum(axis=2) for rule in (KRONROD, GAUSS))
-        difference = np.abs(fine - rough)
-        missing = np.isnan(difference).any(axis=0)  # collisions that no engine completes
-        done = (difference.max(axis=0) <= tolerance) & (strange <= tolerance)
-        done |= last | missing | (expected == STICKS)
-        sums = np.column_stack([strange, strange, strange, difference.T + strange[:, None]])[done]
-        error += summed(line[done], sums, pair.size)
-        mean[:, NORMAL:] += summed(line[done], fine.T[done], pair.size)
-        use = np.repeat(done & (expected != STICKS), angle.shape[1])
-        kept.append(tuple(each[use] for each in (lines, flat, (weight * KRONROD).ravel(), (weight * GAUSS).ravel())))
-        panels = panels.part(~done).halved()
-        if not panels.size:
-            break
-    return OverAngles(mean, error, parts, *(np.concatenate(each) for each in zip(*kept, strict=True)))
+    wide = parts.part(parts.high - parts.low > WIDTH)
+
+    def columns(which: np.ndarray, angle: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        line, weight = wide.line[which], np.sin(2 * angle)
+        collided = collide(experiment, pair[line], speed[line], angle)
+        collided.results[ENERGY - NORMAL :] *= speed[line] ** 2 / mean_square
+        strange = collided.outcome != outcome_of(wide.label[which])
+        return (collided.results * weight).T, np.tile(strange * weight, (COLUMNS - NORMAL, 1)).T
+
+    ends = np.column_stack([wide.low, wide.high])
+    value, errors = integrals(columns, wide.line, ends, True, tolerance, pair.size)
+    mean[:, NORMAL:] = value
+    error[:, NORMAL:] += errors
+    return mean, error

@@ -1,95 +1,59 @@
-"""Means over relative speeds: panels between the speeds at which the sequence of outcomes along the angle changes."""
+"""Means over relative speeds, in intervals between changes of the sequence of outcomes along the angle."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from collections.abc import Callable
+from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
 
 from ..changes.brackets import locate
 from ..changes.experiment import Experiment
-from .geometry import COLUMNS, ENERGY, OverAngles, over_angles, segments
-from .rule import GAUSS, KRONROD, Panels, summed
-from .sizes import collide
+from .geometry import integrals, segments
 from .speeds import Speeds
 
 _SCAN = 24  # speeds at which the sequence is sampled, for each distribution
-CUT, SHARP_CUT = 1e-6, 1e-9  # width to which changes of sequence are enclosed, over the fastest speed; the derivative
-# of a mean may grow as an inverse square root beside one
 _COARSE = 1e-7  # rad, to which changes of outcome are enclosed for it
 _LOOSE = 1e-7  # tolerance of its collisions
-_ROUNDS = 10  # halvings of a panel
 _INNER = 0.3  # part of the tolerance for the means over angles
 
-
-@dataclass(frozen=True)
-class Batch:
-    """Lines, and their weights by either rule, 0 in panels that were halved.
-
-    Attributes:
-        pair: index of the pair of each line.
-        speed: relative speed, m/s.
-        over_angles: means along the lines.
-    """
-
-    pair: np.ndarray
-    speed: np.ndarray
-    kronrod: np.ndarray
-    gauss: np.ndarray
-    over_angles: OverAngles
+Along = Callable[[np.ndarray, np.ndarray, np.ndarray | None, float], tuple[np.ndarray, np.ndarray]]
+"""Pairs (by index), relative speeds, angles at which lines are sampled besides (lines, any number) or None, and the
+tolerance -> means along the lines and their errors, (lines, columns) each."""
 
 
 def means(
-    experiment: Experiment, pairs: int, speeds: Speeds, tolerance: float, cut: float = CUT
-) -> tuple[np.ndarray, np.ndarray, list[Batch]]:
-    """Means of pairs, the rows of an experiment, over impact angles and relative speeds, to a tolerance.
+    along: Along, experiment: Experiment, pairs: int, speeds: Speeds, tolerance: float, cut: float
+) -> tuple[np.ndarray, np.ndarray]:
+    """Means of pairs, the rows of an experiment, over impact angles and relative speeds, and errors: (pairs, columns).
 
-    Returns:
-        Means and errors, (pairs, COLUMNS), and the lines that they are made of.
+    Arguments:
+        cut: width to which changes of the sequence are enclosed, over the fastest speed.
     """
-    inner = _INNER * tolerance / 4  # a line has some four panels
+    inner = _INNER * tolerance
     if speeds.density is None:
-        every, speed, one = np.arange(pairs), np.full(pairs, speeds.knots[0]), np.ones(pairs)
-        along = over_angles(experiment, every, speed, None, inner)
-        return along.mean, along.error, [Batch(every, speed, one, one, along)]
+        return along(np.arange(pairs), np.full(pairs, speeds.knots[0]), None, inner)
+    density = speeds.density
     sequences = _Sequences(replace(experiment, rtol=max(experiment.rtol, _LOOSE)), float(speeds.knots[-1]))
-    panels, pair_of, hints = _panels(sequences, pairs, speeds, cut)
-    mean_square = speeds.moment(2)
-    mean, error = np.zeros((pairs, COLUMNS)), np.zeros((pairs, COLUMNS))
-    batches = []
-    for last in (k == _ROUNDS for k in range(_ROUNDS + 1)):
-        if not panels.size:
-            break
-        speed, length = panels.nodes()
-        owner = pair_of[panels.owner]
-        pair, near = np.repeat(owner, KRONROD.size), np.repeat(hints[panels.owner], KRONROD.size, axis=0)
-        along = over_angles(experiment, pair, speed.ravel(), near, inner)
-        weight = (length * speeds.density(speed))[:, :, None]
-        values, errors = (each.reshape(*speed.shape, COLUMNS) for each in (along.mean, along.error))
-        for each in (values, errors):  # energies, over the mean one
-            each[:, :, ENERGY:] *= (speed**2 / mean_square)[:, :, None]
-        fine, rough, within = (
-            (each * weight * rule[:, None]).sum(axis=1)
-            for each, rule in ((values, KRONROD), (values, GAUSS), (errors, KRONROD))
-        )
-        difference = np.abs(fine - rough)
-        allowed = (1 - _INNER) * tolerance / np.bincount(owner, minlength=pairs)[owner]
-        enough = (error + summed(owner, difference, pairs)).max(axis=1) <= (1 - _INNER) * tolerance
-        done = (difference.max(axis=1) <= allowed) | enough[owner] | last
-        mean += summed(owner[done], fine[done], pairs)
-        error += summed(owner[done], (difference + within)[done], pairs)
-        kept = weight[:, :, 0] * done[:, None]
-        batches.append(Batch(pair, speed.ravel(), (kept * KRONROD).ravel(), (kept * GAUSS).ravel(), along))
-        panels = panels.part(~done).halved()
-    return mean, error, batches
+    pair, ends, sharp = _intervals(sequences, pairs, speeds, cut)
+    hints = sequences.hints(pair, *ends.T)
+
+    def columns(which: np.ndarray, speed: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        mean, error = along(pair[which], speed, hints[which], inner)
+        weight = density(speed)[:, None]
+        return weight * mean, weight * error
+
+    return integrals(columns, pair, ends, sharp, (1 - _INNER) * tolerance, pairs)
 
 
-def _panels(sequences: _Sequences, pairs: int, speeds: Speeds, cut: float) -> tuple[Panels, np.ndarray, np.ndarray]:
+def _intervals(
+    sequences: _Sequences, pairs: int, speeds: Speeds, cut: float
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Intervals of speed between changes of the sequence and knots of the distribution.
 
     Returns:
-        The panels, the pair of each, and the angles at which its lines are sampled.
+        The pair of each, its ends, and which of them are changes: (intervals,), (intervals, 2) twice.
     """
     low, high = float(speeds.knots[0]), float(speeds.knots[-1])
     scan = low + (high - low) * (np.arange(_SCAN) + 0.5) / _SCAN
@@ -97,10 +61,9 @@ def _panels(sequences: _Sequences, pairs: int, speeds: Speeds, cut: float) -> tu
     pair = np.concatenate([np.repeat(np.arange(pairs), speeds.knots.size), cuts.line])
     at = np.concatenate([np.tile(speeds.knots, pairs), cuts.place])
     order = np.lexsort((at, pair))
-    sharp, pair, at = order >= pairs * speeds.knots.size, pair[order], at[order]
+    pair, at, sharp = pair[order], at[order], order >= pairs * speeds.knots.size
     k = np.flatnonzero((pair[1:] == pair[:-1]) & (at[1:] > at[:-1]))
-    panels = Panels.over(at[k], at[k + 1], sharp[k], sharp[k + 1])
-    return panels, pair[k], sequences.hints(pair[k], at[k], at[k + 1])
+    return pair[k], at[np.stack([k, k + 1], axis=1)], sharp[np.stack([k, k + 1], axis=1)]
 
 
 class _Sequences:
@@ -115,11 +78,8 @@ class _Sequences:
         self._keys, self._hints = np.zeros(0), np.zeros((0, 0))  # of all lines so far, by pair and speed
 
     def __call__(self, pair: np.ndarray, speed: np.ndarray) -> np.ndarray:
-        def labels(line: np.ndarray, angle: np.ndarray) -> np.ndarray:
-            return collide(self._experiment, pair[line], speed[line], angle, locating=True).label
-
         hints = self.hints(pair, speed, speed) if self._keys.size else None
-        parts = segments(labels, pair.size, _COARSE, hints)
+        parts = segments(self._experiment, pair, speed, hints, _COARSE)
         new = parts.hints(pair.size)
         keys = np.concatenate([self._keys, pair * self._far + speed])
         order = np.argsort(keys)

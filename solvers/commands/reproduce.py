@@ -19,12 +19,12 @@ def command(part: str | None, out: options.Folder) -> None:
         [all|table1|fig1|fig3|fig4a|fig4b|factors] (part):
         --out DIR: Write there [paper, in the current folder]; it may hold other files.
     """
-    from ..paper import PARTS, reproduce
+    from ..paper.reproduce import PARTS, reproduce
 
     if part is not None:
         texts.known(("all", *PARTS), part, "PART")
 
     with Bar("parts", "a single PART takes less") as progress:
-        parts = PARTS if part in (None, "all") else (part,)
+        parts = tuple(PARTS) if part in (None, "all") else (part,)
         written = reproduce(parts, out or Path("paper"), progress=progress)
     click.echo("\n".join(map(str, written)))

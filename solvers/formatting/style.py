@@ -72,12 +72,13 @@ def halo(width: float = 2.4) -> withStroke:
     return withStroke(linewidth=width, foreground="white", alpha=0.85)
 
 
-def letters(axes: Axes, outcome: np.ndarray, x: np.ndarray, y: np.ndarray, least: int = 3) -> None:
+def letters(axes: Axes, outcome: np.ndarray, x: np.ndarray, y: np.ndarray, least: int = 3, size: float = 12) -> None:
     """Write the letters of each outcome where its region is widest.
 
     Arguments:
         outcome: outcomes by index, a row for each y; -1 for none.
         least: distance of the letters from the region's edge, in places; a smaller region has none.
+        size: of the letters, in points.
     """
     from scipy.ndimage import distance_transform_cdt  # slow import
 
@@ -85,7 +86,7 @@ def letters(axes: Axes, outcome: np.ndarray, x: np.ndarray, y: np.ndarray, least
         depth = distance_transform_cdt(np.pad(outcome == k, 1), "taxicab")[1:-1, 1:-1]
         if depth.max() >= least:
             row, column = np.unravel_index(np.argmax(depth), outcome.shape)
-            style: Any = {"ha": "center", "va": "center", "color": INK, "fontsize": 12, "zorder": 7}
+            style: Any = {"ha": "center", "va": "center", "color": INK, "fontsize": size, "zorder": 7}
             axes.annotate(LETTERS[name], (x[column], y[row]), path_effects=[halo(4)], **style)
 
 

@@ -2,7 +2,6 @@
 
 import math
 from collections.abc import Sequence
-from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -14,17 +13,19 @@ from ...generated.automaton import BOUNCE, OUTCOMES, ROTATE, STICK
 from ..boundaries.boundary import atlas
 from ..boundaries.changes import Change
 from ..boundaries.result import Atlas
-from ..formatting.style import INK, LETTERS, NOTE, broken, halo
+from ..formatting.style import INK, NOTE, broken, halo
 from ..many.collide_many import collide_many
 from ..scene.scene import Scene
 from . import report
 from .printed import CURVES, DOUBLED, PRINTED
-from .report import Comparison, Part, Picture, Table, degrees, draw_map, number, sheet
+from .report import Comparison, Part, degrees, draw_map, number, picture, sheet, table
 
 _REACH = 0.26  # St at the right edge
 _STEEPEST, _FIRST = math.radians(89.0), math.radians(0.5)  # the lowest oblique line without a bridge
 _OBLIQUE, _AT = CURVES[2:], math.radians(45)  # angles of the table of Ce*, and that at which ours is read
+_PRESSURE = "liquid.glass_transition_pressure"
 _OUT_OF_REACH = 1e9  # factor on the glass-transition pressure
+_INSET = (0.61, 0.135, 0.36, 0.5)  # of Fig. 4a: left, bottom, width and height, as parts of its axes
 _BLUE, _ORANGE = "#0072B2", "#D55E00"
 _SHOWN = 0.25  # St at the right edge
 _POINTS = 1500  # of a curve
@@ -36,7 +37,7 @@ _ROTATES, _BOUNCES = OUTCOMES.index(ROTATE), OUTCOMES.index(BOUNCE)
 
 
 def fig4a(folder: Path) -> Part:
-    """Both maps, and Ce* and St* for the variants."""
+    """Both maps, and Ce* and St*."""
     scene, dry = Scene.load(report.BRIDGED), Scene.load(report.DRY)
     whole, dry_oblique = (
         atlas(each, span=(first, _STEEPEST), stokes=(1e-3 * _REACH, _REACH))
@@ -45,16 +46,12 @@ def fig4a(folder: Path) -> Part:
     stokes, centrifugal = report.critical_stokes(scene), report.critical_centrifugal(scene, _AT)
     with sheet(folder / "fig4a.png", 7.6) as figure:
         axes = figure.add_subplot()
-        draw_map(axes, whole)
+        draw_map(axes, whole, covered=_INSET)
         _draw_critical(axes, centrifugal, report.end_of_sticking(scene, _AT).stokes * math.tan(_AT), 1.15 * stokes)
         _draw_dry(axes, dry_oblique, report.critical_stokes(dry))
     sides = {dry_oblique.background}.union(*((curve.before, curve.after) for curve in dry_oblique.curves))
     only_head_on = STICK not in sides and STICK in report.outcomes(report.changes_at(dry, 0.0))
-    pressure = report.pressure_for(scene, PRINTED["stokes_4"].value)
-    why_stokes = (
-        f"St* follows from p_gt alone: the printed number is reached with {pressure}. Head-on, the lever arm, the "
-        "tangential cut-off and the bridge law have next to no part in it"
-    )
+    why_stokes = "St* follows from p_gt alone: lever arm, tangential cut-off and bridge law have next to no part in it"
     used, dry_used = report.described(scene), report.described(dry)
     over_angles = ", ".join(f"{number(report.critical_centrifugal(scene, at))} at {degrees(at)}" for at in _OBLIQUE)
     why_centrifugal = (
@@ -68,56 +65,43 @@ def fig4a(folder: Path) -> Part:
         f"the S/SRS boundary at {degrees(_AT)}; orange, dashed: the paper's Ce* = {PRINTED['centrifugal'].text} "
         f"and St* = {PRINTED['stokes_4'].text}. Inset: without capillary force, where only θ₀ = 0 sticks (arrow)."
     )
-    readings: dict[str, Any] = {"St* at 0°": report.critical_stokes}
-    readings |= {f"Ce* at {degrees(at)}": partial(report.critical_centrifugal, angle=at) for at in _OBLIQUE}
-    printed = [PRINTED["stokes_4"].text, *[PRINTED["centrifugal"].text] * len(_OBLIQUE)]
-    moved = "Granules: St* and Ce* under the variants"
-    return Part(
-        "Fig. 4a: regime map of granules",
-        comparisons=[
-            Comparison("stokes_4", stokes, used, why_stokes),
-            Comparison("centrifugal", centrifugal, used, why_centrifugal),
-            Comparison("dry", "θ₀ = 0 only" if only_head_on else "others, too", dry_used, why_dry, only_head_on),
-        ],
-        pictures=[Picture("fig4a.png", caption)],
-        tables=[report.under_variants(moved, report.BRIDGED, report.BRIDGE_VARIANTS, readings, printed)],
-        scenes=[report.BRIDGED, report.DRY],
-    )
+    comparisons = [
+        Comparison("stokes_4", stokes, used, why_stokes),
+        Comparison("centrifugal", centrifugal, used, why_centrifugal),
+        Comparison("dry", "θ₀ = 0 only" if only_head_on else "others, too", dry_used, why_dry, only_head_on),
+    ]
+    title, scenes = "Fig. 4a: regime map of granules", [report.BRIDGED, report.DRY]
+    return Part(title, picture("fig4a.png", caption), comparisons, ["fig4a.png"], scenes)
 
 
 def _draw_critical(axes: Axes, centrifugal: float, tangential: float, largest: float) -> None:
-    """Draw our Ce* up to a Stokes number, the paper's Ce* and St*, and the letters of the regions.
+    """Draw our Ce* up to a Stokes number, and the paper's Ce* and St*.
 
     Arguments:
         tangential: St tan(theta0) at our Ce*; Ce is proportional to its square.
     """
     printed_ce, printed_st = PRINTED["centrifugal"], PRINTED["stokes_4"]
-    angle = np.arctan2(tangential, np.linspace(0, largest, 600))
+    stokes = np.linspace(0, largest, 600)
     by_paper = tangential * math.sqrt(printed_ce.value / centrifugal)
-    axes.plot(tangential / np.tan(angle), np.degrees(angle), color=_BLUE, linewidth=2.6, alpha=0.55, zorder=2.5)
+    axes.plot(stokes, np.degrees(np.arctan2(tangential, stokes)), color=_BLUE, linewidth=2.6, alpha=0.55, zorder=2.5)
     dashed: Any = {"color": _ORANGE, "linestyle": (0, (4, 2)), "linewidth": 1.1, "zorder": 4}
-    axes.plot(by_paper / np.tan(angle), np.degrees(angle), **dashed)
+    axes.plot(stokes, np.degrees(np.arctan2(by_paper, stokes)), **dashed)
     axes.axvline(printed_st.value, **dashed)
     style: Any = {"textcoords": "offset points", "color": _ORANGE, "fontsize": 7.5, "ha": "right"}
     style |= {"path_effects": [halo()]}
     axes.annotate(f"paper:\n$St_n^*$ = {printed_st.text}", (printed_st.value, 4), (-3, 0), **style)
     place = by_paper / math.tan(math.radians(33)), 33
     axes.annotate(f"paper:\n$Ce^*$ = {printed_ce.text}", place, (-14, 0), va="center", **style)
-    for x, y, letters in ((0.03, 18, "S"), (0.075, 62, "SRS"), (0.17, 70, "B")):
-        axes.text(x, y, letters, fontsize=13, ha="center", va="center", path_effects=[halo()])
-    axes.set_yticks(range(0, 91, 15))
 
 
 def _draw_dry(axes: Axes, whole: Atlas, stokes: float) -> None:
     """Draw the inset, without capillary force; head-on collisions stick up to `stokes`."""
-    inset = axes.inset_axes((0.61, 0.135, 0.36, 0.5), zorder=6)
+    inset = axes.inset_axes(_INSET, zorder=6)
     inset.patch.set_zorder(5)
-    draw_map(inset, whole, linewidth=0.9)
+    draw_map(inset, whole, linewidth=0.9, size=8)
     inset.plot([0, stokes], [0, 0], color=INK, linewidth=3, solid_capstyle="butt", clip_on=False, zorder=7)
     arrow: Any = {"arrowprops": {"arrowstyle": "->", "lw": 0.8}}
     inset.annotate("S", (0.6 * stokes, 1), (0.6 * stokes, 24), ha="center", fontsize=8, **arrow)
-    for x, y, letters in ((0.055, 55, "SRS"), (0.185, 40, "B")):
-        inset.text(x, y, letters, fontsize=8, ha="center", path_effects=[halo()])
     inset.set(xticks=(0.1, 0.2), yticks=(0, 30, 60, 90), xlabel="", ylabel="")
     inset.tick_params(labelsize=6, pad=1.5)
     inset.set_title("without $F_c$", fontsize=7, pad=2)
@@ -168,28 +152,13 @@ def fig4b(folder: Path) -> Part:
         "the traced boundaries. Inset: against Ce, where the spheres rotate before they separate (no rebound criterion "
         "met)."
     )
-    return Part(
-        "Fig. 4b: restitution",
-        "The paper speaks of a discontinuity of the slope at St*; here e_n itself jumps, at every boundary (table): a "
-        "doublet that has just passed its barrier takes up speed until rupture, and one that just meets a criterion is "
-        "sent back with what speed it still had.",
-        comparisons=comparisons,
-        pictures=[Picture("fig4b.png", caption)],
-        tables=[_jumps(lines, stokes, restitution)],
-        scenes=[report.BRIDGED],
+    words = (
+        "The paper speaks of a discontinuity of the slope at St*; here e_n itself jumps, at every boundary: a doublet "
+        "that has just passed its barrier takes up speed until rupture, and one that just meets a criterion is sent "
+        "back with what speed it still had."
     )
-
-
-def _jumps(lines: Sequence[Sequence[Change]], stokes: np.ndarray, restitution: np.ndarray) -> Table:
-    """Table of e_n on both sides of each boundary."""
-    rows = []
-    for angle, line, values in zip(CURVES, lines, restitution):
-        for change in line:
-            above = int(np.searchsorted(stokes, change.stokes))
-            ends = [f"{value:.3f}" for value in values[above - 1 : above + 1]]
-            kind = f"{change.before} to {change.after}"
-            rows.append([degrees(angle), kind, number(change.stokes), number(change.centrifugal), *ends])
-    return Table("Granules: e_n on either side of the boundaries", ["θ₀", "change", "St", "Ce", "below", "above"], rows)
+    text = f"{words}\n\n{picture('fig4b.png', caption)}"
+    return Part("Fig. 4b: restitution", text, comparisons, ["fig4b.png"], [report.BRIDGED])
 
 
 def _against_stokes(axes: Axes, stokes: np.ndarray, outcome: np.ndarray, restitution: np.ndarray) -> None:
@@ -228,35 +197,22 @@ def _against_centrifugal(
 
 def factors(_folder: Path) -> Part:
     """Factors of Ce* when one quantity is doubled and all others are fixed, with the glass criterion disabled."""
-    preset = Scene.load(report.BRIDGED)
-    base = preset.with_entries({report.PRESSURE: _OUT_OF_REACH * float(preset.entries[report.PRESSURE])})
-
-    def doubled(scene: Scene, entry: str) -> Scene:
-        return scene.with_entries({entry: 2 * float(scene.entries[entry])})
-
-    entries, printed = zip(*DOUBLED.values())
-    scenes = [base, *(doubled(base, entry) for entry in entries)]
+    base = Scene.load(report.BRIDGED)
+    base = base.with_entries({_PRESSURE: _OUT_OF_REACH * float(base.entries[_PRESSURE])})
+    entries = [entry for entry, _ in DOUBLED.values()]
+    scenes = [base, *(base.with_entries({entry: 2 * float(base.entries[entry])}) for entry in entries)]
     critical = np.array([[report.critical_centrifugal(scene, angle) for angle in _OBLIQUE] for scene in scenes])
     ratios, place = critical[1:] / critical[0], _OBLIQUE.index(_AT)  # by quantity and angle
-    nearest = int(np.argmin(((ratios - np.array(printed, dtype=float)[:, None]) ** 2).sum(axis=0)))
-    in_reach = report.outcomes(report.changes_at(doubled(preset, "particles.reduced_radius"), _AT))
+    used = report.described(base) + ", p_gt out of reach"
     comparisons = [
-        Comparison(
-            entry, float(row[place]), report.described(base) + ", p_gt out of reach",
-            f"at {degrees(_AT)}. Over the angles below: {number(row.min())} to {number(row.max())}",
-        )
-        for entry, row in zip(entries, ratios)
-    ]  # fmt: skip
+        Comparison(entry, float(row[place]), used, f"at {degrees(_AT)}") for entry, row in zip(entries, ratios)
+    ]
     rows = [
         [PRINTED[entry].what, PRINTED[entry].text, *(f"{x:.3f}" for x in row)] for entry, row in zip(entries, ratios)
     ]
-    return Part(
-        "Ce* with one quantity doubled",
+    words = (
         "Each quantity alone is doubled; a doubled radius leaves m, x₀ and V/R³. The glass criterion is put out of "
-        f"reach: with the preset's p_gt a doubled radius goes through {', '.join(LETTERS[each] for each in in_reach)} "
-        f"at {degrees(_AT)}. Ce* itself: {number(critical[0, place])}. The paper does not say at which angle; nearest "
-        f"to its six numbers is {degrees(_OBLIQUE[nearest])}.",
-        comparisons=comparisons,
-        tables=[Table("Factors of Ce*", ["", "paper", *(f"at {degrees(angle)}" for angle in _OBLIQUE)], rows)],
-        scenes=[report.BRIDGED],
+        f"reach. Ce* itself: {number(critical[0, place])}. The paper does not say at which angle."
     )
+    of_angles = table("Factors of Ce*", ["", "paper", *(f"at {degrees(angle)}" for angle in _OBLIQUE)], rows)
+    return Part("Ce* with one quantity doubled", f"{words}\n\n{of_angles}", comparisons, scenes=[report.BRIDGED])

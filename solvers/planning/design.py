@@ -1,7 +1,6 @@
 """`design()`: where the next impacts should be to learn most about entries of a scene."""
 
 from collections.abc import Mapping, Sequence
-from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -17,7 +16,7 @@ from ..host.arguments import check_function, check_name, check_whole
 from ..host.progress import Estimated, Progress
 from ..model.validity import warn
 from ..scene.scene import Scene
-from .information import information, reliable_information
+from .information import information
 from .result import Design
 from .search import Criterion, search
 from .window import Scatter, Window, check_over
@@ -25,8 +24,7 @@ from .window import Scatter, Window, check_over
 _SPACING = 20  # candidates to begin with, to either side
 _MOST = 1000
 _AT_ONCE = 64  # impacts that are evaluated together
-_EXACT = 5  # assumed cost of an impact's exact information, relative to the usual one
-_MORE, _PER_IMPACT = 600, 200  # assumed cost of the refinement, and of each distinct impact; rather too large
+_MORE, _PER_IMPACT = 600, 50  # assumed candidates of the refinement, and of each distinct impact; rather too many
 _OTHERS = 0.1  # weight of all entries beside the one that matters
 _NOTHING = 1e-9  # information of an impact on an entry, in the variable of the search, that is none
 
@@ -62,8 +60,8 @@ def design(
         speed_sd: scatter of the speed, relative ("2 %"); angle_sd: of the angle. Default: the data's, or `fit`'s.
         restitution_sd: standard deviation of the measured restitution; "none" if only outcomes are recorded.
         rtol: relative tolerance of the collisions.
-        progress: called with (impacts evaluated, impacts in all), in units of one at the usual resolution; the second
-            is an estimate, which may grow, and is reached at the end. A fit of `data` before is not counted.
+        progress: called with (impacts evaluated, impacts in all); the second is an estimate, which may grow, and is
+            reached at the end. A fit of `data` before is not counted.
 
     Returns:
         Design: the impacts, what they will tell, and how they compare with an even grid.
@@ -93,33 +91,22 @@ def design(
     window = Window(scene_now, key, speed, angle, scatter)
     values = np.array([float(scene_now.entries[name]) for name in entries.names])
     rates = np.outer(entries.rates(values), entries.rates(values))
-    most = np.zeros(entries.size)  # information of an impact on each entry
-
     first = window.candidates(_SPACING, rtol)
     work = Estimated(progress, len(first) + _MORE + _PER_IMPACT * min(size, entries.size + 2))
     work.start()
 
-    def evaluate(points: np.ndarray, exact: bool) -> np.ndarray:
+    def evaluate(points: np.ndarray) -> np.ndarray:
         """The information of impacts, in the variables of the search."""
-        compute, totals = reliable_information if exact else information, []
+        totals = []
         for part in np.array_split(points, -(-len(points) // _AT_ONCE)):
-            totals.append(compute(scene_now, entries.names, values, window.plan(part), rtol).total * rates)
-            work.add(len(part) * (_EXACT if exact else 1))
-        of_points = np.concatenate(totals)
-        np.maximum(most, np.einsum("cii->ci", of_points).max(axis=0), out=most)
-        return of_points
+            totals.append(information(scene_now, entries.names, values, window.plan(part), rtol).total * rates)
+            work.add(len(part))
+        return np.concatenate(totals)
 
     # the range of the search keeps the matrices from being singular; nothing is known beyond it
     criterion = Criterion(None) if single is None else Criterion(entries.names.index(single), _OTHERS)
-    choice = search(
-        partial(evaluate, exact=False),
-        before + entries.vague,
-        criterion,
-        size,
-        first,
-        1 / (_SPACING - 1),
-        partial(evaluate, exact=True),
-    )
+    choice = search(evaluate, before + entries.vague, criterion, size, first, 1 / (_SPACING - 1))
+    most = np.einsum("cii->ci", choice.single).max(axis=0)  # information of an impact on each entry
     for name, information_of_one in zip(entries.names, most, strict=True):
         if single in (None, name) and information_of_one < _NOTHING:
             accepted = "entries that outcome or restitution depend on in this window"

@@ -17,17 +17,14 @@ from ..changes.experiment import Experiment
 from ..engines.settings import RTOL
 from ..fitting.likelihood import NEGLIGIBLE, Likelihood
 from ..fitting.measurements import Measurements
-from ..fitting.scatter import Resolution, ScatterLines, Segments, nearest_normals
+from ..fitting.scatter import Resolution, ScatterLines, Segments
 from ..scene.scene import Scene
 from .window import RESTITUTION
 
-USUAL = Resolution(lines=5, points=32)  # with fewer, degrees are too low to find the best plan
-FINE = Resolution(lines=9, points=32), Resolution(lines=6, points=32)
-# with more lines, some would lie where impacts graze
+_QUADRATURES = Resolution(lines=5, points=32), Resolution(lines=6, points=32)
+# with more lines, some would lie where impacts graze; with fewer, degrees are too low to find the best plan
 _DEGREE = 12  # of the polynomials of the restitution, where there is one line; else less than the number of lines, up
 # to which the rule across them is exact
-_NEAR = 4.0  # standard deviations within which a boundary turns the lines
-_TRIED = 36  # directions of the lines
 
 
 @dataclass(frozen=True)
@@ -46,23 +43,32 @@ class Information:
 
 
 def information(
-    scene: Scene,
-    names: tuple[str, ...],
-    values: np.ndarray,
-    plan: Measurements,
-    rtol: float = RTOL,
-    resolution: Resolution = USUAL,
+    scene: Scene, names: tuple[str, ...], values: np.ndarray, plan: Measurements, rtol: float = RTOL
 ) -> Information:
     """The Fisher information of each planned impact; InputError for values that no scene may have.
+
+    By two quadratures over the scatter: of each impact the smaller. Where they differ, changes of outcome meet or
+    impacts graze, and errors of a quadrature look like information.
 
     Arguments:
         names, values: the free entries.
         plan: impacts with their scatter, all other entries the scene's; of `observed` the standard deviation of the
             restitution counts, NaN where it is not measured.
-        resolution: of the integrals over the scatter.
     """
-    experiment, size = Likelihood(scene, names, plan, rtol).experiment_at(values), plan.size
-    lines = ScatterLines.through(plan, _directions(experiment, plan), resolution.lines)
+    likelihood, scale = Likelihood(scene, names, plan, rtol), values**2
+    experiment = likelihood.experiment_at(values)
+    likelihood.aim(values)
+    one, other = (_integrated(experiment, plan, likelihood.direction, each) for each in _QUADRATURES)
+    less = np.einsum("cii,i->c", other.total, scale) < np.einsum("cii,i->c", one.total, scale)
+    pairs = zip(vars(one).values(), vars(other).values(), strict=True)
+    return Information(*(np.where(less.reshape(-1, *[1] * (a.ndim - 1)), b, a) for a, b in pairs))
+
+
+def _integrated(
+    experiment: Experiment, plan: Measurements, direction: np.ndarray, resolution: Resolution
+) -> Information:
+    size, entries = plan.size, len(experiment.rows.names)
+    lines = ScatterLines.through(plan, direction, resolution.lines)
     changes = lines.changes(experiment, resolution)
     segments = Segments.between(lines, changes)
     segments = segments.part(segments.outcome >= 0)
@@ -70,7 +76,7 @@ def information(
     ends = segments.moving_ends(experiment, lines, changes, mass > NEGLIGIBLE, resolution.approximate)
     share = segments.weight * mass
     probability = np.zeros((size, len(OUTCOMES)))
-    slopes = np.zeros((*probability.shape, len(names)))
+    slopes = np.zeros((*probability.shape, entries))
     np.add.at(probability, (segments.row, segments.outcome), share)
     np.add.at(slopes, (segments.row, segments.outcome), share[:, None] * segments.mass_slopes(ends))
     outer = slopes[..., :, None] * slopes[..., None, :]
@@ -84,36 +90,6 @@ def information(
         degree = _DEGREE if counts[row] == 1 else min(_DEGREE, int(counts[row]) - 1)
         total[row] += _beyond_outcome(*points, float(noise[row]), degree)
     return Information(total, outcome, probability)
-
-
-def reliable_information(
-    scene: Scene, names: tuple[str, ...], values: np.ndarray, plan: Measurements, rtol: float = RTOL
-) -> Information:
-    """The same by two finer quadratures: for each impact the smaller of the two.
-
-    Where they differ, changes of outcome meet or impacts graze, and errors of a quadrature look like information.
-    """
-    one, other = (information(scene, names, values, plan, rtol, each) for each in FINE)
-    scale = values**2
-    less = np.einsum("cii,i->c", other.total, scale) < np.einsum("cii,i->c", one.total, scale)
-    pairs = zip(vars(one).values(), vars(other).values(), strict=True)
-    return Information(*(np.where(less.reshape(-1, *[1] * (a.ndim - 1)), b, a) for a, b in pairs))
-
-
-def _directions(experiment: Experiment, plan: Measurements) -> np.ndarray:
-    """Of each impact the direction of its lines, from the axis of speeds to that of angles in standard deviations.
-
-    A line that is nearly parallel to a boundary gives its probability badly. Where one boundary is near, the lines go
-    across it; where several meet, between their normals.
-    """
-    if not ((plan.speed_sd > 0) & (plan.angle_sd > 0)).any():
-        return np.zeros(plan.size)
-    distance, normal = nearest_normals(experiment, plan)
-    near = distance < _NEAR
-    tried = np.pi * np.arange(_TRIED) / _TRIED
-    cosine = np.abs(normal @ np.stack([np.cos(tried), np.sin(tried)]))
-    worst = np.where(near[..., None], cosine, 1.0).min(axis=1)
-    return np.where(near.any(axis=1), tried[worst.argmax(axis=1)], 0.0)
 
 
 _Points = tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]

@@ -12,12 +12,12 @@ import numpy as np
 from ...generated.automaton import OUTCOMES
 from ..fitting.free_entries import COMBINED, IDENTIFIED, FreeEntries, combinations, in_unit, interval
 from ..fitting.measurements import Measurements
-from ..formatting.markdown import aligned, csv_text
+from ..formatting.markdown import aligned
 from ..host.pictures import Drawn
 from ..scene.held import NAMES
 from ..scene.origin import origin
 from ..scene.scene import Scene
-from .information import information, reliable_information
+from .information import information
 from .search import Choice
 from .window import Window
 
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
 _QUANTILE = 1.959963984540054  # of a normal distribution, 97.5 %
 _FROM_RANGE = 1.2  # growth of a standard deviation with the range of the search, from which it says nothing
-_ALONG, _ACROSS = 56, 40  # impacts of a map
+_ALONG, _ACROSS = 40, 28  # impacts of a map
 
 
 @dataclass(frozen=True)
@@ -109,26 +109,25 @@ class Design(Drawn):
         """The result for chosen impacts, by their information at these values."""
         order = np.lexsort((choice.points[:, 0], choice.points[:, 1]))
         points, counts = choice.points[order], choice.counts[order]
-        rates, plan = np.outer(free.rates(values), free.rates(values)), window.plan(points)
-        single = reliable_information(window.scene, free.names, values, plan, rtol)
+        side = max(1, round(math.sqrt(size))) if window.extends.all() else size
+        grid = tuple(np.where(window.extends, side, 1).tolist())
+        plan = window.plan(np.vstack([points, window.grid(*grid)]))
+        single = information(window.scene, free.names, values, plan, rtol)
+        told = single.total * np.outer(free.rates(values), free.rates(values))
         rows = zip(counts.tolist(), plan.normal_speed.tolist(), plan.angle.tolist(), single.probability.tolist())
         impacts = tuple(
             Impact(count, window.scene.stokes_of(speed), speed, speed / math.cos(angle), angle, tuple(share))
             for count, speed, angle, share in rows
         )
-        side = max(1, round(math.sqrt(size))) if window.extends.all() else size
-        grid = tuple(np.where(window.extends, side, 1).tolist())
-        even = window.plan(window.grid(*grid))
-        by_grid = reliable_information(window.scene, free.names, values, even, rtol).total.sum(axis=0)
-        total = before + rates * np.einsum("c,cij->ij", counts, single.total)
+        total = before + np.einsum("c,cij->ij", counts, told[: counts.size])
+        even = before + told[counts.size :].sum(axis=0) * size / (plan.size - counts.size)
         expected = _expected(free, values, total)
-        spread = _spread(total + free.vague) / _spread(before + free.vague + rates * by_grid * size / even.size)
+        spread = _spread(total + free.vague) / _spread(even + free.vague)
         verdicts = [COMBINED if each.low is None and each.high is None else IDENTIFIED for each in expected.values()]
         return cls(
             window, free, values, impacts, expected, _expected(free, values, before),
             dict(zip(free.names, spread.tolist(), strict=True)), grid,
-            combinations(free, total, verdicts, "These impacts"), target, choice.candidates,
-            points, rtol, scene,
+            combinations(free, total, verdicts, "These impacts"), target, len(choice.single), points, rtol, scene,
         )  # fmt: skip
 
     @property
@@ -147,27 +146,24 @@ class Design(Drawn):
 
         Returns:
             Dataset over entry, angle and speed (by the window's name): `information`, and `by_outcome`, what the
-            outcome alone tells.
+            outcome alone tells; `probability` of each outcome.
         """
         import xarray as xr
 
-        points = self.window.grid(along, across)
+        points, key = self.window.grid(along, across), self.window.key
         single = information(self.window.scene, self.free.names, self.values, self.window.plan(points), self.rtol)
-        key, angle = self.window.values(points)
-        shape = np.unique(points[:, 1]).size, np.unique(points[:, 0]).size
-        squares = self.free.rates(self.values) ** 2
-        dims = ("entry", "angle", self.window.key)
-
-        def of(each: np.ndarray) -> Any:
-            diagonal = np.einsum("cii->ic", each) * squares[:, None]
-            return dims, diagonal.reshape(-1, *shape), {"units": "1"}
-
+        speed, angle = (each.reshape(np.unique(points[:, 1]).size, -1) for each in self.window.values(points))
+        of_entry, of_outcome = (("angle", key, name) for name in ("entry", "outcome"))
+        told = [
+            (np.einsum("cii->ci", each) * self.free.rates(self.values) ** 2).reshape(*speed.shape, -1)
+            for each in (single.total, single.outcome)
+        ]
         return xr.Dataset(
-            {"information": of(single.total), "by_outcome": of(single.outcome)},
-            coords={"entry": list(self.free.names), "angle": angle.reshape(shape)[:, 0],
-                    self.window.key: key.reshape(shape)[0]},
-            attrs={"name": self.window.scene.name},
-        )  # fmt: skip
+            {"information": (of_entry, told[0]), "by_outcome": (of_entry, told[1]),
+             "probability": (of_outcome, single.probability.reshape(*speed.shape, -1))},
+            {"entry": list(self.free.names), "outcome": list(OUTCOMES), "angle": angle[:, 0], key: speed[0]},
+            {"name": self.window.scene.name},
+        ).transpose("entry", "outcome", ...)  # fmt: skip
 
     def to_dict(self) -> dict[str, Any]:
         """The JSON object of `wetdoublet design --json`."""
@@ -186,45 +182,44 @@ class Design(Drawn):
 
     def to_csv(self) -> str:
         """A row for each impact in the form that `fit` reads, its observations empty."""
-        scatter, name = self.window.scatter, self._speed
-        head = [f"{name} [m/s]", f"{name}_sd [m/s]", "angle [deg]", "angle_sd [deg]", "outcome"]
-        measured = scatter.restitution is not None
-        rows = []
-        for each in self.impacts:
-            speed = getattr(each, name)
-            row = [f"{speed:.6g}", f"{scatter.speed * speed:.3g}", f"{math.degrees(each.angle):.4f}"]
-            row += [f"{math.degrees(scatter.angle):.4g}", ""]
-            rows += [row + (["", f"{scatter.restitution:.4g}"] if measured else [])] * each.count
-        return csv_text(head + (["restitution", "restitution_sd"] if measured else []), rows)
+        from pandas import DataFrame
+
+        plan, name, noise = self.plan(), self._speed, self.window.scatter.restitution
+        table = DataFrame({
+            f"{name} [m/s]": plan.speed, f"{name}_sd [m/s]": plan.speed_sd, "angle [deg]": np.degrees(plan.angle),
+            "angle_sd [deg]": np.degrees(plan.angle_sd), "outcome": "",
+        })  # fmt: skip
+        if noise is not None:
+            table = table.assign(restitution="", restitution_sd=noise)
+        return str(table.to_csv(index=False, float_format="%.6g", lineterminator="\n"))
 
     def __str__(self) -> str:
-        scene, scatter = self.given, self.window.scatter
+        scene, scatter, speed = self.given, self.window.scatter, NAMES[self._speed]
         names = self.free.names if self.target is None else (self.target,)
-        title = f"{self.size} impact{'s' * (self.size > 1)} for {', '.join(names)}"
-        rows = [(*self._head(), "S / SRS / B (%)")]
-        for row, each in zip(self._rows(), self.impacts, strict=True):
-            rows.append((*row, " / ".join(f"{100 * share:.0f}" for share in each.probability)))
-        speeds, angles = self.grid
-        entries = [("entry", "expected 95 % interval", "before", f"beside a {speeds} x {angles} grid")]
+        rows = [("times", "St", speed, "angle", "S / SRS / B (%)")]
+        rows += [
+            (str(each.count), f"{each.stokes:.4g}", f"{getattr(each, self._speed):.4g} m/s",
+             f"{math.degrees(each.angle):.1f} deg", " / ".join(f"{100 * share:.0f}" for share in each.probability))
+            for each in self.impacts
+        ]  # fmt: skip
+        entries = [("entry", "expected 95 % interval", "before", "beside a {} x {} grid".format(*self.grid))]
         for name, expected in self.expected.items():
-            before = self.before[name]
-            entries.append((
-                name, interval(scene, name, expected.low, expected.high),
-                interval(scene, name, before.low, before.high),
-                "-" if expected.low is expected.high else f"{self.against_grid[name]:.2g} of its interval",
-            ))  # fmt: skip
+            now, known = (interval(scene, name, each.low, each.high) for each in (expected, self.before[name]))
+            is_open = expected.low is expected.high
+            entries.append((name, now, known, "-" if is_open else f"{self.against_grid[name]:.2g} of its interval"))
         noise = "outcomes only" if scatter.restitution is None else f"restitution to {scatter.restitution:.3g}"
         values = zip(self.free.names, self.values.tolist(), strict=True)
-        now = ", ".join(f"{name} = {in_unit(scene, name, value)}" for name, value in values)
-        share_of_speed = f"{100 * scatter.speed:.3g} % of the {NAMES[self._speed]}"
-        scattered = f"scatter {share_of_speed}, {math.degrees(scatter.angle):.3g} deg; {noise}"
-        sentences = [f"Planned for {now}; {scattered}."]
+        at = ", ".join(f"{name} = {in_unit(scene, name, value)}" for name, value in values)
+        scattered = (
+            f"scatter {100 * scatter.speed:.3g} % of the {speed}, {math.degrees(scatter.angle):.3g} deg; {noise}"
+        )
+        sentences = [f"Planned for {at}; {scattered}."]
         if self.combinations and any(each.low is each.high for each in self.expected.values()):
             sentences.append(
                 "Entries open at both ends are told in combination only; a prior on one may close the others."
             )
-        sentences += self.combinations
-        return "\n".join([title, "", *aligned(rows), "", *aligned(entries), "", *sentences])
+        title = f"{self.size} impact{'s' * (self.size > 1)} for {', '.join(names)}"
+        return "\n".join([title, "", *aligned(rows), "", *aligned(entries), "", *sentences, *self.combinations])
 
     __repr__ = __str__  # what a notebook shows
 
@@ -232,16 +227,6 @@ class Design(Drawn):
     def _speed(self) -> str:
         """Which speed is shown."""
         return self.window.key if self.window.key != "stokes" else "speed"
-
-    def _head(self) -> tuple[str, ...]:
-        return "times", "St", NAMES[self._speed], "angle"
-
-    def _rows(self) -> list[tuple[str, ...]]:
-        return [
-            (str(each.count), f"{each.stokes:.4g}", f"{getattr(each, self._speed):.4g} m/s",
-             f"{math.degrees(each.angle):.1f} deg")
-            for each in self.impacts
-        ]  # fmt: skip
 
 
 def _spread(total: np.ndarray) -> np.ndarray:

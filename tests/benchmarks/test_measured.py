@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from wetdoublet.solvers import Scene, collide
 
-from .measured import gradient_work, near, sharp
+from .measured import gradient_work, near
 from .measured.answers import Impact
 from .measured.cold import COMMANDS
 from .measured.gradient_task import Gradients
@@ -125,17 +125,6 @@ def test_gradients_by_differences_are_the_derivatives(asked: Gradients) -> None:
     assert found.shape == (4, 3)
     assert found[:2] == pytest.approx(found[2:], abs=0)
     assert asked.errors(found[:2]).max() < 1e-5
-
-
-def test_the_kernel_is_as_exact_as_its_conditioning_allows() -> None:
-    """At rtol 1e-13, e_n differs from 80-bit numbers by less than 1e-13 of it, far from every boundary, on strings."""
-    pytest.importorskip("heyoka")
-    scene = Scene.load("pendulum")
-    task = Gradients(scene, (Impact(2.5, 0.5),), ("impact.speed",))
-    (exact,) = sharp.long_double(task.numbers, 1e-18)
-    ours = collide(scene, stokes=2.5, angle=0.5, rtol=1e-13, engine="taylor", ledger=False)
-    assert ours.engine == "taylor"
-    assert abs(ours.restitution / exact - 1) < 1e-13
 
 
 def test_the_separatrix_is_the_traced_one() -> None:

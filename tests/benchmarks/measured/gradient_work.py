@@ -10,13 +10,11 @@ from typing import Any
 
 import numpy as np
 from wetdoublet.solvers.engines.taylor.call import Impacts
-from wetdoublet.solvers.formatting.markdown import table
 from wetdoublet.solvers.host.compiler import compiler
 from wetdoublet.solvers.many.collide_many import collide_many
 from wetdoublet.solvers.sensitivity.by_kernel import gradients_by_kernel
 from wetdoublet.solvers.sensitivity.gradients_many import gradients_many
 
-from .digits import us
 from .gradient_task import COUNT, Gradients
 from .peers.bulk import Partly, left_out
 from .tasks import TASKS, Task
@@ -202,38 +200,3 @@ def _of(asked: Gradients, preset: str, repeats: int, tell: Tell, which: Sequence
 def _number(value: float) -> float | None:
     """None for what is none: JSON has no NaN."""
     return float(value) if math.isfinite(value) else None
-
-
-BOUNDS = (1e-4, 1e-6, 1e-8, 1e-10)  # of the largest error
-NOTE = """\
-Derivatives of e_n in theta, p = p_ref (1 + theta), of 25 collisions of each task that separate, drawn on from its
-sequence until there are so many; the set is repeated 40 times in one call. `gradients_many` has some 2 ms a call
-beside the kernel (checks, boundaries too near, the labelled Dataset), so smaller calls cost more. The error of a
-collision is its largest, over its largest derivative, against forward derivatives of Rosenbrock at 1e-12. heyoka's
-are its variational equations in batches of 8 with a queue; the saltation at each event is a compiled function of our
-own; it need prove no stick, and is given the derivatives of the groups in the parameters.
-Differences are of collisions at rtol 1e-13; what is listed as their tolerance is the relative step."""
-
-
-def gradient_work_text(found: Sequence[Record]) -> str:
-    """Cost at equal error, then every setting."""
-    parts = [NOTE]
-    for task in found:
-        best: dict[str, dict[float, float]] = {}
-        for row in task["rows"]:
-            own = best.setdefault(row["method"], {})
-            for bound in BOUNDS:
-                if not row["failed"] and row["error_largest"] is not None and row["error_largest"] <= bound:
-                    own[bound] = min(own.get(bound, math.inf), row["cpu"])
-        least = {bound: min((own[bound] for own in best.values() if bound in own), default=1.0) for bound in BOUNDS}
-        cells = [
-            [name, *(f"{us(own[b])} ({own[b] / least[b]:.3g})" if b in own else "-" for b in BOUNDS)]
-            for name, own in best.items()
-        ]
-        title = f"### {task['preset']}, {task['collisions']} collisions, {len(task['parameters'])} parameters"
-        said = (
-            "CPU us a gradient (times the cheapest): cheapest setting with none refused and a largest error of at most"
-        )
-        parts += [title, said, table(["method", *(f"{bound:.0e}" for bound in BOUNDS)], cells)]
-        parts += [f"* {name}: {why}" for name, why in task["missing"].items()]
-    return "\n\n".join(parts)

@@ -14,12 +14,11 @@ from .near import near
 from .peers.engines import Engine, engines
 from .peers.heyoka_callbacks import around
 from .reference import Reference, references
-from .sharp import sharp
 from .tasks import SEED, TASKS, Task, place
 from .work import CALL, FINE, OFTEN, REPEATS, SETS, TOLERANCES, Point, Tell, work
 
 Record = dict[str, Any]
-MORE = ("gradient_work", "sharp", "near", "growth", "first_use")
+MORE = ("gradient_work", "near", "growth", "first_use")
 
 
 def bench(
@@ -54,7 +53,6 @@ def bench(
     others: dict[str, Any] = {name: [] for name in MORE}
     alone: dict[str, Callable[[], Any]] = {
         "gradient_work": lambda: gradient_work(tasks, repeats, tell),
-        "sharp": lambda: sharp(tell),
         "near": lambda: near(tell),
     }
     with one_core():

@@ -119,6 +119,14 @@ def test_the_probability_moves_with_the_boundary() -> None:
     )
 
 
+def test_where_all_stick_no_mean_moves() -> None:
+    """At a speed below that of every change, all derivatives are 0, and what is of none that separate is undefined."""
+    found = collision_averages("granulation", speeds="0.1 m/s", wrt=["liquid.viscosity"])
+    assert float(found.stick_probability) == pytest.approx(1, abs=1e-12)
+    assert found.gradient.values[:5, 0].tolist() == [0.0] * 5
+    assert np.isnan(found.gradient.values[5:, 0]).all()
+
+
 @pytest.mark.slow
 def test_derivatives_are_those_of_differences() -> None:
     """Of every mean of a gas, within the estimated errors and those of the differences."""

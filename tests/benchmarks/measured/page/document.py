@@ -36,7 +36,7 @@ def page(bench: Record, stress: Record | None, folder: str, law: Record | None =
         WORK,
     ]
     for task in bench["tasks"]:
-        parts += [f"### {task['preset']}", tables.sample(task), tables.equal_error(task)]
+        parts += [f"### {task['preset']}", tables.sample(task), tables.of_collisions_at_equal_error(task)]
         parts += [text for text in [tables.failures(task)] if text]
     pictures = {"Near": "near.png", "Gradients to": "gradients.png", "From one": "growth.png"}
     for part in tables.others(bench):

@@ -137,15 +137,7 @@ def near_curves(record: Record) -> Figure:
     figure = Figure(figsize=(9.2, 3.9), layout="constrained")
     panels: Sequence[Axes] = figure.subplots(1, len(rtols), sharex=True, sharey=True, squeeze=False)[0]
     for axes, rtol in zip(panels, rtols, strict=True):
-        for name in dict.fromkeys(row["engine"] for row in rows):
-            here = [row for row in rows if (row["engine"], row["rtol"]) == (name, rtol)]
-            colour, marker, line = _STYLES.get(name, _OTHER)
-            xs, ys = [row["distance"] for row in here], [row["cpu"] * 1e3 for row in here]
-            axes.loglog(xs, ys, line, color=colour, marker=marker, markersize=5.5, linewidth=1.3, label=name)
-            failed = [(x, y) for x, y, row in zip(xs, ys, here, strict=True) if row["failed"]]
-            if failed:
-                style: Any = {"color": colour, "marker": marker, "markersize": 5.5, "markerfacecolor": "white"}
-                axes.loglog(*zip(*failed), linestyle="none", **style)
+        _draw(axes, [row for row in rows if row["rtol"] == rtol], "engine", "distance", 1e3)
         _grid(axes)
         axes.set_title(f"rtol {rtol:.0e}", fontsize=9.5)
         axes.set_xlabel("relative distance in St from the separatrix")
@@ -161,11 +153,7 @@ def gradient_curves(record: Record) -> Figure:
     figure = Figure(figsize=(9.2, 4.3), layout="constrained")
     panels: Sequence[Axes] = figure.subplots(1, len(tasks), sharex=True, sharey=True, squeeze=False)[0]
     for axes, task in zip(panels, tasks, strict=True):
-        for name in dict.fromkeys(row["method"] for row in task["rows"]):
-            here = [row for row in task["rows"] if row["method"] == name and row["error_largest"]]
-            colour, marker, line = _STYLES.get(name, _OTHER)
-            xs, ys = [row["error_largest"] for row in here], [row["cpu"] * 1e6 for row in here]
-            axes.loglog(xs, ys, line, color=colour, marker=marker, markersize=5.5, linewidth=1.3, label=name)
+        _draw(axes, task["rows"], "method", "error_largest", 1e6)
         _grid(axes)
         axes.set_title(
             f"{task['preset']}: {task['collisions']} gradients, {len(task['parameters'])} parameters", fontsize=9.5
@@ -174,6 +162,19 @@ def gradient_curves(record: Record) -> Figure:
     panels[0].invert_xaxis()
     _legend(figure, panels[0], "CPU time a gradient (us)", 3)
     return figure
+
+
+def _draw(axes: Axes, rows: Sequence[Record], key: str, x: str, unit: float) -> None:
+    """Draw the CPU time over x, a line for each value of the key; hollow where some failed."""
+    for name in dict.fromkeys(row[key] for row in rows):
+        here = [row for row in rows if row[key] == name and row[x]]
+        colour, marker, line = _STYLES.get(name, _OTHER)
+        style: Any = {"color": colour, "marker": marker, "markersize": 5.5}
+        xs, ys = [row[x] for row in here], [row["cpu"] * unit for row in here]
+        axes.loglog(xs, ys, line, linewidth=1.3, label=name, **style)
+        failed = [(at, y) for at, y, row in zip(xs, ys, here, strict=True) if row["failed"]]
+        if failed:
+            axes.loglog(*zip(*failed), linestyle="none", markerfacecolor="white", **style)
 
 
 def _legend(figure: Figure, first: Axes, label: str, columns: int) -> None:

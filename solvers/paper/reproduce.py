@@ -1,0 +1,106 @@
+"""`reproduce()`: the parts of the paper, one after the other, and the report on them; Table 1 from the derivation."""
+
+from __future__ import annotations
+
+import textwrap
+import time
+from collections.abc import Callable, Sequence
+from importlib.metadata import version
+from itertools import groupby
+from pathlib import Path
+
+from ..formatting.style import INK, NOTE
+from ..host.files import write
+from ..host.progress import Progress
+from ..scene.scene import Scene
+from .granules import factors, fig4a, fig4b
+from .pendulum import fig1, fig3
+from .report import BRIDGED, PENDULUM, Part, described, picture, report, sheet
+
+_WIDTH = 17.5  # cm
+_LINE = 0.8  # cm, height of a line
+_COLUMNS = 2
+_WRAP = 40  # characters of a line of a note
+
+
+def table1(folder: Path) -> Part:
+    """The equations of the presets' laws, typeset."""
+    bridged, hung = Scene.load(BRIDGED), Scene.load(PENDULUM)
+    assert bridged.bridge is not None
+    assert hung.pendulum is not None
+    from ...derive.emit.document.theory import theory  # imports sympy
+
+    model = bridged.model
+    laws = {"arm": model.arm, "shear": model.tangential, "glass": model.glass}
+    equations = theory(laws | {"bridge": bridged.bridge.law, "strings": hung.pendulum.law})
+    words = (
+        "The equations of the model in SI, written by the derivation in the symbols of its vocabulary; nothing is "
+        f"typed in. Laws: {described(bridged)}; {described(hung)}. The paper's own table is a picture that its text "
+        "does not have: these are rebuilt from first principles and held against what it prints."
+    )
+    blocks = [words, picture("table1.png", "Table 1: theory; `wetdoublet export SCENE --to latex` writes a document.")]
+    drawn: list[tuple[str, str]] = []  # formulas, and headings without one, beside their notes
+    for heading, lines in groupby(equations, key=lambda line: line.group):
+        blocks.append(f"### {heading}")
+        drawn.append(("", heading))
+        for line in lines:
+            blocks += [text for text in (f"$$ {line.latex} $$", line.note) if text]
+            drawn.append((line.latex.replace(r"\frac", r"\dfrac"), line.note))
+    _draw(drawn, folder / "table1.png")
+    return Part("Table 1: theory", "\n\n".join(blocks), pictures=["table1.png"])
+
+
+def _draw(lines: list[tuple[str, str]], file: Path) -> None:
+    """Draw formulas with their notes below each other, in columns."""
+    rows = -(-len(lines) // _COLUMNS)
+    with sheet(file, _LINE * (rows + 1), _WIDTH) as figure:
+        figure.set_layout_engine("none")
+        for k, (latex, note) in enumerate(lines):
+            x, y = k // rows / _COLUMNS, 1 - (k % rows + 1) / (rows + 1)
+            if latex:
+                figure.text(x + 0.02, y, f"${latex}$", fontsize=8, math_fontfamily="cm", color=INK, va="center")
+                note = textwrap.fill(note, _WRAP)
+                figure.text(x + 0.98 / _COLUMNS, y, note, fontsize=6, color=NOTE, ha="right", va="center")
+            else:
+                figure.text(x + 0.01, y, note, fontsize=8.5, fontweight="bold", color=INK, va="center")
+
+
+PARTS: dict[str, Callable[[Path], Part]] = {
+    "table1": table1, "fig1": fig1, "fig3": fig3, "fig4a": fig4a, "fig4b": fig4b, "factors": factors,
+}  # fmt: skip
+"""From the output folder to what the report says."""
+
+
+def reproduce(which: Sequence[str], folder: Path, *, progress: Progress | None = None) -> list[Path]:
+    """Compute parts of the paper and write the report on them.
+
+    Arguments:
+        which: names from PARTS.
+        folder: output folder; created if absent.
+        progress: called with (parts done, parts in all).
+
+    Returns:
+        Paths of the written files, the report's last.
+
+    Raises:
+        KeyboardInterrupt: an interrupt; the report on the parts that were finished is written before.
+    """
+    folder.mkdir(parents=True, exist_ok=True)
+    file, stopped = folder / "report.md", None
+    parts: list[Part] = []
+    try:
+        for name in which:
+            if progress is not None:
+                progress(len(parts), len(which))
+            parts.append(PARTS[name](folder))
+    except KeyboardInterrupt:
+        if not parts:
+            raise
+        rest = ", ".join(which[len(parts) :])
+        stopped = KeyboardInterrupt(f"interrupted: {len(parts)} of {len(which)} parts are in {file}; without {rest}")
+    ours, date = f"wetdoublet {version('wetdoublet')}", time.strftime("%Y-%m-%d", time.gmtime())
+    how = f"Computed by {ours} in one run on {date}; what is quoted names its source."
+    write(file, report(parts, how))
+    if stopped is not None:
+        raise stopped
+    return [*(folder / file for part in parts for file in part.pictures), file]
