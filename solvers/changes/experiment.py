@@ -205,10 +205,8 @@ class Experiment:
             np.zeros(row.size, np.int8), np.full(shape, np.nan), np.zeros((*shape, len(self.rows.names))),
             np.zeros(shape), np.zeros(shape),
         )  # fmt: skip
-        for oblique in (True, False):
-            which = np.flatnonzero(impacts.oblique == oblique)
-            if which.size:
-                self._fill(results, names, row[which], impacts.part(which), which, oblique, forward, budget)
+        for oblique, which in impacts.by_kind():
+            self._fill(results, names, row[which], impacts.part(which), which, oblique, forward, budget)
         mirrored = np.where(angle < 0, -1.0, 1.0)
         results.angle[:] *= mirrored
         if "rotation" in names:

@@ -43,8 +43,7 @@ def recorded(
     Raises:
         ComputationError: phase, time and state, in SI, if the outcome is not decided; or there is no kernel.
     """
-    impact = Impacts(problem.scene, np.array([problem.speed]), np.array([problem.angle]), {})
-    ran = run_recorded(impact, problem.oblique, rtol, ledger, trajectory, until=until)
+    ran = run_recorded(Impacts.of(problem), problem.oblique, rtol, ledger, trajectory, until=until)
     answer, words = ran.answers[0], words_of(problem.scene)
     if answer["status"] > LAST_ANSWER:
         log = ran.events[0, : answer["events"]]
@@ -57,16 +56,17 @@ def recorded(
 
 
 def followed(problem: Problem, rtol: float, until: float | None, **options: bool) -> Followed:
-    """One collision by the kernel; a stick is followed on up to a time (s) beyond its decision."""
+    """One collision by the kernel; a stick is followed to a time (s), before its decision or beyond."""
     ran = recorded(problem, rtol, **options)
-    decided = float(ran.answers["time"][0])
-    if until is None or ran.answers["outcome"][0] > 0 or not decided < until / problem.time:
+    if until is None or ran.answers["outcome"][0] > 0:
         return Followed(ran, None)
-    return Followed(recorded(problem, rtol, **options, until=until / problem.time), decided)
+    followed = recorded(problem, rtol, **options, until=until / problem.time)
+    followed.answers["certified"] = ran.answers["certified"]
+    return Followed(followed, float(ran.answers["time"][0]))
 
 
 class Followed(NamedTuple):
-    """A record, and the time (x0/v0) at which its stick was decided if it runs beyond that."""
+    """A record, and the time (x0/v0) at which its stick was decided where it ends at another."""
 
     record: Recorded
     decided: float | None
@@ -91,7 +91,7 @@ def collision(
     Arguments:
         ledger: include the energy ledger and the drift of angular momentum.
         trajectory: include the trajectory, sampled from the Taylor series of the steps.
-        until: time (s) to which a stick is followed on.
+        until: time (s) to which a stick is followed.
 
     Raises:
         ComputationError: as `recorded`; or the energy ledger is open, as the trajectory is then wrong.

@@ -101,7 +101,7 @@ class Outcome:
         final_spin_partner: spin of the partner, rad/s; None without a [partner].
         rotation: angle turned by the line of centres until separation, rad.
         until: for a stick, the time at which integration stopped, s.
-        decided: for a stick, the time at which it was certain, s: `until`, unless it was followed on.
+        decided: for a stick, the time at which it was certain, s: `until`, unless another was asked for.
         certified: True if a certificate, or the enclosure from the initial data on, proves the stick.
         reversal: the first rebound criterion met, if any.
         rtol: relative tolerance that was asked for.
@@ -168,7 +168,7 @@ class Outcome:
     def to_dict(self) -> dict[str, Any]:
         """The JSON object of `wetdoublet collide --json`."""
         plain = ("outcome", *OF_SEPARATION, "stokes", "centrifugal", "capillary", "speed", "angle")
-        plain += ("reversal", "certified", "until", "decided")
+        plain += ("reversal", "certified", "until")
         result: dict[str, Any] = {name: getattr(self, name) for name in plain if name != "final_spin_partner"}
         if self.scene.pair or self.scene.wall:
             result["final_spin_partner"] = self.final_spin_partner

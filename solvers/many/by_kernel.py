@@ -10,13 +10,12 @@ from ...generated.automaton import KINDS, LAST_ANSWER
 from ..collision.outcome import absent_terms, open_beyond
 from ..engines.taylor import call
 from ..engines.taylor.call import run_kernel
-from ..engines.taylor.layout import result
-from ..engines.taylor.record import run_with_books
+from ..engines.taylor.layout import OWN_LEDGER, result
 from ..model.model import load, select_model
 from ..results import DEFINITIONS, LEDGER, NONE, RATES, REVERSALS, TERMS
 from ..scene.contact import AT_ANY_SPEED, gap_at_any_speed, never_touching
 from ..scene.entry_rules import FARTHEST
-from ..scene.groups import formulas, rate_scales, si_values
+from ..scene.groups import formulas
 from ..scene.quantities import NO_GLASS
 from ..scene.scene import Scene
 from .columns import varied_columns
@@ -46,10 +45,8 @@ def collide_by_kernel(
         part = which[first : first + _STRETCH]
         whole = part.size == request.size and bool((part == np.arange(part.size)).all())
         impacts, sound = impacts_of(request if whole else request.part(part))
-        if ledger:
-            answers, books = run_with_books(impacts, request.rtol, threads)
-        else:
-            answers, books = run_kernel(impacts, request.rtol, "rotation" in request.of, threads, jumps=jumps), None
+        books = np.zeros(impacts.size, OWN_LEDGER) if ledger else None
+        answers = run_kernel(impacts, request.rtol, "rotation" in request.of, threads, jumps=jumps, ledgers=books)
         decided = answers["status"] <= LAST_ANSWER
         if books is not None:  # where the ledger is open the trajectory is wrong
             decided &= _closed(answers, books, request.rtol)
@@ -154,8 +151,7 @@ def block_of(request: Impacts, answers: np.ndarray, impacts: call.Impacts, books
 
 def rates_of(scene: Scene, answers: np.ndarray, impacts: call.Impacts) -> Block:
     """Spins and rotation rate at separation, rad/s; 0 head-on."""
-    values = si_values(scene, None, None) | dict(impacts.others) | {"speed": impacts.speed, "angle": impacts.angle}
-    unit = rate_scales(scene, values)
+    unit = impacts.rates
     rates = {name: result(answers, name) * unit for name in RATES}
     if "final_spin_partner" not in load(select_model(scene, True, fold=not impacts.others)).names("outputs"):
         none = np.full(unit.size, np.nan)

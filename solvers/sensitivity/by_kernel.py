@@ -15,7 +15,7 @@ from ..engines.taylor.orders import order_for
 from ..engines.taylor.tangent import GRIPS, Carried, run_tangent
 from ..model.dimensionless import nondimensionalise
 from ..results import DEFINITIONS, TANGENTS
-from ..scene.groups import rate_scales, si_values
+from ..scene.groups import si_values
 from ..scene.scene import Scene
 from ..scene.schema import SPINS
 from .boundary_distance import check_grip
@@ -142,9 +142,8 @@ def slopes(problem: Problem, query: Query) -> Slopes | None:
     path, of, rtol = problem.path, query.of, query.rtol
     if not path.separated or not offers(problem.scene, of, (problem.n.oblique,)):
         return None
-    impact = Impacts(problem.scene, np.array([problem.n.speed]), np.array([problem.n.angle]), {})
     sharp = query.sharpened(path.parting)
-    along = gradients_by_kernel(impact, problem.kind, problem.wrt, of, sharp, order_for(rtol))
+    along = gradients_by_kernel(Impacts.of(problem.n), problem.kind, problem.wrt, of, sharp, order_for(rtol))
     if along is None:
         return None
     answer = along.run.answers[0]
@@ -179,8 +178,7 @@ class _Scales:
         reference_angle = ANGLE if angle[0] > 0 else 0.0
         n = nondimensionalise(scene, SPEED, reference_angle)
         speed_ratio = speed / SPEED
-        rates = rate_scales(scene, {**scene.material, "speed": speed, "angle": angle})
-        self._values = {"length": np.full_like(speed, n.length), "time": n.time / speed_ratio, "rate": rates}
+        self._values = {"length": np.full_like(speed, n.length), "time": n.time / speed_ratio, "rate": impacts.rates}
         reference = {"length": n.length, "time": n.time, "rate": n.rate or 1.0}
         self._relative = {name: np.tile(slopes[name] / reference[name], (speed.size, 1)) for name in reference}
         if angle_slope is not None and "impact.angle" in wrt:

@@ -15,7 +15,7 @@ from ..changes.experiment import free_names
 from ..collision.by_kernel import sequence_of
 from ..engines.casadi.sequence import EventSequence
 from ..engines.settings import check_rtol
-from ..engines.taylor.in_space import recorded_in_space
+from ..engines.taylor.record import recorded_in_space
 from ..errors import ComputationError, WetDoubletError
 from ..host.arguments import check_names
 from ..host.pictures import register
@@ -24,10 +24,9 @@ from ..model.model import load, select_model
 from ..model.validity import warn
 from ..results import FAILED, outcome_attributes
 from ..scene.scene import Scene
-from ..space.by_kernel import vectors_of
 from ..space.by_replay import groups_of, own_axes, sequence_in_space
-from ..space.collide_pair import AXES, NUMBERS, VECTORS, check_scene, refusals
-from ..space.pairs import Pairs, without_spins
+from ..space.collide_pair import NUMBERS, VECTORS, check_scene, refusals
+from ..space.pairs import AXES, Pairs, without_spins
 from ..space.pairs import checked as checked_pairs
 from .boundary_distance import FINE, Course, Courses, checked, course, courses_of
 from .by_casadi import STATE, differentiated
@@ -219,7 +218,7 @@ def _followed(pair: Pairs, n: Problem) -> tuple[Callable[[float], EventSequence]
         rows = []
         for factor in factors.tolist():
             faster = replace(pair, velocities=factor * pair.velocities, spins=factor * pair.spins)
-            answer, log = recorded_in_space(pair.scene, vectors_of(faster), -faster.opening, FINE)
+            answer, log = recorded_in_space(faster.impacts, FINE)
             rows.append(course(answer, log, KINDS, float(answer["shown"][restitution])))
         return rows
 

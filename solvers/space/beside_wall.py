@@ -18,7 +18,7 @@ from ...generated.automaton import LAST_ANSWER, OUTCOMES
 from ..collision.by_kernel import sequence_of
 from ..engines.casadi.replay import Stopped, replayed
 from ..engines.taylor.call import Impacts, run_kernel
-from ..engines.taylor.record import run_with_books
+from ..engines.taylor.layout import OWN_LEDGER
 from ..engines.taylor.undecided import undecided
 from ..errors import WetDoubletError
 from ..model.dimensionless import nondimensionalise
@@ -47,24 +47,22 @@ class Planar:
 
 def planar_by_kernel(impacts: Impacts, rtol: float, threads: int, ledger: bool) -> Planar:
     """Planar collisions by the kernel."""
-    if ledger:
-        answers, books = run_with_books(impacts, rtol, threads)
-    else:
-        answers, books = run_kernel(impacts, rtol, False, threads), None
+    books = np.zeros(impacts.size, OWN_LEDGER) if ledger else None
+    answers = run_kernel(impacts, rtol, False, threads, ledgers=books)
     terms = np.full((answers.size, len(TERMS)), np.nan) if books is None else of_kernel(books)
     opening, slide, _, roll = answers["shown"].T[:4]
     outcome, certified = answers["outcome"].astype(int), answers["certified"] != 0
     reason = np.full(answers.size, "", object)
     states = tuple(load(select_model(impacts.scene, True, full=ledger)).state)
     for k in np.flatnonzero(answers["status"] > LAST_ANSWER):
-        n = nondimensionalise(impacts.scene, float(impacts.speed[k]), float(impacts.angle[k]))
+        n = impacts.problem(int(k))
         outcome[k], reason[k] = FAILED, str(n.in_si(undecided(answers[k], states)))
     return Planar(outcome, certified, reason, answers["time"], answers["final_gap"], opening, slide, roll, terms)
 
 
 def planar_by_replay(impacts: Impacts, plugin: str, rtol: float, ledger: bool) -> Planar:
     """Planar collisions by Rosenbrock or CVODES, one after the other."""
-    size = impacts.speed.size
+    size = impacts.size
     time, gap, opening, slide, roll = (np.full(size, np.nan) for _ in range(5))
     outcome, reason = np.full(size, FAILED), np.full(size, "", object)
     terms = np.full((size, len(TERMS)), np.nan)

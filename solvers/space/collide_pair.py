@@ -22,13 +22,12 @@ from .books import GREW, named
 from .by_kernel import by_kernel
 from .by_replay import pairs_by_replay
 from .ends import FAILED, Ends, Motions, after, after_wall, gains_energy
-from .pairs import Bodies, Pairs, checked, dot, length
+from .pairs import AXES, Bodies, Pairs, checked, dot, length
 
 if TYPE_CHECKING:
     import xarray
 
 _FURTHEST = 1e100  # products and quotients of several groups then stay within a double's range
-AXES = ("x", "y", "z")
 
 
 def _vector(unit: str, meaning: str, *dims: str) -> tuple[tuple[str, ...], dict[str, Any]]:

@@ -32,6 +32,8 @@ _ROUNDING = 1e-15  # noise of a gap or velocity of order 1, for times and event 
 _ON_KINK = 1e-11  # of a guard: below it the side is that towards which it changes
 _REST = 10.0  # factor in the height of a rebound within which two engines may differ on whether it comes to rest
 TIGHTEST = 1e-13  # relative tolerance at which a phase is tried last
+PHASES = 10_000  # most phases of a collision, a few seconds
+_PANELS, _BARRIER = 256, 1e-4  # of the work up to a barrier, and its error
 
 
 class Stopped(Exception):
@@ -161,13 +163,42 @@ class Run:
         if self.path.separated != self._separates():
             what = "separation has no event" if self.path.separated else "event of separation separates nothing"
             raise Stopped(f"cannot follow the record: its {what}", self.path.steps[-1].phase, self.path.time, self.at.y)
+        if len(self.path.steps) > PHASES:
+            last, time = self.path.steps[PHASES], sum(step.duration for step in self.path.steps[:PHASES])
+            why = f"replays at most {PHASES} phases, and the record has {len(self.path.steps)}"
+            raise Stopped(why, last.phase, time, np.zeros(0))
         for k, step in enumerate(self.path.steps):
             if step.duration > 0:
                 self.integrate(k, step)
             self.at.events += [(kind, self.at.time) for kind in step.kinds]
             self.at.smallest_gap = min(self.at.smallest_gap, float(self.at.y[0]))
             self._jump(step)
+        if self._held_by_energy() and not self._is_below_barrier():
+            what = "ends above the barrier that is to hold the stick"
+            raise Stopped(what, self.path.steps[-1].phase, self.at.time, self.at.y, missed=True)
         return self.at
+
+    def _held_by_energy(self) -> bool:
+        """True if a bridge's energy barrier proved the stick: not at rest, nor at a turning point, which has others."""
+        path, model, last = self.path, self.model, self.path.steps[-1]
+        proved = path.certified and not path.separated and (path.decided is None or path.decided <= path.time)
+        alone = model.bridge and not (model.strings or model.space or model.own_events or "attraction" in model.works)
+        return proved and alone and last.duration > 0 and not last.phase.resting
+
+    def _is_below_barrier(self) -> bool:
+        """True if the energy does not suffice for some gap ahead, where the least energy includes the bridge's work."""
+        gap, end = float(self.at.y[0]), float(self.path.groups["rupture_gap"])
+        normal, energies = float(self.at.y[1]) ** 2 / 2, self.model.values("energies", self.at.y, self.p)
+        kinetic = normal if self.model.wall else energies["kinetic"]  # beside a wall the gap moves as head-on
+        excess = kinetic - self.model.values("effective_potential", self.at.y, self.p)["energy"]
+        nodes, weights = np.polynomial.legendre.leggauss(4)
+        ends = gap * (end / gap) ** np.linspace(0, 1, _PANELS + 1)
+        width = np.diff(ends)
+        states = np.repeat(self.at.y[: len(self.model.state), None], 4 * _PANELS, axis=1)
+        states[0] = (ends[:-1, None] + np.outer(width, nodes + 1) / 2).ravel()
+        slope = np.asarray(self.model.function("effective_potential")(states, self.p).full())[1]
+        rise = np.cumsum(slope.reshape(_PANELS, 4) @ weights * width / 2)
+        return bool(excess <= rise.max() + _BARRIER * max(excess, np.abs(rise).max()))
 
     def _separates(self) -> bool:
         """True if the last event is one that separates the doublet."""

@@ -5,9 +5,8 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 from ...engines.settings import KERNEL_STEPS, KERNEL_STEPS_IN_SPACE
-from ...engines.taylor.call import variant
+from ...engines.taylor.call import variant, variant_in_space
 from ...engines.taylor.headers import headers
-from ...engines.taylor.in_space import variant_in_space
 from ...engines.taylor.source import Variant, files
 from ...errors import CheckFailed, InputError
 from ...model.key import ModelKey

@@ -9,7 +9,7 @@ import numpy as np
 from ....generated.automaton import LAST_ANSWER
 from ...engines.settings import KERNEL_STEPS
 from ...engines.taylor.build import kernel
-from ...engines.taylor.call import Impacts, bind_kernel
+from ...engines.taylor.call import Impacts, task
 from ...engines.taylor.layout import ANSWER
 from ...errors import ComputationError
 from ...many import impacts as many
@@ -145,7 +145,7 @@ def _computed(of_law: Kernel, impacts: dict[str, np.ndarray]) -> list[Vector]:
 
 def _by_kernel(library: ctypes.CDLL, impacts: Impacts, rtol: float) -> Block:
     answers, scene = np.zeros(impacts.speed.size, ANSWER), impacts.scene
-    bind_kernel(library, rtol, KERNEL_STEPS)(impacts, answers)
+    task(library, impacts, rtol, KERNEL_STEPS, answers).run()
     columns = {"impact.speed": impacts.speed, "impact.angle": impacts.angle}
     block = block_of(many.Impacts.listed(scene, columns, rtol, "taylor", _RESULTS), answers, impacts, None)
     separated = answers["outcome"] > 0

@@ -13,7 +13,7 @@ from wetdoublet.solvers import Scene, boundary, collide
 from wetdoublet.solvers.collision.by_kernel import followed, sequence_in, sequence_of
 from wetdoublet.solvers.engines.casadi.confirm import confirm
 from wetdoublet.solvers.engines.casadi.integrators import tolerance_for
-from wetdoublet.solvers.engines.casadi.replay import Stopped, replay
+from wetdoublet.solvers.engines.casadi.replay import PHASES, Stopped, replay
 from wetdoublet.solvers.engines.casadi.sequence import EventSequence
 from wetdoublet.solvers.engines.steps import Steps
 from wetdoublet.solvers.model.dimensionless import Problem, nondimensionalise
@@ -107,6 +107,36 @@ def test_a_wrong_record_is_noticed(name: str, plugin: str) -> None:
         except Stopped:
             pass
     assert not followed_all_the_same
+
+
+@pytest.mark.parametrize("plugin", ["cvodes", "rosenbrock"])
+def test_a_barrier_that_does_not_hold_is_noticed(plugin: str) -> None:
+    """A stick is replayed to its proof; a pair that escapes is no stick, wherever the record says that it is proved."""
+    n, path = recorded(impact("granulation", 0.05, "30 deg"))
+    assert path.certified
+    replay(path, n.key(full=True), (), plugin, tolerance_for(RTOL, plugin, n.groups), RTOL)
+    n, path = recorded(impact(*PARTS))
+    tolerance, done = tolerance_for(RTOL, plugin, n.groups), 0.0
+    for k, step in enumerate(path.steps):
+        last = replace(step, duration=step.duration * 0.9, event=None, kinds=())
+        proved = replace(
+            path, steps=(*path.steps[:k], last), separated=False, certified=True, time=done + last.duration
+        )
+        with pytest.raises(Stopped, match="above the barrier"):
+            replay(proved, n.key(full=True), (), plugin, tolerance, RTOL)
+        done += step.duration
+
+
+def test_more_phases_than_it_takes_are_refused_at_once() -> None:
+    """The error has the phase and time at which the budget ends, and what to try."""
+    scene = impact(*PARTS)
+    n, path = recorded(scene)
+    many = replace(path, steps=path.steps[:1] * (PHASES + 1), separated=False)
+    with pytest.raises(Stopped, match=f"at most {PHASES} phases, and the record has {PHASES + 1}") as raised:
+        replay(many, n.key(full=True), (), "cvodes", tolerance_for(RTOL, "cvodes", n.groups), RTOL)
+    error = raised.value.error("cvodes", n.model(full=True))
+    assert (error.phase, error.advice) == (str(path.steps[0].phase), "try --engine rosenbrock")
+    assert error.time == pytest.approx(PHASES * path.steps[0].duration, rel=1e-9)
 
 
 def test_every_kind_of_event_is_among_them() -> None:
