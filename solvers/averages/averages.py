@@ -19,8 +19,7 @@ from ..host.progress import Progress
 from ..host.workers import in_workers
 from ..many.arguments import checked_numbers
 from ..many.blocks import kept
-from ..many.impacts import software
-from ..many.results import fill
+from ..many.impacts import fill, software
 from ..model.validity import warn
 from ..scene.scene import Scene
 from ..scene.schema import MEETING, Field, Range

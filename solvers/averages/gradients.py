@@ -7,8 +7,7 @@ import numpy as np
 
 from ..changes.brackets import Brackets
 from ..changes.experiment import STEEPEST, UNDECIDED, Experiment
-from ..changes.lines import Lines
-from ..changes.slopes import slopes, slopes_by_differences
+from ..changes.slopes import Lines, slopes, slopes_by_differences
 from .geometry import NORMAL, RIGHT_ANGLE, SLOPES
 from .over_speeds import Batch
 from .rule import summed

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -18,7 +18,6 @@ from ..model.dimensionless import Problem
 from ..results import TERMS
 from ..scene.scene import Scene
 from .assemble import assembled
-from .outcome import Energy, absent_terms
 from .result import Collision
 
 if TYPE_CHECKING:
@@ -94,14 +93,11 @@ def collision(
         until: time (s) to which a stick is followed.
 
     Raises:
-        ComputationError: as `recorded`; or the energy ledger is open, as the trajectory is then wrong.
+        ComputationError: as `recorded` and `assembled`.
     """
     record, decided = followed(problem, rtol, until, ledger=ledger, trajectory=trajectory)
     answer, books = _row(record.answers), None if record.ledger is None else _row(record.ledger)
-    energy = None if books is None else _energy(problem, books)
     separated = answer["outcome"] > 0
-    if energy is not None and separated:
-        energy.check(rtol)
     names, words = problem.model().names("outputs"), words_of(problem.scene)
     log = record.events[0, : answer["events"]]
     return assembled(
@@ -119,8 +115,8 @@ def collision(
         steps=answer["steps"],
         decided=decided,
         rtol=rtol,
-        energy=energy,
-        drift=None if books is None else _drift(problem, books),
+        terms=books and {name: books[field] for name, field in TERMS.items() if field in books},
+        momentum=books["momentum"] if books else 1.0,
         trajectory=_trajectory(problem, rtol, record, ledger) if trajectory else None,
     )
 
@@ -128,19 +124,6 @@ def collision(
 def _row(rows: np.ndarray) -> dict[str, Any]:
     """The only row of a structured array, as Python's numbers (arithmetic with numpy's scalars is slow)."""
     return dict(zip(rows.dtype.names or (), rows[0].tolist(), strict=True))
-
-
-def _energy(problem: Problem, books: Mapping[str, float]) -> Energy:
-    terms = {name: books[field] * problem.energy for name, field in TERMS.items() if field in books}
-    absent = absent_terms(problem.scene) | (set() if problem.oblique else {"dry_friction"})
-    return Energy(**{"strings": 0.0} | {name: value for name, value in terms.items() if name not in absent})
-
-
-def _drift(problem: Problem, books: Mapping[str, float]) -> float | None:
-    """|L/L(0) - 1| at the end; None with strings or a wall, which exert a torque; 0 head-on."""
-    if problem.scene.pendulum is not None or (problem.scene.wall and problem.oblique):
-        return None
-    return abs(books["momentum"] - 1.0) if problem.oblique else 0.0
 
 
 def _trajectory(problem: Problem, rtol: float, recorded: Recorded, full: bool) -> xarray.Dataset:

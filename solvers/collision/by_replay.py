@@ -16,7 +16,6 @@ from ..model.dimensionless import Problem
 from ..model.model import Model, load, slip_restitution
 from .assemble import assembled
 from .by_kernel import collision, followed, sequence_in, sequence_of
-from .outcome import Energy
 from .result import Collision
 
 if TYPE_CHECKING:
@@ -49,9 +48,7 @@ def by_replay(
         if not _confirmed(problem, rtol, plugin, until):
             raise problem.in_si(stopped.error(plugin, model)) from None
         return collision(problem, rtol, ledger, trajectory, until)
-    energy = _energy(model, replay, p, problem) if ledger else None
-    if energy is not None and path.separated:
-        energy.check(rtol)
+    conserved = ledger and model.oblique and not (model.strings or model.wall)
     return assembled(
         problem,
         outcome=path.outcome,
@@ -67,8 +64,8 @@ def by_replay(
         steps=replay.steps,
         decided=path.decided,
         rtol=rtol,
-        energy=energy,
-        drift=_drift(model, replay, p) if ledger else None,
+        terms=_terms(model, replay, p) if ledger else None,
+        momentum=model.values("angular_momentum", replay.y, p)["angular_momentum"] if conserved else 1.0,
         trajectory=_trajectory(problem, path, replay, model, plugin, rtol) if trajectory else None,
     )
 
@@ -96,25 +93,14 @@ def _rotation(replay: Replay, model: Model) -> float:
     return replay.extra("rotation") if "rotation" in replay.extras else 0.0
 
 
-def _energy(model: Model, replay: Replay, p: np.ndarray, problem: Problem) -> Energy:
+def _terms(model: Model, replay: Replay, p: np.ndarray) -> dict[str, float]:
+    """The ledger, over m v0^2."""
     first, last = (model.values("energies", y, p) for y in (model.start(p), replay.y))
-    spent = {name: replay.extra(name) if name in replay.extras else 0.0 for name in _LEDGER}
-    terms = spent | {"initial": first["kinetic"], "final": last["kinetic"], "dry_contact": replay.dry_loss}
+    terms = {name: replay.extra(name) if name in replay.extras else 0.0 for name in _LEDGER}
+    terms |= {"initial": first["kinetic"], "final": last["kinetic"], "dry_contact": replay.dry_loss}
     terms["strings"] = last["strings"] - first["strings"] if model.strings else 0.0
     terms["dry_friction"] += replay.friction_loss
-    terms["own_events"] = replay.own_loss
-    absent = {"attraction": "attraction" not in model.works, "dry_friction": not model.friction}
-    absent["own_events"] = not model.own_events
-    return Energy(**{name: value * problem.energy for name, value in terms.items() if not absent.get(name)})
-
-
-def _drift(model: Model, replay: Replay, p: np.ndarray) -> float | None:
-    """|L/L(0) - 1| at the end; None with strings or a wall, which exert a torque; 0 head-on."""
-    if model.strings or model.wall:
-        return None
-    if not model.oblique:
-        return 0.0
-    return abs(model.values("angular_momentum", replay.y, p)["angular_momentum"] - 1.0)
+    return terms | ({"own_events": replay.own_loss} if model.own_events else {})
 
 
 def _trajectory(

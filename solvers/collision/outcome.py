@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from ..errors import ComputationError
+from ..model.dimensionless import Problem
 from ..model.validity import NEEDS, sentences
 from ..results import OF_SEPARATION, UNITS
 from ..scene.origin import origin
@@ -54,6 +56,13 @@ class Energy:
     attraction: float | None = None
     dry_friction: float | None = None
     own_events: float | None = None
+
+    @classmethod
+    def of(cls, problem: Problem, terms: Mapping[str, float]) -> Energy:
+        """The ledger from its terms over m v0^2, without those of forces that the collision does not have."""
+        absent = absent_terms(problem.scene) | (set() if problem.oblique else {"dry_friction"})
+        known = {name: value * problem.energy for name, value in terms.items() if name not in absent}
+        return cls(**{"strings": 0.0} | known)
 
     @property
     def residual(self) -> float:

@@ -18,9 +18,7 @@ from ..scene.entry_rules import FARTHEST
 from ..scene.groups import formulas
 from ..scene.quantities import NO_GLASS
 from ..scene.scene import Scene
-from .columns import varied_columns
-from .impacts import Impacts
-from .results import Block
+from .impacts import Block, Impacts
 
 _STRETCH = 65536  # collisions in one call of the kernel, so that progress is reported and memory stays bounded
 _MOST = 1e30  # largest magnitude of an SI quantity; its inverse is the smallest
@@ -69,7 +67,7 @@ def impacts_of(request: Impacts) -> tuple[call.Impacts, np.ndarray]:
     values: dict[str, np.ndarray] = {}
     with np.errstate(all="ignore"):  # overflow and NaN are excluded by the mask
         if request.vary:
-            values = varied_columns(request)
+            values = request.quantities
             sound = admissible(scene, values)
             unit = scaling.stokes(values["reduced_radius"], values["reduced_mass"], values["viscosity"], 1.0)
             for name, column in values.items():  # a column of one number, repeated, has no stride

@@ -19,16 +19,16 @@ from ..errors import InputError
 from ..formatting.labelled import Column, labelled
 from ..host.pictures import register
 from ..model.validity import flag_attributes, warn
-from ..results import FAILED, REQUESTED, VALIDITY, attributes, outcome_attributes
-from ..scene.quantities import normal_speed
+from ..results import ALWAYS, FAILED, NONE, REQUESTED, VALIDITY, attributes, outcome_attributes
+from ..scene.quantities import normal_speed, quantities
 from ..scene.scene import Scene
 from ..scene.schema import LEAST_ANGLE, MEETING
 from .arguments import check_outputs, checked_columns, first_accepted, of_one_length
-from .results import Block
 
 if TYPE_CHECKING:
     import xarray
 
+Block = dict[str, np.ndarray]  # columns of results, by name
 Dims = tuple[Hashable, ...]
 Place = tuple[slice, ...]
 LISTED: Dims = ("collision",)
@@ -110,6 +110,23 @@ class Impacts:
     def texts(self) -> dict[str, np.ndarray]:
         """Entries that are choices; the impacts are split by them before they are computed (`by_text`)."""
         return self._entries(numbers=False)
+
+    @property
+    def quantities(self) -> dict[str, np.ndarray]:
+        """Quantities by vocabulary name, SI, one value for each impact; without speed and angle."""
+        entries: dict[str, Any] = {name: value for name, value in self.scene.si if name not in MEETING}
+        values = quantities(entries | dict(self.vary), self.scene.ways)
+        return {name: np.broadcast_to(np.asarray(value, dtype=float), self.size) for name, value in values.items()}
+
+    @property
+    def all_quantities(self) -> dict[str, Any]:
+        """Quantities with speed, Stokes number and angle, which are arrays; others only if entries vary."""
+        values: dict[str, Any] = self.quantities if self.vary else dict(self.scene.material)
+        with np.errstate(all="ignore"):
+            per_speed = scaling.stokes(values["reduced_radius"], values["reduced_mass"], values["viscosity"], 1.0)
+            speed = np.asarray(self.stokes) / per_speed if self.speed is None else self.speed
+            stokes = speed * per_speed if self.stokes is None else self.stokes
+        return values | {"speed": speed, "stokes": stokes, "angle": self.angle}
 
     def scene_of(self, k: int) -> Scene:
         """The scene of impact k; InputError if the varied entries make it impossible."""
@@ -275,6 +292,26 @@ def listed(
     impacts = Impacts.listed(loaded, of_one_length(columns), check_rtol(rtol), chosen, names)
     impacts.check_possible()
     return impacts
+
+
+def empty(size: int, of: Sequence[str]) -> Block:
+    """All columns of a result before anything is computed: outcome -2, reasons empty."""
+    columns: Block = {"outcome": np.full(size, -2, np.int8), "certified": np.zeros(size, bool)}
+    columns["reason"] = np.full(size, "", object)
+    for name in dict.fromkeys(("restitution", *of)):
+        if name == "reversal":
+            columns[name] = np.full(size, NONE, np.int8)
+        elif name == VALIDITY:
+            columns[name] = np.zeros(size, np.int16)
+        elif name not in ALWAYS:
+            columns[name] = np.full(size, np.nan)
+    return columns
+
+
+def fill(results: Block, where: np.ndarray, block: Block) -> None:
+    """Copy a finished block into the result columns."""
+    for name, values in block.items():
+        results[name][where] = values
 
 
 def software() -> dict[str, str]:

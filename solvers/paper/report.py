@@ -21,7 +21,7 @@ from ..boundaries.result import Atlas
 from ..collision.collide import collide
 from ..engines.settings import RTOL
 from ..engines.taylor.build import compile_all
-from ..engines.taylor.record import variant_to_record
+from ..engines.taylor.call import variant
 from ..errors import ComputationError
 from ..formatting.style import EDGES, FILLS, HATCHES, INK, styled
 from ..host.files import save
@@ -279,6 +279,6 @@ def under_variants(
         return value if isinstance(value, str) else number(value)
 
     scenes = {name: Scene.load(preset).with_entries(entries) for name, entries in variants.items()}
-    compile_all({variant_to_record(scene, True, RTOL, False, trajectory=True, fold=False) for scene in scenes.values()})
+    compile_all({variant(scene, True, RTOL, trajectory=True, fold=False) for scene in scenes.values()})
     rows = [[name, *(cell(read, scene) for read in readings.values())] for name, scene in scenes.items()]
     return Table(caption, ["variant", *readings], [*rows, ["paper", *printed]])

@@ -23,8 +23,7 @@ from ..engines.taylor.undecided import undecided
 from ..errors import WetDoubletError
 from ..model.dimensionless import nondimensionalise
 from ..model.model import load, select_model
-from .books import OPEN, TERMS, TRANSVERSE, extras_of, is_open, of_casadi, of_kernel
-from .ends import FAILED, Ends
+from .ends import FAILED, OPEN, TERMS, TRANSVERSE, Ends, extras_of, is_open, of_casadi, of_kernel
 from .pairs import Pairs, dot, length
 
 _SLIDES = np.pi / 4  # slides as fast as it approaches

@@ -9,8 +9,7 @@ from ..engines.taylor.layout import OWN_LEDGER
 from ..engines.taylor.undecided import undecided
 from ..model.dimensionless import nondimensionalise
 from ..model.model import load, select_model
-from .books import OPEN, is_open, of_kernel
-from .ends import FAILED, Ends
+from .ends import FAILED, OPEN, Ends, is_open, of_kernel
 from .pairs import Bodies, Pairs, dot, length, spin_energy, without_spins
 
 

@@ -20,8 +20,7 @@ from ..engines.taylor.undecided import undecided
 from ..errors import ComputationError, WetDoubletError
 from ..model.dimensionless import Problem, nondimensionalise
 from ..model.model import Model, load, select_model
-from .books import OPEN, extras_of, is_open, of_casadi
-from .ends import FAILED, Ends
+from .ends import FAILED, OPEN, Ends, extras_of, is_open, of_casadi
 from .pairs import AXES, Bodies, Pairs, components, length, spin_energy, without_spins
 
 EXTRAS = ("rotation",)

@@ -18,10 +18,9 @@ from ..results import attributes, outcome_attributes
 from ..scene.groups import si_values
 from ..scene.scene import Scene
 from .beside_wall import Planar, beside_wall, planar_by_kernel, planar_by_replay
-from .books import GREW, named
 from .by_kernel import by_kernel
 from .by_replay import pairs_by_replay
-from .ends import FAILED, Ends, Motions, after, after_wall, gains_energy
+from .ends import FAILED, GREW, Ends, Motions, after, after_wall, gains_energy, named
 from .pairs import AXES, Bodies, Pairs, checked, dot, length
 
 if TYPE_CHECKING:

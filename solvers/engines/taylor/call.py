@@ -15,7 +15,6 @@ import numpy as np
 
 from ....generated.automaton import LOOSEST
 from ...model.dimensionless import Problem, nondimensionalise
-from ...model.key import ModelKey
 from ...model.model import select_model
 from ...scene.contact import NEVER_MET
 from ...scene.groups import rate_scales, sideways
@@ -87,21 +86,19 @@ class Impacts:
 
 
 def variant(
-    scene: Scene, choice: ModelKey, rtol: float, rotation: bool, ledger: bool = False, trajectory: bool = False
+    scene: Scene,
+    oblique: bool,
+    rtol: float,
+    rotation: bool = True,
+    ledger: bool = False,
+    trajectory: bool = False,
+    fold: bool = True,
+    space: bool = False,
 ) -> Variant:
-    """The variant of the kernel for a scene at a tolerance."""
+    """The kernel of a scene's collisions at a tolerance; arguments as of `run_recorded` and `select_model`."""
     own_rupture = scene.bridge is not None and scene.bridge.rupture == "own"
-    return Variant(choice, order_for(rtol), rotation, own_rupture, ledger=ledger, trajectory=trajectory)
-
-
-def variant_for_many(scene: Scene, oblique: bool, rtol: float, rotation: bool, fold: bool = True) -> Variant:
-    """The variant that `run_kernel` takes; with `fold` no quantity varies: a partner equal to the sphere stays so."""
-    return variant(scene, select_model(scene, oblique, fold=fold), rtol, rotation)
-
-
-def variant_in_space(scene: Scene, rtol: float, ledger: bool = False) -> Variant:
-    """The variant that `run_kernel` takes for pairs in space."""
-    return variant(scene, select_model(scene, True, full=ledger, space=True), rtol, rotation=False, ledger=ledger)
+    choice = select_model(scene, oblique, full=ledger, fold=fold, space=space)
+    return Variant(choice, order_for(rtol), rotation and not space, own_rupture, ledger=ledger, trajectory=trajectory)
 
 
 def run_kernel(
@@ -126,9 +123,8 @@ def run_kernel(
     answers = np.zeros(impacts.size, ANSWER_IN_SPACE if space else ANSWER)
     steps = budget or (KERNEL_STEPS_IN_SPACE if space else KERNEL_STEPS)
     for oblique, which in impacts.by_kind():
-        choice = select_model(scene, oblique, full=ledger, fold=not impacts.others, space=space)
-        library = kernel(variant(scene, choice, rtol, (rotation or ledger) and not space, ledger))
-        terms_of = OWN_LEDGER if has_events(choice) else LEDGER
+        wanted = variant(scene, oblique, rtol, rotation or ledger, ledger, fold=not impacts.others, space=space)
+        library, terms_of = kernel(wanted), OWN_LEDGER if has_events(wanted.choice) else LEDGER
 
         def chunk(first: int, library: Any = library, which: np.ndarray = which, terms_of: Any = terms_of) -> None:
             whole, last = which.size == answers.size, min(first + CHUNK, which.size)

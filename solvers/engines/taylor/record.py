@@ -8,15 +8,12 @@ from typing import Any
 import numpy as np
 
 from ....generated.automaton import LAST_ANSWER, Purpose
-from ...model.model import select_model
-from ...scene.scene import Scene
 from ..settings import KERNEL_STEPS, KERNEL_STEPS_IN_SPACE
 from ..steps import Steps
 from .build import kernel
-from .call import Impacts, task, variant, variant_in_space
+from .call import Impacts, task, variant
 from .headers import has_events
 from .layout import ANSWER, ANSWER_IN_SPACE, HAPPENING, LEDGER, OWN_LEDGER, number, step_row
-from .source import Variant
 
 _ROOM = 64, 256  # events and steps of a collision
 
@@ -33,13 +30,6 @@ class Recorded:
     ledger: np.ndarray | None
     steps: Steps | None
     peaks: np.ndarray | None = None
-
-
-def variant_to_record(
-    scene: Scene, oblique: bool, rtol: float, ledger: bool, trajectory: bool = False, fold: bool = True
-) -> Variant:
-    """The variant that `run_recorded` takes; arguments as there."""
-    return variant(scene, select_model(scene, oblique, full=ledger, fold=fold), rtol, True, ledger, trajectory)
 
 
 def run_recorded(
@@ -71,7 +61,7 @@ def run_recorded(
             again.
         until: time (x0/v0) to which a single collision is followed, a stick beyond its proof.
     """
-    wanted = variant_to_record(impacts.scene, oblique, rtol, ledger, trajectory, fold)
+    wanted = variant(impacts.scene, oblique, rtol, True, ledger, trajectory, fold)
     wanted = wanted if until is None else replace(wanted, limit=True, lanes=1)
     library = kernel(wanted)
     size, keep = impacts.size, keep and trajectory
@@ -102,7 +92,7 @@ def run_recorded(
 
 def recorded_in_space(impact: Impacts, rtol: float) -> tuple[Any, np.ndarray]:
     """The answer of one pair in space, and its events with the modes between them (`HAPPENING`)."""
-    library, room = kernel(variant_in_space(impact.scene, rtol)), _ROOM[1]
+    library, room = kernel(variant(impact.scene, True, rtol, space=True)), _ROOM[1]
     while True:
         answers, log = np.zeros(1, ANSWER_IN_SPACE), np.zeros(room, HAPPENING)
         call = task(library, impact, rtol, KERNEL_STEPS_IN_SPACE, answers)

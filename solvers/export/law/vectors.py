@@ -14,7 +14,7 @@ from ...engines.taylor.layout import ANSWER
 from ...errors import ComputationError
 from ...many import impacts as many
 from ...many.by_kernel import block_of
-from ...many.results import Block
+from ...many.impacts import Block
 from ...scene.scene import Scene
 from ...space.collide_pair import collide_pair
 from ...space.pairs import Bodies

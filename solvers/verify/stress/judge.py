@@ -9,7 +9,7 @@ from dataclasses import replace
 from ....generated.automaton import OUTCOMES
 from ...collision.by_kernel import recorded
 from ...collision.by_replay import by_replay
-from ...engines.taylor.call import variant_for_many
+from ...engines.taylor.call import variant
 from ...engines.taylor.source import Variant
 from ...engines.taylor.undecided import CHATTERS, SEPARATES
 from ...errors import ComputationError, ModelWarning
@@ -64,7 +64,7 @@ def _surface_speeds(scene: Scene, *spins: float | None) -> tuple[float, ...]:
 
 def fast_kernel(scene: Scene) -> Variant:
     """The kernel variant of a scene."""
-    return variant_for_many(scene, _dimensionless(scene).oblique, RTOL, rotation=False)
+    return variant(scene, _dimensionless(scene).oblique, RTOL, rotation=False)
 
 
 def chained(scene: Scene, rtol: float, plugin: str = "cvodes") -> Result:
