@@ -127,17 +127,16 @@ def _row(rows: np.ndarray) -> dict[str, Any]:
 
 
 def _trajectory(problem: Problem, rtol: float, recorded: Recorded, full: bool) -> xarray.Dataset:
-    from ..engines.casadi.trajectory import attributes, dataset  # imports xarray
+    from ..engines.casadi.trajectory import dataset  # imports xarray
     from ..model.rebound import rebounded
 
     assert recorded.steps is not None
-    model = problem.model(full=full)
-    attrs = attributes(problem.scene, OUTCOMES[recorded.answers["outcome"][0]], "taylor", rtol)
+    model, outcome = problem.model(full=full), OUTCOMES[recorded.answers["outcome"][0]]
     p = model.group_values(problem.groups)
     first, reversal = model.start(p), int(recorded.answers["reversal"][0])
     if reversal >= 0:  # where initial contact decides, the state after it
         first = rebounded(model, KINDS[reversal], first, p).after
-    return dataset([*_stretches(recorded.steps, len(model.state))], model, problem, first, attrs)
+    return dataset([*_stretches(recorded.steps, len(model.state))], model, problem, first, outcome, "taylor", rtol)
 
 
 def _stretches(steps: Steps, states: int) -> Iterator[Stretch]:

@@ -106,12 +106,11 @@ def _terms(model: Model, replay: Replay, p: np.ndarray) -> dict[str, float]:
 def _trajectory(
     problem: Problem, path: EventSequence, replay: Replay, model: Model, plugin: str, rtol: float
 ) -> xarray.Dataset:
-    from ..engines.casadi.trajectory import attributes, dataset, stretch  # imports xarray
+    from ..engines.casadi.trajectory import dataset, stretch  # imports xarray
 
-    attrs = attributes(problem.scene, path.outcome, plugin, rtol)
     p = model.group_values(problem.groups)
     pieces = [stretch(piece, model, replay, p, plugin) for piece in replay.pieces]
     try:
-        return dataset(pieces, model, problem, replay.y, attrs)
+        return dataset(pieces, model, problem, replay.y, path.outcome, plugin, rtol)
     except ComputationError as error:
         raise problem.in_si(error) from None

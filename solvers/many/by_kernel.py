@@ -1,6 +1,6 @@
 """A batch of collisions by the Taylor kernel: columns of SI quantities in, columns of results out."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from functools import lru_cache
 
 import numpy as np
@@ -49,13 +49,13 @@ def collide_by_kernel(
         if books is not None:  # where the ledger is open the trajectory is wrong
             decided &= _closed(answers, books, request.rtol)
         if part.size == decided.size and decided.all():  # the usual case; avoids copies
-            finished(part, block_of(request, answers, impacts, books))
+            finished(part, block_of(request.of, answers, impacts, books))
             continue
         done = sound.copy()
         done[sound] = decided
         finished(
             part[done],
-            block_of(request, answers[decided], impacts.part(decided), None if books is None else books[decided]),
+            block_of(request.of, answers[decided], impacts.part(decided), None if books is None else books[decided]),
         )
         incomplete.append(part[~done])
     return np.concatenate(incomplete)
@@ -115,7 +115,7 @@ def admissible(scene: Scene, values: Mapping[str, np.ndarray]) -> np.ndarray:
     return sound
 
 
-def block_of(request: Impacts, answers: np.ndarray, impacts: call.Impacts, books: np.ndarray | None) -> Block:
+def block_of(of: Sequence[str], answers: np.ndarray, impacts: call.Impacts, books: np.ndarray | None = None) -> Block:
     """Kernel records as the requested columns of a result."""
     separated = answers["outcome"] > 0
     exists = {
@@ -130,10 +130,10 @@ def block_of(request: Impacts, answers: np.ndarray, impacts: call.Impacts, books
         "certified": answers["certified"] != 0,
         "restitution": np.where(separated, answers["shown"][:, 0], 0.0),
     }
-    length = impacts.others.get("film_thickness", request.scene.liquid.film_thickness)
-    rates = rates_of(request.scene, answers, impacts) if any(name in RATES for name in request.of) else {}
-    terms = {} if books is None else _ledger(request, books, impacts)
-    for name in request.of:
+    length = impacts.others.get("film_thickness", impacts.scene.liquid.film_thickness)
+    rates = rates_of(answers, impacts) if any(name in RATES for name in of) else {}
+    terms = {} if books is None else _ledger(books, impacts)
+    for name in of:
         row = DEFINITIONS.get(name)
         if name in terms:
             block[name] = terms[name]
@@ -147,9 +147,9 @@ def block_of(request: Impacts, answers: np.ndarray, impacts: call.Impacts, books
     return block
 
 
-def rates_of(scene: Scene, answers: np.ndarray, impacts: call.Impacts) -> Block:
+def rates_of(answers: np.ndarray, impacts: call.Impacts) -> Block:
     """Spins and rotation rate at separation, rad/s; 0 head-on."""
-    unit = impacts.rates
+    scene, unit = impacts.scene, impacts.rates
     rates = {name: result(answers, name) * unit for name in RATES}
     if "final_spin_partner" not in load(select_model(scene, True, fold=not impacts.others)).names("outputs"):
         none = np.full(unit.size, np.nan)
@@ -157,9 +157,9 @@ def rates_of(scene: Scene, answers: np.ndarray, impacts: call.Impacts) -> Block:
     return rates
 
 
-def _ledger(request: Impacts, books: np.ndarray, impacts: call.Impacts) -> Block:
+def _ledger(books: np.ndarray, impacts: call.Impacts) -> Block:
     """The ledger in J, and the drift of the angular momentum; NaN where the scene has no such term."""
-    scene, others = request.scene, impacts.others
+    scene, others = impacts.scene, impacts.others
     unit = np.asarray(others.get("reduced_mass", scene.reduced_mass)) * impacts.speed**2
     terms = {name: books[column] * unit for name, column in TERMS.items()}
     terms |= {name: np.full(books.size, 0.0 if name == "strings" else np.nan) for name in absent_terms(scene)}

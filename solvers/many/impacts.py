@@ -14,7 +14,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...generated import scaling
-from ..engines.settings import check_engine, check_rtol
 from ..errors import InputError
 from ..formatting.labelled import Column, labelled
 from ..host.pictures import register
@@ -23,7 +22,7 @@ from ..results import ALWAYS, FAILED, NONE, REQUESTED, VALIDITY, attributes, out
 from ..scene.quantities import normal_speed, quantities
 from ..scene.scene import Scene
 from ..scene.schema import LEAST_ANGLE, MEETING
-from .arguments import check_outputs, checked_columns, first_accepted, of_one_length
+from .arguments import first_accepted, of_one_length
 
 if TYPE_CHECKING:
     import xarray
@@ -271,27 +270,6 @@ class Impacts:
 @lru_cache(maxsize=64)
 def _varied(scene: Scene, entries: tuple[tuple[str, float], ...]) -> Scene:
     return scene.with_si(dict(entries))
-
-
-def listed(
-    scene: Scene | str | Path,
-    impact: Mapping[str, Any],
-    vary: Mapping[str, Any],
-    rtol: float,
-    engine: str | None,
-    of: Sequence[str],
-) -> Impacts:
-    """Validated impacts in one dimension, of 1-D arrays broadcast to one length.
-
-    Arguments:
-        impact: `stokes`, `speed`, `relative_speed` and `angle`; None for the scene's.
-    """
-    names = check_outputs(of)
-    loaded, columns, _ = checked_columns(scene, impact, vary)
-    chosen = check_engine(engine) or "taylor"
-    impacts = Impacts.listed(loaded, of_one_length(columns), check_rtol(rtol), chosen, names)
-    impacts.check_possible()
-    return impacts
 
 
 def empty(size: int, of: Sequence[str]) -> Block:

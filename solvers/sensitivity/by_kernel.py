@@ -2,7 +2,7 @@
 
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
-from functools import lru_cache, partial
+from functools import lru_cache
 
 import numpy as np
 
@@ -88,7 +88,7 @@ def gradients_by_kernel(
     bent = np.ones((1 if steep is None else size, len(wrt)))  # of rows of the speed, over those of the reference
     if steep is not None:
         bent[:, wrt.index("impact.angle")] = steep / _steep(np.array(angle))
-    scales = partial(_Scales, scene, impacts, at.scales, wrt, steep)
+    scales = _scales(impacts, at.scales, wrt, steep) if any(DEFINITIONS[name].scale for name in of) else {}
     for place, name in enumerate(of):
         if name == "tangential_restitution" and angle == 0:
             continue
@@ -110,8 +110,8 @@ def gradients_by_kernel(
         if name == "final_spin" and unspun:  # parted at initial contact: the spin is zero up to rounding
             plain = np.where(at_once, 0.0, plain)
             first[place] *= np.isin(wrt, SPINS) | ~at_once[:, None]
-        if DEFINITIONS[name].scale is not None:
-            scale, relative = scales().of(name)
+        if (unit := DEFINITIONS[name].scale) is not None:
+            scale, relative = scales[unit]
             first[place] = (first[place] + plain[:, None] * relative) * scale[:, None]
             plain = plain * scale
         value[place, separated] = plain[separated]
@@ -159,34 +159,20 @@ def _steep(angle: np.ndarray) -> np.ndarray:
     return np.asarray(angle * np.tan(angle))
 
 
-class _Scales:
-    """SI scales of results: values and logarithmic derivatives.
+def _scales(
+    impacts: Impacts, slopes: Mapping[str, np.ndarray], wrt: tuple[str, ...], angle_slope: np.ndarray | None
+) -> dict[str, tuple[np.ndarray, np.ndarray]]:
+    """SI scales of results by name: values (collisions,), and derivatives of their logarithms (collisions, parameters).
 
     Arguments:
         angle_slope: -d ln(normal speed)/d ln(angle) at fixed relative speed; None where the normal speed is held.
     """
-
-    def __init__(
-        self,
-        scene: Scene,
-        impacts: Impacts,
-        slopes: Mapping[str, np.ndarray],
-        wrt: tuple[str, ...],
-        angle_slope: np.ndarray | None,
-    ) -> None:
-        speed, angle = impacts.speed, impacts.angle
-        reference_angle = ANGLE if angle[0] > 0 else 0.0
-        n = nondimensionalise(scene, SPEED, reference_angle)
-        speed_ratio = speed / SPEED
-        self._values = {"length": np.full_like(speed, n.length), "time": n.time / speed_ratio, "rate": impacts.rates}
-        reference = {"length": n.length, "time": n.time, "rate": n.rate or 1.0}
-        self._relative = {name: np.tile(slopes[name] / reference[name], (speed.size, 1)) for name in reference}
-        if angle_slope is not None and "impact.angle" in wrt:
-            k = wrt.index("impact.angle")
-            self._relative["time"][:, k], self._relative["rate"][:, k] = angle_slope, -angle_slope
-
-    def of(self, name: str) -> tuple[np.ndarray, np.ndarray]:
-        """The scale (collisions,) and the derivatives of its logarithm (collisions, parameters)."""
-        scale = DEFINITIONS[name].scale
-        assert scale is not None
-        return self._values[scale], self._relative[scale]
+    n = nondimensionalise(impacts.scene, SPEED, ANGLE if impacts.angle[0] > 0 else 0.0)
+    values = {"length": np.full_like(impacts.speed, n.length), "time": n.time / (impacts.speed / SPEED)}
+    values["rate"] = impacts.rates
+    reference = {"length": n.length, "time": n.time, "rate": n.rate or 1.0}
+    relative = {name: np.tile(slopes[name] / reference[name], (impacts.size, 1)) for name in reference}
+    if angle_slope is not None and "impact.angle" in wrt:
+        k = wrt.index("impact.angle")
+        relative["time"][:, k], relative["rate"][:, k] = angle_slope, -angle_slope
+    return {name: (values[name], relative[name]) for name in values}

@@ -12,7 +12,6 @@ from ...engines.taylor.build import kernel
 from ...engines.taylor.call import Impacts, task
 from ...engines.taylor.layout import ANSWER
 from ...errors import ComputationError
-from ...many import impacts as many
 from ...many.by_kernel import block_of
 from ...many.impacts import Block
 from ...scene.scene import Scene
@@ -146,8 +145,7 @@ def _computed(of_law: Kernel, impacts: dict[str, np.ndarray]) -> list[Vector]:
 def _by_kernel(library: ctypes.CDLL, impacts: Impacts, rtol: float) -> Block:
     answers, scene = np.zeros(impacts.speed.size, ANSWER), impacts.scene
     task(library, impacts, rtol, KERNEL_STEPS, answers).run()
-    columns = {"impact.speed": impacts.speed, "impact.angle": impacts.angle}
-    block = block_of(many.Impacts.listed(scene, columns, rtol, "taylor", _RESULTS), answers, impacts, None)
+    block = block_of(_RESULTS, answers, impacts)
     separated = answers["outcome"] > 0
     block["final_gap"] = np.where(separated, answers["final_gap"] * scene.liquid.film_thickness, np.nan)
     return block | {"rebound": answers["reversal"], "answered": answers["status"] <= LAST_ANSWER}
