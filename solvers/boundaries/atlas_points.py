@@ -173,7 +173,7 @@ def _passes_saddle(plane: Plane, place: np.ndarray) -> bool:
     n = nondimensionalise(scene, scene.speed_of(float(plane.stokes_at(place))), angle)
     model = load(select_model(scene, n.oblique))
     ran = run_recorded(
-        Impacts.of(n), n.oblique, plane.rtol, trajectory=True, purpose=Purpose.ESCAPE, fold=False, events=False
+        Impacts.single(n), n.oblique, plane.rtol, trajectory=True, purpose=Purpose.ESCAPE, fold=False, events=False
     )
     assert ran.steps is not None
     end = ran.steps.states(ran.answers["time"])[:, 0]

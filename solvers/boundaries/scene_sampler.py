@@ -9,6 +9,7 @@ from ...generated.automaton import BOUNCE, LAST_ANSWER, OUTCOMES, ROTATE, STICK,
 from ..collision.by_kernel import recorded, words_of
 from ..engines.settings import KERNEL_STEPS
 from ..engines.taylor.call import Impacts
+from ..engines.taylor.layout import ANSWER
 from ..engines.taylor.record import run_recorded
 from ..errors import ComputationError, InputError
 from ..model.dimensionless import nondimensionalise
@@ -128,7 +129,8 @@ class SceneSampler:
         Arguments:
             solids: SI quantities of the rebound criteria that replace the scene's.
         """
-        every, parts = Impacts(self.scene, stokes / self.scene.stokes_per_speed, angle, solids or {}), []
+        every = Impacts(self.scene, stokes / self.scene.stokes_per_speed, angle, solids or {})
+        answers, peaks = np.zeros(every.size, ANSWER), np.zeros(every.size)
         for oblique, which in every.by_kind():
             impacts = every.part(which)
             ran = run_recorded(
@@ -139,9 +141,7 @@ class SceneSampler:
             ran.answers["outcome"][ran.answers["status"] > LAST_ANSWER] = -1
             if purpose == Purpose.WHOLE and budget >= SAMPLE_BUDGET:  # earlier they are far from a limit
                 self._take_limits(ran.answers, impacts, oblique, budget)
-            parts.append((which, ran.answers, ran.peaks))
-        order = np.argsort(np.concatenate([which for which, *_ in parts]))
-        answers, peaks = (np.concatenate(columns)[order] for columns in list(zip(*parts, strict=True))[1:])
+            answers[which], peaks[which] = ran.answers, ran.peaks
         return answers, peaks
 
     def _take_limits(self, answers: np.ndarray, impacts: Impacts, oblique: bool, budget: int) -> None:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any, NamedTuple
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -42,7 +43,7 @@ def recorded(
     Raises:
         ComputationError: phase, time and state, in SI, if the outcome is not decided; or there is no kernel.
     """
-    ran = run_recorded(Impacts.of(problem), problem.oblique, rtol, ledger, trajectory, until=until)
+    ran = run_recorded(Impacts.single(problem), problem.oblique, rtol, ledger, trajectory, until=until)
     answer, words = ran.answers[0], words_of(problem.scene)
     if answer["status"] > LAST_ANSWER:
         log = ran.events[0, : answer["events"]]
@@ -54,21 +55,14 @@ def recorded(
     return ran
 
 
-def followed(problem: Problem, rtol: float, until: float | None, **options: bool) -> Followed:
+def followed(problem: Problem, rtol: float, until: float | None, **options: bool) -> Recorded:
     """One collision by the kernel; a stick is followed to a time (s), before its decision or beyond."""
     ran = recorded(problem, rtol, **options)
     if until is None or ran.answers["outcome"][0] > 0:
-        return Followed(ran, None)
-    followed = recorded(problem, rtol, **options, until=until / problem.time)
-    followed.answers["certified"] = ran.answers["certified"]
-    return Followed(followed, float(ran.answers["time"][0]))
-
-
-class Followed(NamedTuple):
-    """A record, and the time (x0/v0) at which its stick was decided where it ends at another."""
-
-    record: Recorded
-    decided: float | None
+        return ran
+    longer = recorded(problem, rtol, **options, until=until / problem.time)
+    longer.answers["certified"] = ran.answers["certified"]
+    return replace(longer, decided=float(ran.answers["time"][0]))
 
 
 def sequence_of(problem: Problem, rtol: float, until: float | None = None) -> EventSequence:
@@ -76,10 +70,10 @@ def sequence_of(problem: Problem, rtol: float, until: float | None = None) -> Ev
     return sequence_in(problem, followed(problem, rtol, until, ledger=True))
 
 
-def sequence_in(problem: Problem, ran: Followed) -> EventSequence:
+def sequence_in(problem: Problem, ran: Recorded) -> EventSequence:
     """The phases and events of a record with a ledger."""
-    answer, words, model = ran.record.answers[0], words_of(problem.scene), problem.model(full=True)
-    return sequence(answer, ran.record.events[0, : answer["events"]], words, model, problem.groups, ran.decided)
+    answer, words, model = ran.answers[0], words_of(problem.scene), problem.model(full=True)
+    return sequence(answer, ran.events[0, : answer["events"]], words, model, problem.groups, ran.decided)
 
 
 def collision(
@@ -95,7 +89,7 @@ def collision(
     Raises:
         ComputationError: as `recorded` and `assembled`.
     """
-    record, decided = followed(problem, rtol, until, ledger=ledger, trajectory=trajectory)
+    record = followed(problem, rtol, until, ledger=ledger, trajectory=trajectory)
     answer, books = _row(record.answers), None if record.ledger is None else _row(record.ledger)
     separated = answer["outcome"] > 0
     names, words = problem.model().names("outputs"), words_of(problem.scene)
@@ -113,7 +107,7 @@ def collision(
         events=[(words[kind], time) for kind, time in log[["kind", "time"]].tolist()],
         engine="taylor",
         steps=answer["steps"],
-        decided=decided,
+        decided=record.decided,
         rtol=rtol,
         terms=books and {name: books[field] for name, field in TERMS.items() if field in books},
         momentum=books["momentum"] if books else 1.0,

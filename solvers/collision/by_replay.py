@@ -74,8 +74,8 @@ def _confirmed(problem: Problem, rtol: float, plugin: str, until: float | None) 
     """True if the kernel's trajectory agrees with the equations step by step."""
     try:
         ran = followed(problem, rtol, until, ledger=True, trajectory=True)
-        assert ran.record.steps is not None  # requested
-        confirm(sequence_in(problem, ran), ran.record.steps, problem.key(full=True), plugin, rtol)
+        assert ran.steps is not None  # requested
+        confirm(sequence_in(problem, ran), ran.steps, problem.key(full=True), plugin, rtol)
     except (ComputationError, Stopped):
         return False
     return True

@@ -74,7 +74,8 @@ def collide(
 
 def _proved(result: Collision) -> Collision:
     """The result with the proof of its outcome, or with the reason why there is none."""
-    from ..engines.interval.prove import Inputs, prove_inputs
+    from ..engines.interval.inputs import Inputs
+    from ..engines.interval.prove import prove_inputs
 
     proof = prove_inputs(Inputs.of(result.scene))
     if proof and proof.outcome != result.outcome:

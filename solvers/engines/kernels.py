@@ -1,6 +1,6 @@
-"""`compile_kernels`: the Taylor kernels of scenes, compiled before they are needed."""
+"""What the Taylor kernels of scenes answer, and `compile_kernels`, which compiles them before they are needed."""
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
@@ -111,6 +111,11 @@ def compile_kernels(
         )
         for variant, (scene, oblique, serves) in wanted.items()
     )  # fmt: skip
+
+
+def differentiates(scene: Scene, oblique: Collection[bool] = (True, False)) -> bool:
+    """True if the kernel differentiates a scene's collisions: oblique ones, head-on ones or both."""
+    return kernel_supports(scene, oblique, gradients=True)
 
 
 def needed(scene: Scene, tolerances: Sequence[float], derivatives: bool) -> Iterator[tuple[str, bool, Variant]]:

@@ -168,11 +168,6 @@ class Impacts:
                 numbers = {name: column for name, column in part.columns.items() if name not in self.texts}
                 yield which, replace(part, scene=scene, columns=numbers)
 
-    def check_possible(self) -> None:
-        """InputError if the varied entries make every collision impossible; single ones are marked later."""
-        if self.vary and self.size:
-            first_accepted(partial(self.scene_of, k) for k in range(self.size))
-
     def check(self) -> None:
         """Raise InputError if the entries that vary make every scene impossible.
 
@@ -189,7 +184,8 @@ class Impacts:
             try:
                 if isinstance(part, InputError):
                     raise part
-                part.check_possible()
+                if part.vary and part.size:
+                    first_accepted(partial(part.scene_of, k) for k in range(part.size))
                 possible = True
                 warn(part.scene)
             except InputError as error:

@@ -252,13 +252,7 @@ def sentences(scene: Scene, speed: float, angle: float, outcome: str, results: M
         results: those of `NEEDS`, SI; None where undefined.
     """
     known = {name: math.nan if results[name] is None or outcome == STICK else results[name] for name in NEEDS}
-    values = si_values(scene, speed, angle) | known | {"outcome": OUTCOMES.index(outcome)}
-    result = []
-    for limit in LIMITS:
-        number = float(limit.number(scene, values))
-        if limit.exceeded(number):
-            result.append(limit.says(number))
-    return [*result, *remarks(scene)]
+    return sentences_of_many(scene, si_values(scene, speed, angle) | known | {"outcome": OUTCOMES.index(outcome)})
 
 
 def sentences_of_many(scene: Scene, values: Values) -> list[str]:

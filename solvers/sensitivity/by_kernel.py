@@ -7,7 +7,7 @@ from functools import lru_cache
 import numpy as np
 
 from ...generated.automaton import LAST_ANSWER, OUTCOMES
-from ..engines.choice import differentiates
+from ..engines.kernels import differentiates
 from ..engines.settings import KERNEL_STEPS
 from ..engines.taylor.call import Impacts
 from ..engines.taylor.layout import derivative_column, result
@@ -143,7 +143,7 @@ def slopes(problem: Problem, query: Query) -> Slopes | None:
     if not path.separated or not offers(problem.scene, of, (problem.n.oblique,)):
         return None
     sharp = query.sharpened(path.parting)
-    along = gradients_by_kernel(Impacts.of(problem.n), problem.kind, problem.wrt, of, sharp, order_for(rtol))
+    along = gradients_by_kernel(Impacts.single(problem.n), problem.kind, problem.wrt, of, sharp, order_for(rtol))
     if along is None:
         return None
     answer = along.run.answers[0]

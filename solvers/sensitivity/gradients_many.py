@@ -12,7 +12,6 @@ import numpy as np
 
 from ...generated.automaton import LAST_ANSWER, OUTCOMES
 from ...generated.automaton import STICK as STICKS
-from ..engines.choice import gradient_engine
 from ..engines.settings import KERNEL_STEPS, RTOL, check_engine, check_rtol
 from ..engines.taylor.call import Impacts
 from ..engines.taylor.orders import order_backward, order_for
@@ -24,7 +23,7 @@ from ..host.pictures import register
 from ..many import impacts as many
 from ..many.arguments import checked_columns, of_one_length
 from ..model.validity import warn
-from ..results import DEFINITIONS, FAILED, TANGENTS, check_differentiated, outcome_attributes
+from ..results import DEFINITIONS, FAILED, check_differentiated, outcome_attributes
 from ..scene.held import held_quantity
 from ..scene.scene import Scene
 from ..scene.schema import SPEEDS
@@ -152,12 +151,11 @@ def gradients_many(
     )
     left = np.arange(size)
     oblique = set(request.oblique.tolist())
-    if by is None:
-        by = gradient_engine(loaded, names, TANGENTS, oblique)
-    if by == "taylor" and kernel.offers(loaded, names, oblique):
+    offered = by in (None, "taylor") and kernel.offers(loaded, names, oblique)
+    if offered:
         left = _by_kernel(request)
     for k in left:
-        _alone(request, int(k), held, by)
+        _alone(request, int(k), held, by or ("taylor" if offered else "rosenbrock"))
     return _dataset(request, held)
 
 

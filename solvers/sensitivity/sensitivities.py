@@ -6,11 +6,10 @@ from pathlib import Path as FilePath
 
 import numpy as np
 
-from ..engines.choice import gradient_engine
 from ..engines.settings import check_engine, check_rtol
 from ..errors import ComputationError, InputError
 from ..host.arguments import check_name
-from ..results import DEFINITIONS, SPENT, TANGENTS, check_differentiated
+from ..results import DEFINITIONS, SPENT, check_differentiated
 from ..scene.held import held_quantity
 from ..scene.scene import Scene
 from . import by_casadi, by_kernel
@@ -89,8 +88,8 @@ def sensitivities(
     sideways = np.isin(names, SIDEWAYS)
     tilts = bool(todo and sideways.any() and odd.any()) and not n.oblique
     plugin = requested or "rosenbrock"
-    if requested is None and method == "forward":
-        plugin = gradient_engine(loaded, of, TANGENTS, {n.oblique, n.oblique or tilts})
+    if requested is None and method == "forward" and by_kernel.offers(loaded, of, {n.oblique, n.oblique or tilts}):
+        plugin = "taylor"
     query = Query(todo, method, rtol, near)
     slopes, plugin = _slopes(problem, query, plugin) if todo else (None, plugin)
     if tilts and slopes is not None:

@@ -8,7 +8,6 @@ Energies are quadratic in both vectors: for a ledger two more collisions, of whi
 coefficients.
 """
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
 
@@ -44,7 +43,7 @@ class Planar:
     energy: np.ndarray
 
 
-def planar_by_kernel(impacts: Impacts, rtol: float, threads: int, ledger: bool) -> Planar:
+def _by_kernel(impacts: Impacts, rtol: float, threads: int, ledger: bool) -> Planar:
     """Planar collisions by the kernel."""
     books = np.zeros(impacts.size, OWN_LEDGER) if ledger else None
     answers = run_kernel(impacts, rtol, False, threads, ledgers=books)
@@ -59,7 +58,7 @@ def planar_by_kernel(impacts: Impacts, rtol: float, threads: int, ledger: bool) 
     return Planar(outcome, certified, reason, answers["time"], answers["final_gap"], opening, slide, roll, terms)
 
 
-def planar_by_replay(impacts: Impacts, plugin: str, rtol: float, ledger: bool) -> Planar:
+def _by_replay(impacts: Impacts, plugin: str, rtol: float, ledger: bool) -> Planar:
     """Planar collisions by Rosenbrock or CVODES, one after the other."""
     size = impacts.size
     time, gap, opening, slide, roll = (np.full(size, np.nan) for _ in range(5))
@@ -90,18 +89,17 @@ def planar_by_replay(impacts: Impacts, plugin: str, rtol: float, ledger: bool) -
     return result
 
 
-def beside_wall(pairs: Pairs, planar: Callable[[Impacts], Planar], rtol: float, ledger: bool = False) -> Ends:
-    """Ends of collisions with a wall; one that is not decided has the outcome FAILED and its reason.
-
-    Arguments:
-        planar: computes planar collisions.
-    """
+def beside_wall(pairs: Pairs, engine: str, rtol: float, threads: int, ledger: bool = False) -> Ends:
+    """Ends of collisions with a wall; one that is not decided has the outcome FAILED and its reason."""
     radius = float(pairs.scene.material["reduced_radius"])
     speed = -pairs.opening
 
     def collided(angle: float, spinning: float) -> Planar:
         spin = {"impact_spin": spinning * speed / radius}
-        return planar(Impacts(pairs.scene, speed, np.full(pairs.size, angle), spin))
+        impacts = Impacts(pairs.scene, speed, np.full(pairs.size, angle), spin)
+        if engine == "taylor":
+            return _by_kernel(impacts, rtol, threads, ledger)
+        return _by_replay(impacts, engine, rtol, ledger)
 
     cases = ((_SLIDES, 0.0), (_SLIDES, 1.0), (0.0, 1.0), (_SLIDES, -1.0))[: 4 if ledger else 2]
     parts = [collided(*case) for case in cases]

@@ -7,6 +7,7 @@ During the integration they turn about the angular momentum as a rigid doublet w
 
 from dataclasses import replace
 from functools import partial
+from typing import Any
 
 import numpy as np
 
@@ -69,7 +70,7 @@ def groups_of(pair: Pairs, axes: np.ndarray) -> Problem:
     vectors = components(
         turning=axes @ pair.turning[0], spin=axes @ pair.spins[0, 0], partner_spin=axes @ pair.spins[0, 1]
     )
-    quantities = {**pair.scene.material, "speed": speed}
+    quantities: dict[str, float] = {**pair.scene.material, "speed": speed}
     quantities |= {f"impact_{name}": float(value) for name, value in vectors.items()}
 
     def formula(name: str) -> float:
@@ -78,7 +79,7 @@ def groups_of(pair: Pairs, axes: np.ndarray) -> Problem:
     obliquity = quantities["obliquity"] = formula("obliquity_space")
     rate = formula("rate_scale_pair")
     first = {f"initial_{name}": float(value) / max(rate, _LEAST) for name, value in vectors.items()}
-    groups = {"obliquity": obliquity, **first, **components(initial_normal=axes @ pair.normal[0])}
+    groups: dict[str, Any] = {"obliquity": obliquity, **first, **components(initial_normal=axes @ pair.normal[0])}
     return replace(n, groups={**n.groups, **groups}, rate=rate)
 
 

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..engines.settings import FEW, RTOL, check_engine, check_rtol
-from ..engines.taylor.call import Impacts
 from ..errors import InputError
 from ..host.arguments import check_flag
 from ..host.cores import usable_cores
@@ -17,7 +16,7 @@ from ..model.validity import sentences_of_many, warn
 from ..results import attributes, outcome_attributes
 from ..scene.groups import si_values
 from ..scene.scene import Scene
-from .beside_wall import Planar, beside_wall, planar_by_kernel, planar_by_replay
+from .beside_wall import beside_wall
 from .by_kernel import by_kernel
 from .by_replay import pairs_by_replay
 from .ends import FAILED, GREW, Ends, Motions, after, after_wall, gains_energy, named
@@ -178,13 +177,7 @@ def _ends(pairs: Pairs, engine: str, rtol: float, ledger: bool) -> Ends:
     """Ends of pairs that approach."""
     threads = usable_cores() if pairs.size > FEW else 1
     if pairs.scene.wall:
-
-        def planar(impacts: Impacts) -> Planar:
-            if engine == "taylor":
-                return planar_by_kernel(impacts, rtol, threads, ledger)
-            return planar_by_replay(impacts, engine, rtol, ledger)
-
-        ends = beside_wall(pairs, planar, rtol, ledger)
+        ends = beside_wall(pairs, engine, rtol, threads, ledger)
     elif engine == "taylor":
         ends = by_kernel(pairs, rtol, threads, ledger)
     else:

@@ -44,7 +44,7 @@ class Impacts:
     others: Mapping[str, np.ndarray] = field(default_factory=dict)
 
     @classmethod
-    def of(cls, problem: Problem) -> Impacts:
+    def single(cls, problem: Problem) -> Impacts:
         """One collision."""
         return cls(problem.scene, np.array([problem.speed]), np.array([problem.angle]))
 

@@ -22,7 +22,8 @@ _ROOM = 64, 256  # events and steps of a collision
 class Recorded:
     """Trajectories: an ANSWER each, its events (the first `events` of a row), its LEDGER, and all steps.
 
-    `peaks` has the largest margin of the glass criterion while closing (a logarithm; -inf if unknown).
+    `peaks` has the largest margin of the glass criterion while closing (a logarithm; -inf if unknown). `decided` is the
+    time (x0/v0) at which a stick was decided that ends at another.
     """
 
     answers: np.ndarray
@@ -30,6 +31,7 @@ class Recorded:
     ledger: np.ndarray | None
     steps: Steps | None
     peaks: np.ndarray | None = None
+    decided: float | None = None
 
 
 def run_recorded(

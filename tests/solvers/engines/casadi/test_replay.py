@@ -168,7 +168,7 @@ def test_the_kernels_steps_are_confirmed_and_wrong_ones_are_not(name: str) -> No
     scene = SCENES[name]()
     n = nondimensionalise(scene, *scene.need_impact())
     ran = followed(n, RTOL, None, ledger=True, trajectory=True)
-    path, steps = sequence_in(n, ran), ran.record.steps
+    path, steps = sequence_in(n, ran), ran.steps
     assert steps is not None
     choice = n.key(full=True)
     confirm(path, steps, choice, "cvodes", RTOL)
