@@ -14,14 +14,13 @@ from ..engines.casadi.sequence import EventSequence
 from ..errors import ComputationError
 from ..model.dimensionless import Problem
 from ..model.model import Model, load, slip_restitution
+from ..results import TERMS
 from .assemble import assembled
 from .by_kernel import collision, followed, sequence_in, sequence_of
 from .result import Collision
 
 if TYPE_CHECKING:
     import xarray
-
-_LEDGER = ("normal_lubrication", "tangential_lubrication", "capillary", "attraction", "dry_friction")
 
 
 def by_replay(
@@ -64,7 +63,7 @@ def by_replay(
         steps=replay.steps,
         decided=path.decided,
         rtol=rtol,
-        terms=_terms(model, replay, p) if ledger else None,
+        terms=terms_of(model, replay, p) if ledger else None,
         momentum=model.values("angular_momentum", replay.y, p)["angular_momentum"] if conserved else 1.0,
         trajectory=_trajectory(problem, path, replay, model, plugin, rtol) if trajectory else None,
     )
@@ -84,7 +83,7 @@ def _confirmed(problem: Problem, rtol: float, plugin: str, until: float | None) 
 def quadratures(model: Model, ledger: bool) -> tuple[str, ...]:
     """Names of the quadratures: the rotation where it is not a state, and the model's terms of the ledger."""
     rotation = ("rotation",) if model.has("turning_rate") and not model.strings else ()
-    return rotation + (tuple(name for name in model.names("energy_rates") if name in _LEDGER) if ledger else ())
+    return rotation + (model.names("energy_rates") if ledger else ())
 
 
 def _rotation(replay: Replay, model: Model) -> float:
@@ -93,14 +92,17 @@ def _rotation(replay: Replay, model: Model) -> float:
     return replay.extra("rotation") if "rotation" in replay.extras else 0.0
 
 
-def _terms(model: Model, replay: Replay, p: np.ndarray) -> dict[str, float]:
+def terms_of(model: Model, replay: Replay, p: np.ndarray) -> dict[str, float]:
     """The ledger, over m v0^2."""
     first, last = (model.values("energies", y, p) for y in (model.start(p), replay.y))
-    terms = {name: replay.extra(name) if name in replay.extras else 0.0 for name in _LEDGER}
+    terms = dict.fromkeys(TERMS, 0.0) | {name: replay.extra(name) for name in replay.extras if name != "rotation"}
     terms |= {"initial": first["kinetic"], "final": last["kinetic"], "dry_contact": replay.dry_loss}
     terms["strings"] = last["strings"] - first["strings"] if model.strings else 0.0
     terms["dry_friction"] += replay.friction_loss
-    return terms | ({"own_events": replay.own_loss} if model.own_events else {})
+    if model.own_events:
+        return terms | {"own_events": replay.own_loss}
+    del terms["own_events"]
+    return terms
 
 
 def _trajectory(

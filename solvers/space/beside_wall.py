@@ -22,7 +22,7 @@ from ..engines.taylor.undecided import undecided
 from ..errors import WetDoubletError
 from ..model.dimensionless import nondimensionalise
 from ..model.model import load, select_model
-from .ends import FAILED, OPEN, TERMS, TRANSVERSE, Ends, extras_of, is_open, of_casadi, of_kernel
+from .ends import FAILED, OPEN, TERMS, TRANSVERSE, Ends, is_open, of_kernel, of_replay
 from .pairs import Pairs, dot, length
 
 _SLIDES = np.pi / 4  # slides as fast as it approaches
@@ -70,7 +70,7 @@ def _by_replay(impacts: Impacts, plugin: str, rtol: float, ledger: bool) -> Plan
         try:
             n = nondimensionalise(scene, float(impacts.speed[k]), float(impacts.angle[k]))
             model = load(select_model(scene, True, full=ledger))
-            extras = extras_of(model) if ledger else ()
+            extras = model.names("energy_rates") if ledger else ()
             try:
                 path, replay = replayed(partial(sequence_of, n), model.choice, extras, plugin, rtol)
             except Stopped as stopped:
@@ -84,8 +84,7 @@ def _by_replay(impacts: Impacts, plugin: str, rtol: float, ledger: bool) -> Plan
         time[k], gap[k], opening[k] = replay.time, float(replay.y[0]), shown["restitution"]
         slide[k], roll[k] = shown["tangential_restitution"], shown["final_spin"]
         if ledger:
-            taken = {name: replay.extra(name) for name in extras}
-            terms[k] = of_casadi(model, p, replay.y, taken, replay.dry_loss)
+            terms[k] = of_replay(model, replay, p)
     return result
 
 

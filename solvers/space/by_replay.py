@@ -21,7 +21,7 @@ from ..engines.taylor.undecided import undecided
 from ..errors import ComputationError, WetDoubletError
 from ..model.dimensionless import Problem, nondimensionalise
 from ..model.model import Model, load, select_model
-from .ends import FAILED, OPEN, Ends, extras_of, is_open, of_casadi
+from .ends import FAILED, OPEN, Ends, is_open, of_replay
 from .pairs import AXES, Bodies, Pairs, components, length, spin_energy, without_spins
 
 EXTRAS = ("rotation",)
@@ -89,7 +89,7 @@ def _end(pair: Pairs, plugin: str, rtol: float, ledger: bool) -> Ends:
     record = partial(sequence_in_space, pair, n) if turns else partial(sequence_of, n)
     choice = select_model(pair.scene, turns, full=ledger, space=turns)
     model = load(choice)
-    extras = (EXTRAS if turns else ()) + (extras_of(model) if ledger else ())
+    extras = (EXTRAS if turns else ()) + (model.names("energy_rates") if ledger else ())
     try:
         path, replay = replayed(record, choice, extras, plugin, rtol)
     except Stopped as stopped:
@@ -110,9 +110,7 @@ def _end(pair: Pairs, plugin: str, rtol: float, ledger: bool) -> Ends:
         first, last = (model.values("surface_slip", state, p)["surface_slip"] for state in (model.start(p), y))
         ends.slip[0] = last / first if first > LEAST_SLIP else np.nan
     if ledger:
-        ends.energy[0] = n.energy * of_casadi(
-            model, p, y, {name: replay.extra(name) for name in extras}, replay.dry_loss, replay.friction_loss
-        )
+        ends.energy[0] = n.energy * of_replay(model, replay, p)
         ends.energy[:, :2] += 0.0 if turns else spin_energy(pair, pair.spins)[0]
         if is_open(ends.energy, ends.outcome > 0, rtol)[0]:
             raise ComputationError(OPEN)

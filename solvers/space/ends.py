@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
 
 from ...generated.automaton import OUTCOMES, STICK
+from ..collision.by_replay import terms_of
 from ..collision.outcome import open_beyond
+from ..engines.casadi.replay import Replay
 from ..model.model import Model
 from ..results import TERMS as OF_KERNEL
 from ..scene.scene import Scene
@@ -198,19 +199,10 @@ def of_kernel(books: np.ndarray) -> np.ndarray:
     return np.stack([books[name] for name in map(OF_KERNEL.get, TERMS)], axis=-1)
 
 
-def extras_of(model: Model) -> tuple[str, ...]:
-    """Names of a model's quadratures for the ledger."""
-    return tuple(name for name in model.names("energy_rates") if name in TERMS)
-
-
-def of_casadi(
-    model: Model, p: np.ndarray, y: np.ndarray, extras: Mapping[str, float], dry: float, rubbed: float = 0.0
-) -> np.ndarray:
-    """The terms of a trajectory by CasADi, from its last state and quadratures."""
-    first, last = (model.values("energies", state, p)["kinetic"] for state in (model.start(p), y))
-    known = dict(extras) | {"initial": first, "final": last, "dry_contact": dry}
-    known["dry_friction"] = known.get("dry_friction", 0.0) + rubbed
-    return np.array([known.get(name, 0.0) for name in TERMS])
+def of_replay(model: Model, replay: Replay, p: np.ndarray) -> np.ndarray:
+    """The terms of one trajectory that is replayed."""
+    terms = terms_of(model, replay, p)
+    return np.array([terms[name] for name in TERMS])
 
 
 def residual(terms: np.ndarray) -> np.ndarray:

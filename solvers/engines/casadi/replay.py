@@ -188,8 +188,7 @@ class Run:
     def _is_below_barrier(self) -> bool:
         """True if the energy does not suffice for some gap ahead, where the least energy includes the bridge's work."""
         gap, end = float(self.at.y[0]), float(self.path.groups["rupture_gap"])
-        normal, energies = float(self.at.y[1]) ** 2 / 2, self.model.values("energies", self.at.y, self.p)
-        kinetic = normal if self.model.wall else energies["kinetic"]  # beside a wall the gap moves as head-on
+        kinetic = self.model.values(self.model.escape, self.at.y, self.p)["kinetic"]
         excess = kinetic - self.model.values("effective_potential", self.at.y, self.p)["energy"]
         nodes, weights = np.polynomial.legendre.leggauss(4)
         ends = gap * (end / gap) ** np.linspace(0, 1, _PANELS + 1)
