@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -17,7 +18,7 @@ from ..host.cores import usable_cores
 from ..host.outputs import check_file
 from ..host.progress import Progress
 from ..host.workers import in_workers
-from ..many.arguments import checked_numbers
+from ..many.arguments import checked_numbers, first_accepted
 from ..many.blocks import kept
 from ..many.impacts import fill, software
 from ..model.validity import warn
@@ -193,16 +194,8 @@ def _checked(
     request = _Request(
         scene, distribution, axes, check_name(films, FILMS, "films"), _TOLERANCE.number(tolerance), check_rtol(rtol), ()
     )
-    first: InputError | None = None
-    for index in np.ndindex(request.shape):
-        try:
-            known = free_names(request.scene_of(index))
-        except InputError as error:
-            first = first or error
-        else:
-            return replace(request, wrt=check_names(wrt, known, "wrt"))
-    assert first is not None  # there is a pair
-    raise first
+    possible = first_accepted(partial(request.scene_of, index) for index in np.ndindex(request.shape))
+    return replace(request, wrt=check_names(wrt, free_names(possible), "wrt"))
 
 
 def _computed(request: _Request, columns: Columns, done: np.ndarray, progress: Progress | None) -> Columns:

@@ -82,11 +82,15 @@ class Flow:
 
     Extras: `rotation` (the angle turned), and the ledger's `normal_lubrication`, `tangential_lubrication`, `capillary`,
     `attraction`, in the units of `extra_units`.
+
+    Arguments:
+        edge_watched: the tangential force ends within the range of gaps, elsewhere than the film.
     """
 
     choice: ModelKey
     region: Region
     extras: tuple[str, ...] = ()
+    edge_watched: bool = False
 
     @property
     def model(self) -> Model:
@@ -176,18 +180,7 @@ class Event:
     dips: bool = False
 
 
-@dataclass(frozen=True)
-class WatchedEvents:
-    """Options of an event table besides the flow.
-
-    Arguments:
-        tangential_edge: the edge of the tangential force is within the range of gaps and differs from the film's.
-    """
-
-    tangential_edge: bool = False
-
-
-def event_table(flow: Flow, watch: WatchedEvents, motion: SX) -> tuple[Event, ...]:
+def event_table(flow: Flow, motion: SX) -> tuple[Event, ...]:
     """The events of a region, for either direction of motion (`motion` is CLOSING or OPENING).
 
     The order is the precedence among coincident events.
@@ -198,7 +191,7 @@ def event_table(flow: Flow, watch: WatchedEvents, motion: SX) -> tuple[Event, ..
         Event(row.name, _guard(row, guards, region, motion), row.dips)
         for row in EVENTS
         if all(name in guards for name in row.functions)
-        and (watch.tangential_edge or not row.within_reach)
+        and (flow.edge_watched or not row.within_reach)
         and (region.shear or model.strings or not row.driven)
         and all(
             getattr(region, part) == value

@@ -26,7 +26,7 @@ from ..errors import ComputationError
 from ..host.thread_caches import own_cache
 from ..model.key import ModelKey
 from ..model.model import Model, load, select_model
-from ..model.phases import Flow, WatchedEvents, extra_units
+from ..model.phases import Flow, extra_units
 from ..model.rebound import jump, rubs
 from ..results import DEFINITIONS
 from ..scene.contact import GAPS, contact_word
@@ -59,7 +59,7 @@ class Course:
     choice: ModelKey
     extras: tuple[str, ...]  # quadratures
     legs: tuple[PhaseRun, ...]
-    watch: WatchedEvents
+    edge_watched: bool
 
     @cached_property
     def model(self) -> Model:
@@ -99,7 +99,7 @@ def course_of(path: EventSequence, replay: Replay, choice: ModelKey) -> Course:
                 piece = next(pieces)
             last = replace(last, phase=piece.phase, duration=1.0, event=piece.event)
         legs.append(last)
-    return Course(choice, replay.extras, tuple(legs), path.watch)
+    return Course(choice, replay.extras, tuple(legs), path.edge_watched)
 
 
 @dataclass
@@ -125,12 +125,12 @@ def follow(course: Course, p: MX, durations: MX, plugin: str, tolerance: Toleran
     at = End(start, y, MX(0), start[0], MX(0), MX(0), MX(0), [])
     for leg in course.legs:
         if leg.duration > 0:
-            flow = Flow(course.choice, leg.phase.region, course.extras)
+            flow = Flow(course.choice, leg.phase.region, course.extras, course.edge_watched)
             at.y = plain(flow, plugin, tolerance).function(x0=at.y, p=vertcat(p, durations[k]))["xf"]
             at.time += durations[k]
             shift = MX(0)
             if leg.event is not None:
-                at.y, shift, _ = landing(flow, course.watch, leg.event)(at.y, vertcat(p, leg.phase.motion))
+                at.y, shift, _ = landing(flow, leg.event)(at.y, vertcat(p, leg.phase.motion))
             at.time += shift
             at.shifts.append(shift / durations[k])
             at.smallest_gap = fmin(at.smallest_gap, at.y[0])

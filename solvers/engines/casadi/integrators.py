@@ -19,7 +19,7 @@ from ...host.buffered import Buffered
 from ...host.captured_stderr import captured_stderr
 from ...host.interrupts import check
 from ...host.thread_caches import own_cache
-from ...model.phases import Flow, WatchedEvents, event_table, expressions
+from ...model.phases import Flow, event_table, expressions
 from ..settings import KERNEL_STEPS, casadi_steps
 
 _EXPECTED = "Event support is experimental"
@@ -167,7 +167,7 @@ def plain(flow: Flow, plugin: str, tolerance: Tolerance, grid: tuple[float, ...]
 
 
 @own_cache(512)
-def landing(flow: Flow, watch: WatchedEvents, event: str) -> Function:
+def landing(flow: Flow, event: str) -> Function:
     """One second-order Taylor step of a flow onto an event's surface: (y, parameters) -> (y*, dt, g(y*)).
 
     dt = -g/g' - g'' g^2/(2 g'^3), y* = y + f dt + f' dt^2/2. Where the event is met the step is nearly zero, but its
@@ -175,7 +175,7 @@ def landing(flow: Flow, watch: WatchedEvents, event: str) -> Function:
     """
     parts, model = expressions(flow), flow.model
     motion = SX.sym("motion")
-    table = {row.name: row.function for row in event_table(flow, watch, motion)}
+    table = {row.name: row.function for row in event_table(flow, motion)}
     y, rates, g = parts.variables, parts.rates, table[event]
     first = jtimes(g, y, rates)
     second = jtimes(first, y, rates)

@@ -17,7 +17,7 @@ from ...errors import ComputationError
 from ...host.thread_caches import own_cache
 from ...model.key import ModelKey
 from ...model.model import Model, load
-from ...model.phases import Flow, Phase, WatchedEvents, event_table, expressions, extra_units, kinks_along
+from ...model.phases import Flow, Phase, event_table, expressions, extra_units, kinks_along
 from ...model.rebound import rebounded
 from .integrators import IntegrationFailed, Tolerance, landing, plain, tolerance_for
 from .sequence import EventSequence, PhaseRun
@@ -212,7 +212,7 @@ class Run:
         remaining, phase = self.path.time - self.at.time if step.event is None else step.duration, step.phase
         while True:
             phase = self._sided(phase)
-            flow = Flow(self.choice, phase.region, self.extras)
+            flow = Flow(self.choice, phase.region, self.extras, self.path.edge_watched)
             solution = _Solution(self, flow, phase)
             if self.model.kinks:  # first of all, as behind a kink the solution is another
                 kink = solution.crossing(remaining, solution.end(remaining)[1], step.event)
@@ -248,7 +248,7 @@ class Run:
         sides = phase.sides or (1,) * len(model.kinks)
         for _ in range(2):
             phase = phase.with_(sides=sides)
-            flow = Flow(self.choice, phase.region, self.extras)
+            flow = Flow(self.choice, phase.region, self.extras, self.path.edge_watched)
             guards, rates = kinks_along(flow)(self.at.y, self.p).full().T
             sides = tuple(np.where(np.where(abs(guards) > _ON_KINK, guards, rates) < 0, -1, 1).tolist())
         if sides != phase.sides and not phase.resting:
@@ -324,10 +324,9 @@ class _Solution:
 
     def crossing(self, duration: float, states: np.ndarray, landed: str | None) -> Crossing | None:
         """The first event inside the phase, if there is one."""
-        watched = self.run.path.watch
         parameters = np.append(self.run.p, float(self.phase.motion))
         return first_crossing(
-            self.flow, watched, parameters, duration, states, lambda parts: self.states(duration, parts),
+            self.flow, parameters, duration, states, lambda parts: self.states(duration, parts),
             self.run.tolerance.relative, landed,
         )  # fmt: skip
 
@@ -338,9 +337,9 @@ class _Solution:
             moved: the duration is expected only about.
         """
         run = self.run
-        if event not in guards(self.flow, run.path.watch)[1]:
+        if event not in guards(self.flow)[1]:
             raise Stopped(f"has no event {event} in this phase", self.phase, run.at.time, run.at.y, missed=True)
-        land = landing(self.flow, run.path.watch, event)
+        land = landing(self.flow, event)
         parameters = np.append(run.p, float(self.phase.motion))
         scale, duration, nearer = self._scale(event), expected, np.inf
         y, states = self.end(duration)
@@ -351,7 +350,7 @@ class _Solution:
                 break
             landed_close = abs(shift) <= max(_LANDED * duration, _ROUNDING)
             if landed_close and abs(float(miss[0])) <= max(_MISSES * scale, _ROUNDING):
-                if float(_slope(self.flow, run.path.watch, event)(landed, parameters)) > _RISES * scale / duration:
+                if float(_slope(self.flow, event)(landed, parameters)) > _RISES * scale / duration:
                     break  # the event was found in the backward direction: the engine's own event is earlier
                 if not moved and abs(duration + shift - expected) > max(_MOVED * expected, _MOVED_LEAST):
                     break
@@ -371,9 +370,9 @@ class _Solution:
 
 
 @own_cache(512)
-def _slope(flow: Flow, watch: WatchedEvents, event: str) -> Function:
+def _slope(flow: Flow, event: str) -> Function:
     """Rate of change of an event's function along the flow."""
     parts, motion = expressions(flow), SX.sym("motion")
-    table = {row.name: row.function for row in event_table(flow, watch, motion)}
+    table = {row.name: row.function for row in event_table(flow, motion)}
     rate = jtimes(table[event], parts.variables, parts.rates)
     return Function("slope", [parts.variables, vertcat(flow.model.parameters, motion)], [rate])

@@ -17,7 +17,7 @@ from casadi import SX, Function, densify, jacobian, jtimes, vertcat
 from wetdoublet.solvers.engines.casadi.integrators import tolerance_for
 from wetdoublet.solvers.host.buffered import Buffered
 from wetdoublet.solvers.model.dimensionless import Problem
-from wetdoublet.solvers.model.phases import Flow, WatchedEvents, event_table, expressions
+from wetdoublet.solvers.model.phases import Flow, event_table, expressions
 
 from .automaton import CERTIFIED, Automaton, Hit, proof_of, proving
 
@@ -49,7 +49,7 @@ def equations(flow: Flow) -> Equations:
     """The equations of a flow for an external integrator; the parameters are groups, motion and level."""
     parts = expressions(flow)
     motion, level = SX.sym("motion"), SX.sym("level")
-    table = event_table(flow, WatchedEvents(), motion)
+    table = event_table(flow, motion)
     dips = tuple(k for k, event in enumerate(table) if event.dips)
     guards = {event.name: event.function for event in table}
     if proof_of(flow.model):
