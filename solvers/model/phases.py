@@ -11,7 +11,6 @@ from casadi import SX, Function, cross, densify, fabs, fmin, horzcat, if_else, j
 from ...generated.automaton import CLOSING, EVENTS, VOID_WITHOUT
 from ...generated.automaton import Event as Row
 from ..host.thread_caches import own_cache
-from ..scene.user_model import OwnEvent
 from .key import ModelKey
 from .model import Model, load
 
@@ -171,24 +170,15 @@ def _precessing(model: Model, state: dict[str, SX], rates: dict[str, SX]) -> tup
     return result, turning
 
 
-@dataclass(frozen=True)
-class Event:
-    """A guard function, positive before the event; `dips` if it may become negative and return within a step."""
+def event_table(flow: Flow, motion: SX) -> dict[str, SX]:
+    """Guards of the events of a region by name, positive before, for either direction of motion (CLOSING or OPENING).
 
-    name: str
-    function: SX
-    dips: bool = False
-
-
-def event_table(flow: Flow, motion: SX) -> tuple[Event, ...]:
-    """The events of a region, for either direction of motion (`motion` is CLOSING or OPENING).
-
-    The order is the precedence among coincident events.
+    The order is the precedence among coincident events. A declared event happens once.
     """
     model, region = flow.model, flow.region
     guards = model("events", region=region.flags if model.friction else None)
-    table = [
-        Event(row.name, _guard(row, guards, region, motion), row.dips)
+    table = {
+        row.name: _guard(row, guards, region, motion)
         for row in EVENTS
         if all(name in guards for name in row.functions)
         and (flow.edge_watched or not row.within_reach)
@@ -198,15 +188,15 @@ def event_table(flow: Flow, motion: SX) -> tuple[Event, ...]:
             for part, value in row.where
             if part != "motion" and VOID_WITHOUT.get(part, "turning") in guards
         )
-    ]
-    table += [
-        _own(each, guards[each.name], model, region, motion)
+    }
+    table |= {
+        each.name: if_else(model.state[each.mark] > 0.5, _guard(each.row, guards, region, motion), 1)
         for each in model.own_events
         if all(getattr(region, part) == value for part, value in each.row.where if part != "motion")
-    ]
+    }
     if not region.resting:
-        table += [Event(name, side * model.kinks[name], True) for name, side in zip(model.kinks, region.sides)]
-    return tuple(table)
+        table |= {name: side * model.kinks[name] for name, side in zip(model.kinks, region.sides)}
+    return table
 
 
 def _guard(row: Row, guards: dict[str, SX], region: Region, motion: SX) -> SX:
@@ -220,12 +210,6 @@ def _guard(row: Row, guards: dict[str, SX], region: Region, motion: SX) -> SX:
         value = value * (getattr(region, row.follows) or -1)
     directions = [wanted for part, wanted in row.where if part == "motion"]
     return if_else(motion == directions[0], value, 1) if directions else value
-
-
-def _own(each: OwnEvent, guard: SX, model: Model, region: Region, motion: SX) -> Event:
-    """A declared event, which happens once."""
-    value = _guard(each.row, {each.name: guard}, region, motion)
-    return Event(each.name, if_else(model.state[each.mark] > 0.5, value, 1), each.row.dips)
 
 
 @own_cache(256)

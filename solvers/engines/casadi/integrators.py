@@ -175,8 +175,7 @@ def landing(flow: Flow, event: str) -> Function:
     """
     parts, model = expressions(flow), flow.model
     motion = SX.sym("motion")
-    table = {row.name: row.function for row in event_table(flow, motion)}
-    y, rates, g = parts.variables, parts.rates, table[event]
+    y, rates, g = parts.variables, parts.rates, event_table(flow, motion)[event]
     first = jtimes(g, y, rates)
     second = jtimes(first, y, rates)
     dt = -g / first - second * g**2 / (2 * first**3)

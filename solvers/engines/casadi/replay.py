@@ -10,14 +10,12 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
-from casadi import SX, Function, jtimes, vertcat
 
 from ....generated.automaton import KINDS, LOOSEST, EventKind, is_parted, is_too_weak
 from ...errors import ComputationError
-from ...host.thread_caches import own_cache
 from ...model.key import ModelKey
 from ...model.model import Model, load
-from ...model.phases import Flow, Phase, event_table, expressions, extra_units, kinks_along
+from ...model.phases import Flow, Phase, extra_units, kinks_along
 from ...model.rebound import rebounded
 from .integrators import IntegrationFailed, Tolerance, landing, plain, tolerance_for
 from .sequence import EventSequence, PhaseRun
@@ -337,7 +335,8 @@ class _Solution:
             moved: the duration is expected only about.
         """
         run = self.run
-        if event not in guards(self.flow)[1]:
+        guard, events = guards(self.flow)
+        if event not in events:
             raise Stopped(f"has no event {event} in this phase", self.phase, run.at.time, run.at.y, missed=True)
         land = landing(self.flow, event)
         parameters = np.append(run.p, float(self.phase.motion))
@@ -350,7 +349,8 @@ class _Solution:
                 break
             landed_close = abs(shift) <= max(_LANDED * duration, _ROUNDING)
             if landed_close and abs(float(miss[0])) <= max(_MISSES * scale, _ROUNDING):
-                if float(_slope(self.flow, event)(landed, parameters)) > _RISES * scale / duration:
+                slope = float(guard(landed, parameters)[1][events.index(event)])
+                if slope > _RISES * scale / duration:
                     break  # the event was found in the backward direction: the engine's own event is earlier
                 if not moved and abs(duration + shift - expected) > max(_MOVED * expected, _MOVED_LEAST):
                     break
@@ -367,12 +367,3 @@ class _Solution:
         """The size of an event's function: a group, or 1."""
         group = next((row.scale for row in self.flow.model.events if row.name == event), "")
         return float(self.run.p[list(self.flow.model.groups).index(group)]) if group else 1.0
-
-
-@own_cache(512)
-def _slope(flow: Flow, event: str) -> Function:
-    """Rate of change of an event's function along the flow."""
-    parts, motion = expressions(flow), SX.sym("motion")
-    table = {row.name: row.function for row in event_table(flow, motion)}
-    rate = jtimes(table[event], parts.variables, parts.rates)
-    return Function("slope", [parts.variables, vertcat(flow.model.parameters, motion)], [rate])

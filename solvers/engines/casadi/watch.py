@@ -40,10 +40,10 @@ def guards(flow: Flow) -> tuple[Function, tuple[str, ...]]:
     """Function (states, groups and motion) -> guards and their rates, and the names of their events."""
     parts, motion = expressions(flow), SX.sym("motion")
     table = event_table(flow, motion)
-    values = vertcat(*(event.function for event in table)) if table else SX(0, 1)
+    values = vertcat(*table.values()) if table else SX(0, 1)
     rates = jtimes(values, parts.variables, parts.rates) if table else SX(0, 1)
     inputs = [parts.variables, vertcat(flow.model.parameters, motion)]
-    return Function("guards", inputs, [densify(values), densify(rates)]), tuple(event.name for event in table)
+    return Function("guards", inputs, [densify(values), densify(rates)]), tuple(table)
 
 
 def first_crossing(

@@ -50,11 +50,12 @@ def equations(flow: Flow) -> Equations:
     parts = expressions(flow)
     motion, level = SX.sym("motion"), SX.sym("level")
     table = event_table(flow, motion)
-    dips = tuple(k for k, event in enumerate(table) if event.dips)
-    guards = {event.name: event.function for event in table}
+    lasting = {row.name for row in flow.model.events if not row.dips}
+    dips = tuple(k for k, name in enumerate(table) if name not in lasting)
+    guards, functions = dict(table), [*table.values()]
     if proof_of(flow.model):
         guards[CERTIFIED] = proving(flow.choice)(parts.variables, flow.model.parameters) - level
-    slopes = [-jtimes(table[k].function, parts.variables, parts.rates) for k in dips]
+    slopes = [-jtimes(functions[k], parts.variables, parts.rates) for k in dips]
     inputs = [parts.variables, vertcat(flow.model.parameters, motion, level)]
     return Equations(
         Function("rates", inputs, [parts.rates]),
