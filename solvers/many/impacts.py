@@ -55,13 +55,10 @@ class Impacts:
     beside: xarray.Dataset | None = None
 
     @classmethod
-    def listed(
-        cls, scene: Scene, columns: Mapping[str, np.ndarray], rtol: float, engine: str, of: tuple[str, ...] = ()
-    ) -> Impacts:
+    def listed(cls, scene: Scene, columns: Mapping[str, np.ndarray], rtol: float) -> Impacts:
         """Impacts in one dimension, from columns of one length."""
         size = next(iter(columns.values())).size
-        along = {name: (LISTED, values) for name, values in columns.items()}
-        return cls(scene, along, LISTED, (size,), rtol, engine, of)
+        return cls(scene, {name: (LISTED, values) for name, values in columns.items()}, LISTED, (size,), rtol, "taylor")
 
     @property
     def size(self) -> int:

@@ -22,7 +22,7 @@ class Phase:
     Arguments:
         film: 1 inside the film (gap < x0), else 0.
         shear: 1 inside the edge of the tangential force, else 0.
-        motion: CLOSING or OPENING.
+        motion: CLOSING or OPENING; 0 of a region, which has both.
         resting: the spheres stay in contact at a constant gap.
         cavitated: inside the film, which does not act because it cavitates on opening.
         sliding: with friction, the sign of the slip in resting contact; 0 otherwise.
@@ -44,25 +44,10 @@ class Phase:
             return "resting contact"
         return f"{'closing' if self.motion == CLOSING else 'opening'} {'inside' if self.film else 'beyond'} the film"
 
-    def with_(self, **changes: int | bool | tuple[int, ...]) -> Phase:
-        return replace(self, **changes)  # type: ignore[arg-type]  # fields by keyword
-
     @property
-    def region(self) -> Region:
-        return Region(self.film, self.shear, self.resting, self.cavitated, self.sliding, self.rolling, self.sides)
-
-
-@dataclass(frozen=True)
-class Region:
-    """The part of a phase that determines the equations, which both directions of motion share."""
-
-    film: int
-    shear: int
-    resting: bool
-    cavitated: bool = False
-    sliding: int = 0
-    rolling: bool = False
-    sides: tuple[int, ...] = ()
+    def region(self) -> Phase:
+        """What determines the equations, which both directions of motion share: the phase without one."""
+        return replace(self, motion=0)
 
     @property
     def flags(self) -> dict[str, int]:
@@ -87,7 +72,7 @@ class Flow:
     """
 
     choice: ModelKey
-    region: Region
+    region: Phase
     extras: tuple[str, ...] = ()
     edge_watched: bool = False
 
@@ -101,7 +86,6 @@ class Expressions:
     """A flow as CasADi expressions: vector of variables and vector of rates."""
 
     variables: SX
-    extras: dict[str, SX]
     rates: SX
 
 
@@ -127,10 +111,9 @@ def expressions(flow: Flow) -> Expressions:
             extra_rates |= model("turning_rate", state)
     if model.space and "rotation" in flow.extras:
         rates, extra_rates["rotation"] = _precessing(model, state, rates)
-    extras, units = {name: SX.sym(name) for name in flow.extras}, extra_units(model, flow.extras, model.parameters)
+    units = extra_units(model, flow.extras, model.parameters)
     return Expressions(
-        variables=vertcat(model.column, *extras.values()),
-        extras=extras,
+        variables=vertcat(model.column, *map(SX.sym, flow.extras)),
         rates=densify(
             vertcat(
                 *(SX(rate) for rate in rates.values()),
@@ -199,7 +182,7 @@ def event_table(flow: Flow, motion: SX) -> dict[str, SX]:
     return table
 
 
-def _guard(row: Row, guards: dict[str, SX], region: Region, motion: SX) -> SX:
+def _guard(row: Row, guards: dict[str, SX], region: Phase, motion: SX) -> SX:
     """The guard function of an event; constant 1 in a direction of motion in which it cannot occur."""
     value = guards[row.functions[0]]
     for name in row.functions[1:]:

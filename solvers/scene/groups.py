@@ -223,11 +223,11 @@ def sideways(scene: System, angle: np.ndarray, varied: Mapping[str, Any]) -> np.
     return moves
 
 
-def rate_scales(scene: System, quantities: Mapping[str, Any]) -> np.ndarray:
+def rate_scales(scene: System, quantities: Mapping[str, Any], space: bool = False) -> np.ndarray:
     """The scale of angular velocities of each collision, rad/s, from quantities by vocabulary name, SI."""
-    values = dict(quantities)
-    for name in ("obliquity", "rate_scale"):
-        formula, arguments = formulas(scene)[name]
+    values, known = dict(quantities), formulas(scene)
+    for name, in_space in (("obliquity", "obliquity_space"), ("rate_scale", "rate_scale_pair")):
+        formula, arguments = (getattr(scaling, in_space), scaling.ARGUMENTS[in_space]) if space else known[name]
         values[name] = np.asarray(formula(*(values[each] for each in arguments))).reshape(-1)  # of arrays a DM
     scales: np.ndarray = values["rate_scale"]
     return scales
@@ -235,10 +235,13 @@ def rate_scales(scene: System, quantities: Mapping[str, Any]) -> np.ndarray:
 
 def scaled(group: str, scene: System, speed: float | None = None) -> float:
     """Return a group by its emitted formula; inf where a double overflows."""
-    values = si_values(scene, speed, None)
-    formula, arguments = formulas(scene)[group]
+    return _value(formulas(scene)[group], si_values(scene, speed, None))
+
+
+def _value(formula: Formula, values: Mapping[str, float]) -> float:
+    function, arguments = formula
     try:
-        return float(formula(*(values[name] for name in arguments)))
+        return float(function(*(values[name] for name in arguments)))
     except (OverflowError, ZeroDivisionError):
         return math.inf
 
@@ -259,16 +262,11 @@ _SCALES: dict[str, Formula] = {
 
 def _finite(name: str, formula: Formula, values: Mapping[str, float]) -> float:
     """A group or scale by its formula; InputError outside its range in `_RANGES`."""
-    function, arguments = formula
-    inputs = [values[argument] for argument in arguments]
-    try:
-        value = float(function(*inputs))
-    except (OverflowError, ZeroDivisionError):
-        value = math.inf
+    value, arguments = _value(formula, values), formula[1]
     least, most = _RANGES.get(name, (0.0, math.inf))
     if least <= abs(value) <= most and math.isfinite(value):
         return value
-    numbers = dict(zip(arguments, inputs, strict=True))
+    numbers = {argument: values[argument] for argument in arguments}
     spins = [spin for spin in ("impact_spin", "impact_partner_spin") if numbers.get(spin)]
     quantity = spins[0] if spins else "speed" if "speed" in arguments else arguments[0]
     entry, shown = _ENTRIES.get(quantity, quantity), numbers[quantity]

@@ -130,7 +130,7 @@ def gradients_many(
     names, by = check_differentiated(of), check_engine(engine)
     impact = {"stokes": stokes, "speed": speed, "relative_speed": relative_speed, "angle": angle}
     loaded, columns, _ = checked_columns(scene, impact, {})
-    batch = many.Impacts.listed(loaded, of_one_length(columns), check_rtol(rtol), "taylor")
+    batch = many.Impacts.listed(loaded, of_one_length(columns), check_rtol(rtol))
     held = held_quantity(loaded, hold) if relative_speed is None or hold is not None else "relative_speed"
     warn(loaded)
     velocity = batch.speed if batch.speed is not None else np.asarray(batch.stokes) / loaded.stokes_per_speed

@@ -2,7 +2,6 @@
 
 import numpy as np
 
-from ...generated import scaling
 from ...generated.automaton import LAST_ANSWER, TURNLESS, Status
 from ..engines.taylor.call import Impacts, run_kernel
 from ..engines.taylor.layout import OWN_LEDGER
@@ -60,7 +59,7 @@ def _in_space(pairs: Pairs, rtol: float, threads: int, ledger: bool) -> Ends:
     known = answers["status"] == Status.DECIDED
     names = load(select_model(pairs.scene, True, space=True)).names("outputs")
     place = {name: k for k, name in enumerate(names)}
-    rate = scales(pairs)
+    rate = pairs.impacts.rates
 
     def vector(name: str) -> np.ndarray:
         first = place[f"{name}_x"]
@@ -73,15 +72,6 @@ def _in_space(pairs: Pairs, rtol: float, threads: int, ledger: bool) -> Ends:
         ends.spins[known, k] = (vector(name) * rate[:, None])[known]
     ends.opening[known] = (-pairs.opening * answers["shown"][:, place["restitution"]])[known]
     return ends
-
-
-def scales(pairs: Pairs) -> np.ndarray:
-    """The scale of angular velocities of each collision in space, rad/s."""
-    quantities = pairs.impacts.values
-    tangent = scaling.obliquity_space(*(quantities[name] for name in scaling.ARGUMENTS["obliquity_space"]))
-    quantities["obliquity"] = np.asarray(tangent).reshape(-1)
-    scale = scaling.rate_scale_pair(*(quantities[name] for name in scaling.ARGUMENTS["rate_scale_pair"]))
-    return np.asarray(scale).reshape(-1)
 
 
 def _in_planes(pairs: Pairs, axis: np.ndarray, along: np.ndarray, rtol: float, threads: int, ledger: bool) -> Ends:

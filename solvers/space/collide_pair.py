@@ -19,7 +19,7 @@ from ..scene.scene import Scene
 from .beside_wall import beside_wall
 from .by_kernel import by_kernel
 from .by_replay import pairs_by_replay
-from .ends import FAILED, GREW, Ends, Motions, after, after_wall, gains_energy, named
+from .ends import FAILED, GREW, Ends, Motions, after, gains_energy, named
 from .pairs import AXES, Bodies, Pairs, checked, dot, length
 
 if TYPE_CHECKING:
@@ -119,7 +119,7 @@ def collide_pair(
         ends.put(which, _ends(pairs.part(which), chosen, rtol, ledger))
     until = ends.put_at_contact(pairs)
     with np.errstate(invalid="ignore"):
-        motions = after_wall(pairs, ends) if loaded.wall else after(pairs, ends)
+        motions = after(pairs, ends)
     attrs = {"scene": loaded.to_toml(), "rtol": rtol, "engine": chosen, "validity": _validity(pairs, ends, motions)}
     return _dataset(pairs, ends, until, motions, attrs, ledger)
 

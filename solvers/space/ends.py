@@ -113,13 +113,15 @@ class Motions:
 
 
 def after(pairs: Pairs, ends: Ends) -> Motions:
-    """The motion of two spheres after their collision; a stick turns as one body.
+    """The motion after a collision, beside a wall as `_after_wall`; two spheres that stick turn as one body.
 
     A stick keeps its angular momentum L. Across the line of centres it turns with L over the doublet's inertia there,
     m r^2 + I_1 + I_2. The orbit has no momentum along the line, where L is that of twist, I_1 w_1 + I_2 w_2. Twist has
     no friction to leading logarithm: each sphere keeps its own, and the doublet's angular velocity has their mean by
     inertia. Among all motions with this L and twist the one returned has the least energy.
     """
+    if pairs.scene.wall:
+        return _after_wall(pairs, ends)
     bodies = Bodies.of(pairs.scene)
     sticks = (ends.outcome == _STICK)[:, None]
     normal = ends.normal / length(ends.normal)[:, None]
@@ -165,13 +167,13 @@ def gains_energy(pairs: Pairs, ends: Ends, rtol: float) -> np.ndarray:
         return twice
 
     with np.errstate(all="ignore"):
-        motions = after_wall(pairs, ends) if pairs.scene.wall else after(pairs, ends)
+        motions = after(pairs, ends)
         spins = np.where(inertia[:, None] > 0, motions.spins, 0.0)
         most = energy(pairs.velocities, pairs.spins) * (1 + open_beyond(rtol))
         return np.asarray((ends.outcome > 0) & ~(energy(motions.velocities, spins) <= most))
 
 
-def after_wall(pairs: Pairs, ends: Ends) -> Motions:
+def _after_wall(pairs: Pairs, ends: Ends) -> Motions:
     """The motion after a collision with a wall, whose velocity stays; a stick neither slides nor rolls on."""
     radius = float(pairs.scene.material["reduced_radius"])
     sticks = (ends.outcome == _STICK)[:, None]

@@ -143,7 +143,6 @@ class Plain:
     """A flow over a duration, without events. Call: (y, groups, duration) -> y at the end (or columns on a grid)."""
 
     function: Function
-    plugin: str
 
     def __call__(self, y: np.ndarray, p: np.ndarray, duration: float) -> np.ndarray:
         result = _call(self.function, y, np.append(p, duration))
@@ -161,9 +160,7 @@ def plain(flow: Flow, plugin: str, tolerance: Tolerance, grid: tuple[float, ...]
     duration = SX.sym("duration")
     dae = {"x": parts.variables, "p": vertcat(flow.model.parameters, duration), "ode": duration * parts.rates}
     with quiet():
-        return Plain(
-            integrator("flow", plugin, dae, 0, list(grid), tolerance.options(plugin, flow.model.space)), plugin
-        )
+        return Plain(integrator("flow", plugin, dae, 0, list(grid), tolerance.options(plugin, flow.model.space)))
 
 
 @own_cache(512)

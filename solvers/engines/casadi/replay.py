@@ -7,7 +7,7 @@ and their derivatives are those of the engine. All events that could end a phase
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -245,7 +245,7 @@ class Run:
             return phase
         sides = phase.sides or (1,) * len(model.kinks)
         for _ in range(2):
-            phase = phase.with_(sides=sides)
+            phase = replace(phase, sides=sides)
             flow = Flow(self.choice, phase.region, self.extras, self.path.edge_watched)
             guards, rates = kinks_along(flow)(self.at.y, self.p).full().T
             sides = tuple(np.where(np.where(abs(guards) > _ON_KINK, guards, rates) < 0, -1, 1).tolist())

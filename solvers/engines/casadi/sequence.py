@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -164,7 +164,8 @@ def _run(model: Model, phase: Phase, duration: float, kinds: tuple[str, ...]) ->
 def _following(model: Model, phase: Phase, row: np.void) -> Phase:
     """The phase with the mode that the kernel has noted."""
     motion = CLOSING if row["closing"] else OPENING
-    return phase.with_(
+    return replace(
+        phase,
         film=int(row["film"]),
         shear=int(row["shear"]),
         motion=motion,

@@ -64,7 +64,7 @@ class Impacts:
     @property
     def rates(self) -> np.ndarray:
         """The scale of angular velocities of each collision, rad/s."""
-        return rate_scales(self.scene, self.values)
+        return rate_scales(self.scene, self.values, self.in_space)
 
     @property
     def in_space(self) -> bool:
