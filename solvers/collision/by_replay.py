@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..engines.casadi.confirm import confirm
+from ..engines.casadi.confirm import Confirmation
 from ..engines.casadi.replay import Replay, Stopped, replayed
 from ..engines.casadi.sequence import EventSequence
 from ..errors import ComputationError
@@ -74,7 +74,7 @@ def _confirmed(problem: Problem, rtol: float, plugin: str, until: float | None) 
     try:
         ran = followed(problem, rtol, until, ledger=True, trajectory=True)
         assert ran.steps is not None  # requested
-        confirm(sequence_in(problem, ran), ran.steps, problem.key(full=True), plugin, rtol)
+        Confirmation(sequence_in(problem, ran), ran.steps, problem.key(full=True), plugin, rtol).run()
     except (ComputationError, Stopped):
         return False
     return True

@@ -20,17 +20,12 @@ _APART = 1e2  # relative tolerances of the kernel by which two states may differ
 _SCALE = 1e-3  # of a motion of this size
 
 
-def confirm(path: EventSequence, steps: Steps, choice: ModelKey, plugin: str, rtol: float) -> None:
-    """Hold the kernel's steps against an engine; Stopped where they do not agree.
+class Confirmation(Run):
+    """A replay whose phases are the kernel's own steps, each confirmed by an engine.
 
     Arguments:
         steps: of the same collision as `path`, by a kernel with the states of the model `choice`.
     """
-    _Confirmation(path, steps, choice, plugin, rtol).run()
-
-
-class _Confirmation(Run):
-    """A replay whose phases are the kernel's own steps, each confirmed by an engine."""
 
     def __init__(self, path: EventSequence, steps: Steps, choice: ModelKey, plugin: str, rtol: float) -> None:
         super().__init__(path, choice, (), plugin, tolerance_for(rtol, plugin, path.groups), rtol)

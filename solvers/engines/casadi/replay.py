@@ -111,7 +111,7 @@ def replayed(
     while True:
         tolerance = looser or tolerance_for(used, plugin, path.groups)
         try:
-            return path, replay(path, choice, extras, plugin, tolerance, used)
+            return path, Run(path, choice, extras, plugin, tolerance, used).run()
         except Stopped as stopped:
             looser = None if stopped.missed else tolerance.loosened(used)
             if looser is not None:
@@ -125,20 +125,13 @@ def replayed(
                 raise stopped from None
 
 
-def replay(
-    path: EventSequence, choice: ModelKey, extras: tuple[str, ...], plugin: str, tolerance: Tolerance, rtol: float
-) -> Replay:
-    """Integrate a sequence of events; Stopped if the engine fails, or its solution does not agree with the record.
+class Run:
+    """One replay of a sequence at one tolerance.
 
     Arguments:
         choice: the model that is integrated, with the quadratures `extras`.
         rtol: relative tolerance of the record.
     """
-    return Run(path, choice, extras, plugin, tolerance, rtol).run()
-
-
-class Run:
-    """One replay of a sequence at one tolerance."""
 
     def __init__(
         self,
@@ -157,7 +150,7 @@ class Run:
         self.at = Replay(start, tolerance, extras, extra_units(self.model, extras, self.p))
 
     def run(self) -> Replay:
-        """The whole replay."""
+        """The whole replay; Stopped if the engine fails, or its solution does not agree with the record."""
         if self.path.separated != self._separates():
             what = "separation has no event" if self.path.separated else "event of separation separates nothing"
             raise Stopped(f"cannot follow the record: its {what}", self.path.steps[-1].phase, self.path.time, self.at.y)
