@@ -27,7 +27,6 @@ from ..scene.schema import MEETING, Field, Range
 from .dataset import Columns, dataset
 from .geometry import COLUMNS, SLOPES
 from .gradients import gradients
-from .interpolation import CHECKS, FINEST, STEPS, Interpolation, nodes
 from .over_speeds import SHARP_CUT, means
 from .sizes import FILMS, FIXED, experiment_of, scene_of_sizes, target
 from .speeds import Speeds
@@ -36,6 +35,13 @@ if TYPE_CHECKING:
     import xarray
 
 MOST = 400  # radii
+FINEST = 25
+"""Nodes along an axis of the finest grid, whose points include those of the coarser ones."""
+STEPS = (4, 2, 1)
+"""Steps between the nodes of the grids, in those of the finest."""
+CHECKS = 32
+"""Pairs that are computed beside the nodes, and compared with the interpolation."""
+_POINTS = -np.cos(np.pi * np.arange(FINEST) / (FINEST - 1))
 _BLOCK = 32  # pairs that are computed together
 _OF_GRADIENTS = 100.0  # tolerance of the lines of derivatives, over that of the means
 _TOLERANCE = Field(
@@ -116,6 +122,51 @@ def collision_averages(
     return dataset(loaded, request.axes, columns, request.attributes(), request.wrt)
 
 
+def nodes(radii: np.ndarray) -> np.ndarray:
+    """The radii of the finest grid of nodes."""
+    low, high = np.log(radii.min()), np.log(radii.max())
+    return np.asarray(np.exp(low + (high - low) * (1 + _POINTS) / 2))
+
+
+@dataclass(frozen=True)
+class Interpolation:
+    """Interpolation from the nodes of a grid.
+
+    Attributes:
+        step: between its nodes, in those of the finest grid.
+        axes: radii of the pairs that are asked for.
+    """
+
+    step: int
+    axes: tuple[np.ndarray, ...]
+
+    @property
+    def which(self) -> np.ndarray:
+        """Flat indices of the nodes in the finest grid."""
+        along = np.arange(0, FINEST, self.step)
+        return np.ravel_multi_index(np.meshgrid(*[along] * len(self.axes), indexing="ij"), [FINEST] * len(self.axes))
+
+    def __call__(self, values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """The values of every pair, (pairs, columns), and the sum of the coefficients of the two highest degrees.
+
+        Arguments:
+            values: at the nodes, shaped as `which`, with the columns last.
+        """
+        points = _POINTS[:: self.step]
+        degree = points.size - 1
+        to_series = np.linalg.inv(np.polynomial.chebyshev.chebvander(points, degree))
+        series = values
+        for axis in range(len(self.axes)):
+            series = np.moveaxis(np.tensordot(to_series, series, (1, axis)), 0, axis)
+        highest = np.indices(series.shape[:-1]).max(axis=0) > degree - 2
+        found = series
+        for axis, radii in enumerate(self.axes):
+            low, high = np.log(radii.min()), np.log(radii.max())
+            at = np.polynomial.chebyshev.chebvander(2 * (np.log(radii) - low) / (high - low) - 1, degree)
+            found = np.moveaxis(np.tensordot(at, found, (1, axis)), 0, axis)
+        return found.reshape(-1, values.shape[-1]), np.abs(series[highest]).sum(axis=0)
+
+
 @dataclass(frozen=True)
 class _Request:
     """Averages as requested."""
@@ -170,12 +221,10 @@ class _Request:
         return {
             **self.attributes(),
             "averages": [entry for entry in self.scene.si if entry[0] not in MEETING],
-            "volume": self.scene.ways.volume,
             "speeds": [self.speeds.text, self.speeds.knots.tolist(), distribution],
             "axes": {name: axis.tolist() for name, axis in self.axes.items()},
             "wrt": list(self.wrt),
-            **software(),
-            "model": self.scene.package and self.scene.package.digest,
+            **software(self.scene),
         }
 
 

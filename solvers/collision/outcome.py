@@ -7,10 +7,12 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
+from ...generated.automaton import OUTCOMES, STICK
 from ..errors import ComputationError
 from ..model.dimensionless import Problem
 from ..model.validity import NEEDS, sentences
 from ..results import OF_SEPARATION, UNITS
+from ..scene.groups import si_values
 from ..scene.origin import origin
 from ..scene.scene import Scene
 
@@ -152,8 +154,10 @@ class Outcome:
     @property
     def validity(self) -> tuple[str, ...]:
         """Where the collision leaves the model's range, a sentence each with the number and the limit."""
-        results = {name: getattr(self, name) for name in NEEDS}
-        return tuple(sentences(self.scene, self.speed, self.angle, self.outcome, results))
+        results = {name: getattr(self, name) for name in NEEDS if self.outcome != STICK}
+        known = {name: math.nan if results.get(name) is None else results[name] for name in NEEDS}
+        values = si_values(self.scene, self.speed, self.angle) | known | {"outcome": OUTCOMES.index(self.outcome)}
+        return tuple(sentences(self.scene, values))
 
     @property
     def long_contact(self) -> str:

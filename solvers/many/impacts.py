@@ -249,14 +249,12 @@ class Impacts:
         }
         return {
             "scene": self.scene.si,
-            "volume": self.scene.ways.volume,
             "columns": columns,
             "shape": self.shape,
             "rtol": self.rtol,
             "engine": self.engine,
             "of": sorted(set(self.of)),
-            **software(),
-            "model": self.scene.package and self.scene.package.digest,
+            **software(self.scene),
         }
 
 
@@ -285,10 +283,11 @@ def fill(results: Block, where: np.ndarray, block: Block) -> None:
         results[name][where] = values
 
 
-def software() -> dict[str, str]:
-    """Version and equations, for the identity of a request."""
+def software(scene: Scene) -> dict[str, Any]:
+    """Version, equations, and how a scene's entries are read, for the identity of a request."""
     manifest = Path(scaling.__file__).with_name("manifest.json").read_text()
-    return {"version": version("wetdoublet"), "equations": manifest}
+    reads = {"volume": scene.ways.volume, "model": scene.package and scene.package.digest}
+    return {"version": version("wetdoublet"), "equations": manifest, **reads}
 
 
 def _digest(values: np.ndarray) -> str:

@@ -12,7 +12,7 @@ from ..errors import InputError
 from ..host.arguments import check_flag
 from ..host.cores import usable_cores
 from ..host.pictures import register
-from ..model.validity import sentences_of_many, warn
+from ..model.validity import sentences, warn
 from ..results import attributes, outcome_attributes
 from ..scene.groups import si_values
 from ..scene.scene import Scene
@@ -206,7 +206,7 @@ def _validity(pairs: Pairs, ends: Ends, motions: Motions) -> list[str]:
         "smallest_gap": np.nan,
     }
     known |= {"speed": -some.opening, "angle": angle}
-    return sentences_of_many(some.scene, known | course | {"outcome": ends.outcome[which]})
+    return sentences(some.scene, known | course | {"outcome": ends.outcome[which]})
 
 
 def _dataset(

@@ -7,7 +7,7 @@ the caller computes them by other means.
 from __future__ import annotations
 
 import ctypes
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -139,21 +139,16 @@ def run_kernel(
                 for name in terms.dtype.names or ():
                     ledgers[name][part] = terms[name]
 
-        in_chunks(which.size, chunk, threads)
+        firsts = range(0, which.size, CHUNK)
+        if threads == 1 or len(firsts) == 1:
+            for first in firsts:
+                chunk(first)
+        else:
+            from concurrent.futures import ThreadPoolExecutor  # slow import
+
+            with ThreadPoolExecutor(threads) as pool:  # the call releases the interpreter's lock
+                list(pool.map(chunk, firsts))
     return answers
-
-
-def in_chunks(count: int, run: Callable[[int], None], threads: int) -> None:
-    """Run a kernel on the collisions from each first one on, `CHUNK` at a time, on several threads."""
-    firsts = range(0, count, CHUNK)
-    if threads == 1 or len(firsts) == 1:
-        for first in firsts:
-            run(first)
-    else:
-        from concurrent.futures import ThreadPoolExecutor  # slow import
-
-        with ThreadPoolExecutor(threads) as pool:  # the call releases the interpreter's lock
-            list(pool.map(run, firsts))
 
 
 def task(library: ctypes.CDLL, impacts: Impacts, rtol: float, budget: int, answers: np.ndarray, jumps: int = 0) -> Task:
