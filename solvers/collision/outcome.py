@@ -63,8 +63,8 @@ class Energy:
     def of(cls, problem: Problem, terms: Mapping[str, float]) -> Energy:
         """The ledger from its terms over m v0^2, without those of forces that the collision does not have."""
         absent = absent_terms(problem.scene) | (set() if problem.oblique else {"dry_friction"})
-        known = {name: value * problem.energy for name, value in terms.items() if name not in absent}
-        return cls(**{"strings": 0.0} | known)
+        energies = {name: value * problem.energy for name, value in terms.items() if name not in absent}
+        return cls(**{"strings": 0.0} | energies)
 
     @property
     def residual(self) -> float:
@@ -155,8 +155,8 @@ class Outcome:
     def validity(self) -> tuple[str, ...]:
         """Where the collision leaves the model's range, a sentence each with the number and the limit."""
         results = {name: getattr(self, name) for name in NEEDS if self.outcome != STICK}
-        known = {name: math.nan if results.get(name) is None else results[name] for name in NEEDS}
-        values = si_values(self.scene, self.speed, self.angle) | known | {"outcome": OUTCOMES.index(self.outcome)}
+        numbers = {name: math.nan if results.get(name) is None else results[name] for name in NEEDS}
+        values = si_values(self.scene, self.speed, self.angle) | numbers | {"outcome": OUTCOMES.index(self.outcome)}
         return tuple(sentences(self.scene, values))
 
     @property

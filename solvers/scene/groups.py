@@ -225,9 +225,9 @@ def sideways(scene: System, angle: np.ndarray, varied: Mapping[str, Any]) -> np.
 
 def rate_scales(scene: System, quantities: Mapping[str, Any], space: bool = False) -> np.ndarray:
     """The scale of angular velocities of each collision, rad/s, from quantities by vocabulary name, SI."""
-    values, known = dict(quantities), formulas(scene)
+    values, planar = dict(quantities), formulas(scene)
     for name, in_space in (("obliquity", "obliquity_space"), ("rate_scale", "rate_scale_pair")):
-        formula, arguments = (getattr(scaling, in_space), scaling.ARGUMENTS[in_space]) if space else known[name]
+        formula, arguments = (getattr(scaling, in_space), scaling.ARGUMENTS[in_space]) if space else planar[name]
         values[name] = np.asarray(formula(*(values[each] for each in arguments))).reshape(-1)  # of arrays a DM
     scales: np.ndarray = values["rate_scale"]
     return scales

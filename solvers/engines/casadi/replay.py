@@ -173,8 +173,8 @@ class Run:
         """True if a bridge's energy barrier proved the stick: not at rest, nor at a turning point, which has others."""
         path, model, last = self.path, self.model, self.path.steps[-1]
         proved = path.certified and not path.separated and (path.decided is None or path.decided <= path.time)
-        alone = model.bridge and not (model.strings or model.space or model.own_events or "attraction" in model.works)
-        return proved and alone and last.duration > 0 and not last.phase.resting
+        bound = model.bridge and not (model.strings or model.space or model.own_events or "attraction" in model.works)
+        return proved and bound and last.duration > 0 and not last.phase.resting
 
     def _is_below_barrier(self) -> bool:
         """True if the energy does not suffice for some gap ahead, where the least energy includes the bridge's work."""
