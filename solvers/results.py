@@ -153,8 +153,10 @@ TANGENTS = tuple(row.name for row in DEFINITIONS.values() if row.derivative == "
 SPENT = tuple(row.name for row in _ENERGY[2:-1])
 """Terms that the ledger takes from the initial energy, beside the final one."""
 UNITS = {row.name: row.unit for row in DEFINITIONS.values() if row.unit and row.name not in LEDGER[:-1]} | {
-    "decided": "s", "events": "s", "energy": "J", "rtol": "1",
-}  # fmt: skip
+    "events": "s",
+    "energy": "J",
+    "rtol": "1",
+}
 """Units of the values in a collision's JSON object, by key; for `events`, the unit of their times."""
 
 

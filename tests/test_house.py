@@ -172,7 +172,7 @@ def test_the_engines_do_not_know_of_each_other() -> None:
 
 
 def test_one_place_chooses_the_engine() -> None:
-    """Only the engines look at whether the kernel can answer; every question asks `engines.choice`."""
+    """Only the engines look at whether the kernel can answer; every question asks `engines.kernels`."""
     asking = re.compile(r"\b(kernel_supports|is_compiled)\(")
     above = {name: path for name, path in modules().items() if _rank(room(name)) > _rank("solvers.engines")}
     assert len(above) > 100

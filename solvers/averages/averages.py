@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -15,7 +16,7 @@ from ..errors import InputError
 from ..host.arguments import check_function, check_name, check_names
 from ..host.outputs import check_file
 from ..host.progress import Progress
-from ..many.arguments import checked_numbers
+from ..many.arguments import checked_numbers, first_accepted
 from ..model.validity import warn
 from ..scene.scene import Scene
 from ..scene.schema import Field, Range
@@ -116,13 +117,5 @@ def _checked(
     request = Request(
         scene, distribution, axes, check_name(films, FILMS, "films"), _TOLERANCE.number(tolerance), check_rtol(rtol), ()
     )
-    first: InputError | None = None
-    for sizes in request.sizes:
-        try:
-            known = free_names(request.scene_of(sizes))
-        except InputError as error:
-            first = first or error
-        else:
-            return replace(request, wrt=check_names(wrt, known, "wrt"))
-    assert first is not None  # there is a pair
-    raise first
+    possible = first_accepted(partial(request.scene_of, sizes) for sizes in request.sizes)
+    return replace(request, wrt=check_names(wrt, free_names(possible), "wrt"))

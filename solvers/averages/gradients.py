@@ -6,8 +6,7 @@ import numpy as np
 
 from ..changes.brackets import Brackets
 from ..changes.experiment import STEEPEST, UNDECIDED, Experiment
-from ..changes.lines import Lines
-from ..changes.slopes import slopes, slopes_by_differences
+from ..changes.slopes import Lines, slopes, slopes_by_differences
 from .geometry import NORMAL, RIGHT_ANGLE, SLOPES, WIDTH, Segments, integrals, segments
 from .sizes import Collided, collide, outcome_of
 

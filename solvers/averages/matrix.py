@@ -20,8 +20,7 @@ from ..host.cores import usable_cores
 from ..host.progress import Progress
 from ..host.workers import in_workers
 from ..many.blocks import kept
-from ..many.impacts import software
-from ..many.results import fill
+from ..many.impacts import fill, software
 from ..scene.scene import Scene
 from ..scene.schema import MEETING
 from .geometry import COLUMNS, SLOPES, over_angles
@@ -88,8 +87,7 @@ class Request:
             "distribution": [self.speeds.knots.tolist(), distribution],
             "axes": {name: axis.tolist() for name, axis in self.axes.items()},
             "wrt": list(self.wrt),
-            **software(),
-            "model": self.scene.package and self.scene.package.digest,
+            **software(self.scene),
         }
 
 

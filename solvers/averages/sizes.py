@@ -92,7 +92,7 @@ def collide(
     found = np.where(outcome > 0, answers["shown"][:, :2].T, 0.0)
     spins = np.zeros((2, angle.size))
     if not locating:
-        rates = rates_of(experiment.scene, answers, experiment.impacts(pair, normal, within))
+        rates = rates_of(answers, experiment.impacts(pair, normal, within))
         spins = np.stack([rates[name] for name in _RESULTS[2:]])
         found[:, ~decided] = spins[:, ~decided] = np.nan
         outcome[~decided] = UNDECIDED

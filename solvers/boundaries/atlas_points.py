@@ -172,8 +172,9 @@ def _passes_saddle(plane: Plane, place: np.ndarray) -> bool:
     scene, angle = plane.scene_at(float(plane.x(place)))
     n = nondimensionalise(scene, scene.speed_of(float(plane.stokes_at(place))), angle)
     model = load(select_model(scene, n.oblique))
-    impact = Impacts(scene, np.array([n.speed]), np.array([n.angle]), {})
-    ran = run_recorded(impact, n.oblique, plane.rtol, trajectory=True, purpose=Purpose.ESCAPE, fold=False, events=False)
+    ran = run_recorded(
+        Impacts.single(n), n.oblique, plane.rtol, trajectory=True, purpose=Purpose.ESCAPE, fold=False, events=False
+    )
     assert ran.steps is not None
     end = ran.steps.states(ran.answers["time"])[:, 0]
     return Potential(model, model.group_values(n.groups), plane.rtol).passes_saddle(end)

@@ -125,7 +125,7 @@ class Plane:
         x, size = self.x(points), points.shape[0]
         angle = x if self.over == ANGLE else np.full(size, float(self.scene.angle or 0.0))
         columns = {"impact.stokes": self.stokes_at(points), "impact.angle": angle, self.over: x}
-        return Impacts.listed(self.scene, columns, self.rtol, "taylor")
+        return Impacts.listed(self.scene, columns, self.rtol)
 
 
 def check_plane(scene: Scene, over: str, span: Any, stokes: Any, rtol: float, label: str = "over") -> Plane:

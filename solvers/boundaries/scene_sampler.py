@@ -9,12 +9,13 @@ from ...generated.automaton import BOUNCE, LAST_ANSWER, OUTCOMES, ROTATE, STICK,
 from ..collision.by_kernel import recorded, words_of
 from ..engines.settings import KERNEL_STEPS
 from ..engines.taylor.call import Impacts
+from ..engines.taylor.layout import ANSWER
 from ..engines.taylor.record import run_recorded
 from ..errors import ComputationError, InputError
 from ..model.dimensionless import nondimensionalise
 from ..model.model import load, select_model
 from ..scene.contact import GAPS, NEVER_MET
-from ..scene.groups import formulas, si_values, sideways
+from ..scene.groups import formulas, si_values
 from ..scene.scene import Scene
 from .barrier import Potential
 from .samples import SAMPLE
@@ -97,7 +98,7 @@ class SceneSampler:
         """The events of collisions at an angle (rad); None if one is not decided with the steps of a sample."""
         self.collisions += len(stokes)
         speed = np.array([self.scene.speed_of(number) for number in stokes])
-        impacts = Impacts(self.scene, speed, np.full(speed.size, angle), {})
+        impacts = Impacts(self.scene, speed, np.full(speed.size, angle))
         ran = run_recorded(impacts, self.scene.turns(angle), self.rtol, trajectory=True, budget=SAMPLE_BUDGET,
                            keep=False, fold=False)  # fmt: skip
         if (ran.answers["status"] > LAST_ANSWER).any():
@@ -128,14 +129,10 @@ class SceneSampler:
         Arguments:
             solids: SI quantities of the rebound criteria that replace the scene's.
         """
-        speed, parts = stokes / self.scene.stokes_per_speed, []
-        oblique_ones = sideways(self.scene, angle, {})
-        for oblique in (True, False):
-            which = np.flatnonzero(oblique_ones == oblique)
-            if not which.size:
-                continue
-            others = {name: values[which] for name, values in (solids or {}).items()}
-            impacts = Impacts(self.scene, speed[which], angle[which], others)
+        every = Impacts(self.scene, stokes / self.scene.stokes_per_speed, angle, solids or {})
+        answers, peaks = np.zeros(every.size, ANSWER), np.zeros(every.size)
+        for oblique, which in every.by_kind():
+            impacts = every.part(which)
             ran = run_recorded(
                 impacts, oblique, self.rtol, trajectory=True, budget=budget, purpose=purpose, keep=False, fold=False,
                 peaks=True, events=False,
@@ -144,9 +141,7 @@ class SceneSampler:
             ran.answers["outcome"][ran.answers["status"] > LAST_ANSWER] = -1
             if purpose == Purpose.WHOLE and budget >= SAMPLE_BUDGET:  # earlier they are far from a limit
                 self._take_limits(ran.answers, impacts, oblique, budget)
-            parts.append((which, ran.answers, ran.peaks))
-        order = np.argsort(np.concatenate([which for which, *_ in parts]))
-        answers, peaks = (np.concatenate(columns)[order] for columns in list(zip(*parts, strict=True))[1:])
+            answers[which], peaks[which] = ran.answers, ran.peaks
         return answers, peaks
 
     def _take_limits(self, answers: np.ndarray, impacts: Impacts, oblique: bool, budget: int) -> None:
@@ -162,10 +157,10 @@ class SceneSampler:
         stopped = impacts.part(endless)
         before = run_recorded(stopped, oblique, self.rtol, trajectory=True, budget=budget // _EARLIER, keep=False,
                               fold=False, events=False).answers  # fmt: skip
-        for k, early, speed, angle in zip(endless, before, stopped.speed, stopped.angle, strict=True):
+        for j, (k, early) in enumerate(zip(endless, before, strict=True)):
             if early["status"] not in (Status.NO_BUDGET, Status.CHATTER):
                 continue
-            p = model.group_values(nondimensionalise(scene, float(speed), float(angle)).groups)
+            p = model.group_values(stopped.problem(j).groups)
             states = [
                 np.array([answer["final_gap"], *answer["shown"][: len(model.state) - 1]])
                 for answer in (early, answers[k])

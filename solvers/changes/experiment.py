@@ -14,7 +14,7 @@ import numpy as np
 from casadi import SX, Function, densify, jacobian, vertcat
 
 from ...generated.automaton import LAST_ANSWER
-from ..engines.choice import differentiates
+from ..engines.kernels import differentiates
 from ..engines.settings import KERNEL_STEPS
 from ..engines.taylor.call import Impacts, run_kernel
 from ..engines.taylor.layout import derivative_column, result
@@ -165,7 +165,7 @@ class Experiment:
         return Impacts(self.scene, speed, np.where(size < _HEAD_ON, 0.0, np.minimum(size, STEEPEST)), others)
 
     def answers(
-        self, row: np.ndarray, speed: np.ndarray, angle: np.ndarray, rotation: bool = False, **options: int
+        self, row: np.ndarray, speed: np.ndarray, angle: np.ndarray, rotation: bool = False, **options: Any
     ) -> np.ndarray:
         """What `run_kernel` answers, with its options."""
         return run_kernel(self.impacts(row, speed, angle), self.rtol, rotation, **options)
@@ -205,10 +205,8 @@ class Experiment:
             np.zeros(row.size, np.int8), np.full(shape, np.nan), np.zeros((*shape, len(self.rows.names))),
             np.zeros(shape), np.zeros(shape),
         )  # fmt: skip
-        for oblique in (True, False):
-            which = np.flatnonzero(impacts.oblique == oblique)
-            if which.size:
-                self._fill(results, names, row[which], impacts.part(which), which, oblique, forward, budget)
+        for oblique, which in impacts.by_kind():
+            self._fill(results, names, row[which], impacts.part(which), which, oblique, forward, budget)
         mirrored = np.where(angle < 0, -1.0, 1.0)
         results.angle[:] *= mirrored
         if "rotation" in names:

@@ -19,7 +19,6 @@ from ...generated.automaton import LAST_ANSWER
 from ..engines.settings import KERNEL_STEPS
 from .brackets import Brackets, Labels, bisect
 from .experiment import Experiment
-from .lines import Lines
 
 _SHORT = 1000  # steps of a trajectory with derivatives, where an approximation replaces what takes longer
 _CLOSE, _BESIDE = 1e-8, 1e-5  # least distances at which gradients are taken, exact and approximate, and at 4 times it
@@ -29,6 +28,40 @@ _SHIFT, _STEP_OF_ENTRY = 0.1, 2e-3  # steps of an impact, and relative ones of a
 _EXACT, _ROUGH = 1e-5, 1e-4  # relative step of an entry with which a change is located again
 _REACH = (5.0, 100.0, 2000.0)  # half widths of the intervals in which it is sought in turn, over that step
 _ENCLOSED = 1e-6  # width to which it is enclosed, over the same
+
+
+@dataclass(frozen=True)
+class Lines:
+    """Lines of impacts on the rows of an experiment; a point lies at a distance y along its line.
+
+    Attributes:
+        row: (lines,), the row of each.
+        speed, angle: (lines, 2), value at y = 0 and its derivative by y; m/s and rad.
+        low, high: (lines,), the ends of each.
+        relative: `speed` is the magnitude of the relative velocity, not the normal speed.
+    """
+
+    row: np.ndarray
+    speed: np.ndarray
+    angle: np.ndarray
+    low: np.ndarray
+    high: np.ndarray
+    relative: bool
+
+    def at(self, line: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Normal speeds (m/s) and angles (rad) of points on lines."""
+        angle = self.angle[line, 0] + self.angle[line, 1] * y
+        speed = self.speed[line, 0] + self.speed[line, 1] * y
+        return speed * np.cos(angle) if self.relative else speed, angle
+
+    def slopes(self, line: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Their derivatives by y."""
+        angle, by_angle = self.angle[line, 0] + self.angle[line, 1] * y, self.angle[line, 1]
+        by_speed = self.speed[line, 1]
+        if self.relative:
+            speed = self.speed[line, 0] + self.speed[line, 1] * y
+            by_speed = by_speed * np.cos(angle) - speed * np.sin(angle) * by_angle
+        return by_speed, np.broadcast_to(by_angle, by_speed.shape)
 
 
 ExperimentLabels = Callable[[Experiment, np.ndarray, np.ndarray, np.ndarray], np.ndarray]

@@ -29,8 +29,8 @@ def assembled(
     engine: str,
     steps: int,
     rtol: float,
-    energy: Energy | None = None,
-    drift: float | None = None,
+    terms: Mapping[str, float] | None = None,
+    momentum: float = 1.0,
     trajectory: xarray.Dataset | None = None,
     decided: float | None = None,
 ) -> Collision:
@@ -42,12 +42,19 @@ def assembled(
         time: end of the trajectory (x0/v0): separation, or for a stick the end of integration.
         smallest_gap: over x0.
         events: words, and times over x0/v0.
-        energy, trajectory: in SI units.
-        drift: |L/L(0) - 1| at the end; None where the angular momentum L is not conserved.
+        terms: of the ledger, over m v0^2; None without one.
+        momentum: L/L(0) at the end, with a ledger.
         decided: time (x0/v0) at which a stick was certain; None: at the end.
+
+    Raises:
+        ComputationError: the ledger of a pair that separates is open, as the trajectory is then wrong.
     """
     separated, scene = outcome != "stick", problem.scene
-    end = time * problem.time
+    end, energy = time * problem.time, None if terms is None else Energy.of(problem, terms)
+    if energy is not None and separated:
+        energy.check(rtol)
+    torque = scene.pendulum is not None or (scene.wall and problem.oblique)
+    drift = None if terms is None or torque else abs(momentum - 1.0) if problem.oblique else 0.0
 
     def rate(name: str) -> float | None:
         if not separated:

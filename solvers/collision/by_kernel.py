@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from typing import TYPE_CHECKING, Any, NamedTuple
+from collections.abc import Iterator
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -18,7 +19,6 @@ from ..model.dimensionless import Problem
 from ..results import TERMS
 from ..scene.scene import Scene
 from .assemble import assembled
-from .outcome import Energy, absent_terms
 from .result import Collision
 
 if TYPE_CHECKING:
@@ -43,8 +43,7 @@ def recorded(
     Raises:
         ComputationError: phase, time and state, in SI, if the outcome is not decided; or there is no kernel.
     """
-    impact = Impacts(problem.scene, np.array([problem.speed]), np.array([problem.angle]), {})
-    ran = run_recorded(impact, problem.oblique, rtol, ledger, trajectory, until=until)
+    ran = run_recorded(Impacts.single(problem), problem.oblique, rtol, ledger, trajectory, until=until)
     answer, words = ran.answers[0], words_of(problem.scene)
     if answer["status"] > LAST_ANSWER:
         log = ran.events[0, : answer["events"]]
@@ -56,20 +55,14 @@ def recorded(
     return ran
 
 
-def followed(problem: Problem, rtol: float, until: float | None, **options: bool) -> Followed:
-    """One collision by the kernel; a stick is followed on up to a time (s) beyond its decision."""
+def followed(problem: Problem, rtol: float, until: float | None, **options: bool) -> Recorded:
+    """One collision by the kernel; a stick is followed to a time (s), before its decision or beyond."""
     ran = recorded(problem, rtol, **options)
-    decided = float(ran.answers["time"][0])
-    if until is None or ran.answers["outcome"][0] > 0 or not decided < until / problem.time:
-        return Followed(ran, None)
-    return Followed(recorded(problem, rtol, **options, until=until / problem.time), decided)
-
-
-class Followed(NamedTuple):
-    """A record, and the time (x0/v0) at which its stick was decided if it runs beyond that."""
-
-    record: Recorded
-    decided: float | None
+    if until is None or ran.answers["outcome"][0] > 0:
+        return ran
+    longer = recorded(problem, rtol, **options, until=until / problem.time)
+    longer.answers["certified"] = ran.answers["certified"]
+    return replace(longer, decided=float(ran.answers["time"][0]))
 
 
 def sequence_of(problem: Problem, rtol: float, until: float | None = None) -> EventSequence:
@@ -77,10 +70,10 @@ def sequence_of(problem: Problem, rtol: float, until: float | None = None) -> Ev
     return sequence_in(problem, followed(problem, rtol, until, ledger=True))
 
 
-def sequence_in(problem: Problem, ran: Followed) -> EventSequence:
+def sequence_in(problem: Problem, ran: Recorded) -> EventSequence:
     """The phases and events of a record with a ledger."""
-    answer, words, model = ran.record.answers[0], words_of(problem.scene), problem.model(full=True)
-    return sequence(answer, ran.record.events[0, : answer["events"]], words, model, problem.groups, ran.decided)
+    answer, words, model = ran.answers[0], words_of(problem.scene), problem.model(full=True)
+    return sequence(answer, ran.events[0, : answer["events"]], words, model, problem.groups, ran.decided)
 
 
 def collision(
@@ -91,17 +84,14 @@ def collision(
     Arguments:
         ledger: include the energy ledger and the drift of angular momentum.
         trajectory: include the trajectory, sampled from the Taylor series of the steps.
-        until: time (s) to which a stick is followed on.
+        until: time (s) to which a stick is followed.
 
     Raises:
-        ComputationError: as `recorded`; or the energy ledger is open, as the trajectory is then wrong.
+        ComputationError: as `recorded` and `assembled`.
     """
-    record, decided = followed(problem, rtol, until, ledger=ledger, trajectory=trajectory)
+    record = followed(problem, rtol, until, ledger=ledger, trajectory=trajectory)
     answer, books = _row(record.answers), None if record.ledger is None else _row(record.ledger)
-    energy = None if books is None else _energy(problem, books)
     separated = answer["outcome"] > 0
-    if energy is not None and separated:
-        energy.check(rtol)
     names, words = problem.model().names("outputs"), words_of(problem.scene)
     log = record.events[0, : answer["events"]]
     return assembled(
@@ -117,10 +107,10 @@ def collision(
         events=[(words[kind], time) for kind, time in log[["kind", "time"]].tolist()],
         engine="taylor",
         steps=answer["steps"],
-        decided=decided,
+        decided=record.decided,
         rtol=rtol,
-        energy=energy,
-        drift=None if books is None else _drift(problem, books),
+        terms=books and {name: books[field] for name, field in TERMS.items() if field in books},
+        momentum=books["momentum"] if books else 1.0,
         trajectory=_trajectory(problem, rtol, record, ledger) if trajectory else None,
     )
 
@@ -130,31 +120,17 @@ def _row(rows: np.ndarray) -> dict[str, Any]:
     return dict(zip(rows.dtype.names or (), rows[0].tolist(), strict=True))
 
 
-def _energy(problem: Problem, books: Mapping[str, float]) -> Energy:
-    terms = {name: books[field] * problem.energy for name, field in TERMS.items() if field in books}
-    absent = absent_terms(problem.scene) | (set() if problem.oblique else {"dry_friction"})
-    return Energy(**{"strings": 0.0} | {name: value for name, value in terms.items() if name not in absent})
-
-
-def _drift(problem: Problem, books: Mapping[str, float]) -> float | None:
-    """|L/L(0) - 1| at the end; None with strings or a wall, which exert a torque; 0 head-on."""
-    if problem.scene.pendulum is not None or (problem.scene.wall and problem.oblique):
-        return None
-    return abs(books["momentum"] - 1.0) if problem.oblique else 0.0
-
-
 def _trajectory(problem: Problem, rtol: float, recorded: Recorded, full: bool) -> xarray.Dataset:
-    from ..engines.casadi.trajectory import attributes, dataset  # imports xarray
+    from ..engines.casadi.trajectory import dataset  # imports xarray
     from ..model.rebound import rebounded
 
     assert recorded.steps is not None
-    model = problem.model(full=full)
-    attrs = attributes(problem.scene, OUTCOMES[recorded.answers["outcome"][0]], "taylor", rtol)
+    model, outcome = problem.model(full=full), OUTCOMES[recorded.answers["outcome"][0]]
     p = model.group_values(problem.groups)
     first, reversal = model.start(p), int(recorded.answers["reversal"][0])
     if reversal >= 0:  # where initial contact decides, the state after it
         first = rebounded(model, KINDS[reversal], first, p).after
-    return dataset([*_stretches(recorded.steps, len(model.state))], model, problem, first, attrs)
+    return dataset([*_stretches(recorded.steps, len(model.state))], model, problem, first, outcome, "taylor", rtol)
 
 
 def _stretches(steps: Steps, states: int) -> Iterator[Stretch]:

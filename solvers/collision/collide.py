@@ -7,7 +7,7 @@ from ...generated.automaton import STICK
 from ..engines.settings import UNTIL, check_engine, check_rtol
 from ..errors import ComputationError
 from ..host.arguments import check_flag
-from ..model.dimensionless import Problem, nondimensionalise
+from ..model.dimensionless import Problem
 from ..model.validity import warn
 from ..scene.scene import Scene
 from .by_kernel import collision
@@ -43,7 +43,7 @@ def collide(
         ledger: integrate the energy ledger and keep the spin as a state to see the drift of angular momentum.
         trajectory: keep the trajectory as an xarray Dataset.
         until: time after initial contact, s or a string with its unit. A stick is integrated up to this time, beyond
-            its proof; its outcome stays, its events and energy run up to this time.
+            its proof or not so far; its outcome stays, its events and energy run up to this time.
         proof: enclose the collision as well, so that `result.proof` proves the outcome, or says why not.
 
     Returns:
@@ -66,19 +66,18 @@ def collide(
     ledger, trajectory = check_flag(ledger, "ledger"), check_flag(trajectory, "trajectory")
     check_flag(proof, "proof")
     last = None if until is None else UNTIL.number(until)
-    loaded = Scene.load(scene).with_impact(stokes, speed, angle, relative_speed)
-    v0, theta0 = loaded.need_impact()
-    problem = nondimensionalise(loaded, v0, theta0)
-    warn(loaded)
+    problem = Problem.read(scene, stokes, speed, angle, relative_speed)
+    warn(problem.scene)
     result = integrated(problem, rtol, requested, ledger, trajectory, last)
-    return _proved(result, loaded) if proof else result
+    return _proved(result) if proof else result
 
 
-def _proved(result: Collision, scene: Scene) -> Collision:
+def _proved(result: Collision) -> Collision:
     """The result with the proof of its outcome, or with the reason why there is none."""
-    from ..engines.interval.prove import prove
+    from ..engines.interval.inputs import Inputs
+    from ..engines.interval.prove import prove_inputs
 
-    proof = prove(scene)
+    proof = prove_inputs(Inputs.of(result.scene))
     if proof and proof.outcome != result.outcome:
         raise ComputationError(
             f"the collision is computed as {result.outcome} and proved to be {proof.outcome}",

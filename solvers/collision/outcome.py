@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
+from ...generated.automaton import OUTCOMES, STICK
 from ..errors import ComputationError
+from ..model.dimensionless import Problem
 from ..model.validity import NEEDS, sentences
 from ..results import OF_SEPARATION, UNITS
+from ..scene.groups import si_values
 from ..scene.origin import origin
 from ..scene.scene import Scene
 
@@ -54,6 +58,13 @@ class Energy:
     attraction: float | None = None
     dry_friction: float | None = None
     own_events: float | None = None
+
+    @classmethod
+    def of(cls, problem: Problem, terms: Mapping[str, float]) -> Energy:
+        """The ledger from its terms over m v0^2, without those of forces that the collision does not have."""
+        absent = absent_terms(problem.scene) | (set() if problem.oblique else {"dry_friction"})
+        energies = {name: value * problem.energy for name, value in terms.items() if name not in absent}
+        return cls(**{"strings": 0.0} | energies)
 
     @property
     def residual(self) -> float:
@@ -101,7 +112,7 @@ class Outcome:
         final_spin_partner: spin of the partner, rad/s; None without a [partner].
         rotation: angle turned by the line of centres until separation, rad.
         until: for a stick, the time at which integration stopped, s.
-        decided: for a stick, the time at which it was certain, s: `until`, unless it was followed on.
+        decided: for a stick, the time at which it was certain, s: `until`, unless another was asked for.
         certified: True if a certificate, or the enclosure from the initial data on, proves the stick.
         reversal: the first rebound criterion met, if any.
         rtol: relative tolerance that was asked for.
@@ -143,8 +154,10 @@ class Outcome:
     @property
     def validity(self) -> tuple[str, ...]:
         """Where the collision leaves the model's range, a sentence each with the number and the limit."""
-        results = {name: getattr(self, name) for name in NEEDS}
-        return tuple(sentences(self.scene, self.speed, self.angle, self.outcome, results))
+        results = {name: getattr(self, name) for name in NEEDS if self.outcome != STICK}
+        numbers = {name: math.nan if results.get(name) is None else results[name] for name in NEEDS}
+        values = si_values(self.scene, self.speed, self.angle) | numbers | {"outcome": OUTCOMES.index(self.outcome)}
+        return tuple(sentences(self.scene, values))
 
     @property
     def long_contact(self) -> str:
@@ -168,7 +181,7 @@ class Outcome:
     def to_dict(self) -> dict[str, Any]:
         """The JSON object of `wetdoublet collide --json`."""
         plain = ("outcome", *OF_SEPARATION, "stokes", "centrifugal", "capillary", "speed", "angle")
-        plain += ("reversal", "certified", "until", "decided")
+        plain += ("reversal", "certified", "until")
         result: dict[str, Any] = {name: getattr(self, name) for name in plain if name != "final_spin_partner"}
         if self.scene.pair or self.scene.wall:
             result["final_spin_partner"] = self.final_spin_partner

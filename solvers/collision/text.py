@@ -103,13 +103,19 @@ def stopped(collision: Outcome) -> str:
         return ""
     if is_followed_on(collision):
         certain = f"{quantity(collision.decided, 's')} after initial contact" if collision.decided else "at contact"
-        return f"certain {certain}, followed on to {quantity(collision.until, 's')}"
+        on = "" if ends_early(collision) else "on "
+        return f"certain {certain}, followed {on}to {quantity(collision.until, 's')}"
     return f"integration stopped there, {quantity(collision.until, 's')} after initial contact"
 
 
 def is_followed_on(collision: Outcome) -> bool:
-    """Whether a stick was integrated on after it was certain."""
+    """Whether a stick was integrated to another time than that at which it was certain."""
     return collision.until is not None and collision.decided != collision.until
+
+
+def ends_early(collision: Outcome) -> bool:
+    """Whether the integration of a stick was to end before it was certain."""
+    return collision.until is not None and collision.decided is not None and collision.until < collision.decided
 
 
 def _is_cut_off(collision: Outcome) -> bool:
@@ -137,6 +143,8 @@ def _last(collision: Outcome) -> str:
 def _stuck(collision: Outcome) -> str:
     """Why a collision counts as a stick: a cut-off, a proof, or a decision without proof."""
     last, scene = _last(collision), collision.scene
+    if ends_early(collision):
+        return "it is certain later than the integration was to end"
     if _is_cut_off(collision):
         declared = _declared(collision)
         why = f"{declared.word}, {declared.meaning}" if declared is not None else CUT_OFFS[last]

@@ -1,6 +1,6 @@
-"""`compile_kernels`: the Taylor kernels of scenes, compiled before they are needed."""
+"""What the Taylor kernels of scenes answer, and `compile_kernels`, which compiles them before they are needed."""
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
@@ -12,9 +12,8 @@ from ..host.user_cache import folder, why_unwritable
 from ..scene.scene import Scene
 from .settings import RTOL, check_rtol
 from .taylor.build import compile_all, is_compiled, kernel_supports, size_of
-from .taylor.call import variant_for_many
+from .taylor.call import variant
 from .taylor.orders import order_backward, order_for
-from .taylor.record import variant_to_record
 from .taylor.source import Variant
 from .taylor.tangent import variant_of
 from .taylor.undecided import no_kernel
@@ -90,8 +89,8 @@ def compile_kernels(
                 raise no_kernel()
             message = "a law of this scene has no Taylor series"
             raise ComputationError(f"{scene.name or 'scene'}: {message}")
-        for use, oblique, variant in needed(scene, tolerances, derivatives):
-            serves = wanted.setdefault(variant, (scene, oblique, []))[2]
+        for use, oblique, kernel in needed(scene, tolerances, derivatives):
+            serves = wanted.setdefault(kernel, (scene, oblique, []))[2]
             if use not in serves:
                 serves.append(use)
     already = {variant for variant in wanted if is_compiled(variant)}
@@ -114,16 +113,21 @@ def compile_kernels(
     )  # fmt: skip
 
 
+def differentiates(scene: Scene, oblique: Collection[bool] = (True, False)) -> bool:
+    """True if the kernel differentiates a scene's collisions: oblique ones, head-on ones or both."""
+    return kernel_supports(scene, oblique, gradients=True)
+
+
 def needed(scene: Scene, tolerances: Sequence[float], derivatives: bool) -> Iterator[tuple[str, bool, Variant]]:
     """Use, obliquity and variant of each kernel; some uses share one."""
     for rtol in tolerances:
         for oblique in (True, False):
-            yield "collide", oblique, variant_to_record(scene, oblique, rtol, ledger=True)
-            yield "collide with its trajectory", oblique, variant_to_record(scene, oblique, rtol, True, trajectory=True)
-            yield "collide without ledger", oblique, variant_to_record(scene, oblique, rtol, ledger=False)
-            yield "collide_many", oblique, variant_for_many(scene, oblique, rtol, rotation=False)
-            yield "map", oblique, variant_for_many(scene, oblique, rtol, rotation=True)
-            yield "boundary", oblique, variant_to_record(scene, oblique, RTOL, False, trajectory=True, fold=False)
+            yield "collide", oblique, variant(scene, oblique, rtol, ledger=True)
+            yield "collide with its trajectory", oblique, variant(scene, oblique, rtol, ledger=True, trajectory=True)
+            yield "collide without ledger", oblique, variant(scene, oblique, rtol)
+            yield "collide_many", oblique, variant(scene, oblique, rtol, rotation=False)
+            yield "map", oblique, variant(scene, oblique, rtol)
+            yield "boundary", oblique, variant(scene, oblique, RTOL, trajectory=True, fold=False)
             if derivatives:
                 for rotation in (False, True):
                     yield "sensitivities", oblique, variant_of(scene, oblique, order_for(rtol), rotation)

@@ -12,8 +12,7 @@ from scipy.special import log_ndtr, ndtri
 
 from ..changes.brackets import Changes, locate
 from ..changes.experiment import Experiment
-from ..changes.lines import Lines
-from ..changes.slopes import outcomes_along, slopes
+from ..changes.slopes import Lines, outcomes_along, slopes
 from .measurements import Measurements
 from .scatter import REACH, Resolution, ScatterLines
 

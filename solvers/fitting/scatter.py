@@ -17,8 +17,7 @@ from scipy.special import ndtr
 
 from ..changes.brackets import Brackets, Changes, locate
 from ..changes.experiment import Experiment
-from ..changes.lines import Lines
-from ..changes.slopes import normals, outcomes_along, slopes
+from ..changes.slopes import Lines, normals, outcomes_along, slopes
 from ..engines.settings import KERNEL_STEPS
 from .measurements import Measurements
 

@@ -37,8 +37,7 @@ from ..host.progress import Progress
 from ..host.remarks import say, silence_workers
 from ..host.workers import undisturbed
 from .compute import complete
-from .impacts import Impacts, Place
-from .results import Block, empty, fill
+from .impacts import Block, Impacts, Place, empty, fill
 
 if TYPE_CHECKING:
     import xarray

@@ -1,6 +1,6 @@
 """A batch of collisions by the Taylor kernel: columns of SI quantities in, columns of results out."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from functools import lru_cache
 
 import numpy as np
@@ -10,18 +10,15 @@ from ...generated.automaton import KINDS, LAST_ANSWER
 from ..collision.outcome import absent_terms, open_beyond
 from ..engines.taylor import call
 from ..engines.taylor.call import run_kernel
-from ..engines.taylor.layout import result
-from ..engines.taylor.record import run_with_books
+from ..engines.taylor.layout import OWN_LEDGER, result
 from ..model.model import load, select_model
 from ..results import DEFINITIONS, LEDGER, NONE, RATES, REVERSALS, TERMS
 from ..scene.contact import AT_ANY_SPEED, gap_at_any_speed, never_touching
 from ..scene.entry_rules import FARTHEST
-from ..scene.groups import formulas, rate_scales, si_values
+from ..scene.groups import formulas
 from ..scene.quantities import NO_GLASS
 from ..scene.scene import Scene
-from .columns import varied_columns
-from .impacts import Impacts
-from .results import Block
+from .impacts import Block, Impacts
 
 _STRETCH = 65536  # collisions in one call of the kernel, so that progress is reported and memory stays bounded
 _MOST = 1e30  # largest magnitude of an SI quantity; its inverse is the smallest
@@ -46,21 +43,19 @@ def collide_by_kernel(
         part = which[first : first + _STRETCH]
         whole = part.size == request.size and bool((part == np.arange(part.size)).all())
         impacts, sound = impacts_of(request if whole else request.part(part))
-        if ledger:
-            answers, books = run_with_books(impacts, request.rtol, threads)
-        else:
-            answers, books = run_kernel(impacts, request.rtol, "rotation" in request.of, threads, jumps=jumps), None
+        books = np.zeros(impacts.size, OWN_LEDGER) if ledger else None
+        answers = run_kernel(impacts, request.rtol, "rotation" in request.of, threads, jumps=jumps, ledgers=books)
         decided = answers["status"] <= LAST_ANSWER
         if books is not None:  # where the ledger is open the trajectory is wrong
             decided &= _closed(answers, books, request.rtol)
         if part.size == decided.size and decided.all():  # the usual case; avoids copies
-            finished(part, block_of(request, answers, impacts, books))
+            finished(part, block_of(request.of, answers, impacts, books))
             continue
         done = sound.copy()
         done[sound] = decided
         finished(
             part[done],
-            block_of(request, answers[decided], impacts.part(decided), None if books is None else books[decided]),
+            block_of(request.of, answers[decided], impacts.part(decided), None if books is None else books[decided]),
         )
         incomplete.append(part[~done])
     return np.concatenate(incomplete)
@@ -72,7 +67,7 @@ def impacts_of(request: Impacts) -> tuple[call.Impacts, np.ndarray]:
     values: dict[str, np.ndarray] = {}
     with np.errstate(all="ignore"):  # overflow and NaN are excluded by the mask
         if request.vary:
-            values = varied_columns(request)
+            values = request.quantities
             sound = admissible(scene, values)
             unit = scaling.stokes(values["reduced_radius"], values["reduced_mass"], values["viscosity"], 1.0)
             for name, column in values.items():  # a column of one number, repeated, has no stride
@@ -120,7 +115,7 @@ def admissible(scene: Scene, values: Mapping[str, np.ndarray]) -> np.ndarray:
     return sound
 
 
-def block_of(request: Impacts, answers: np.ndarray, impacts: call.Impacts, books: np.ndarray | None) -> Block:
+def block_of(of: Sequence[str], answers: np.ndarray, impacts: call.Impacts, books: np.ndarray | None = None) -> Block:
     """Kernel records as the requested columns of a result."""
     separated = answers["outcome"] > 0
     exists = {
@@ -135,10 +130,10 @@ def block_of(request: Impacts, answers: np.ndarray, impacts: call.Impacts, books
         "certified": answers["certified"] != 0,
         "restitution": np.where(separated, answers["shown"][:, 0], 0.0),
     }
-    length = impacts.others.get("film_thickness", request.scene.liquid.film_thickness)
-    rates = rates_of(request.scene, answers, impacts) if any(name in RATES for name in request.of) else {}
-    terms = {} if books is None else _ledger(request, books, impacts)
-    for name in request.of:
+    length = impacts.others.get("film_thickness", impacts.scene.liquid.film_thickness)
+    rates = rates_of(answers, impacts) if any(name in RATES for name in of) else {}
+    terms = {} if books is None else _ledger(books, impacts)
+    for name in of:
         row = DEFINITIONS.get(name)
         if name in terms:
             block[name] = terms[name]
@@ -152,10 +147,9 @@ def block_of(request: Impacts, answers: np.ndarray, impacts: call.Impacts, books
     return block
 
 
-def rates_of(scene: Scene, answers: np.ndarray, impacts: call.Impacts) -> Block:
+def rates_of(answers: np.ndarray, impacts: call.Impacts) -> Block:
     """Spins and rotation rate at separation, rad/s; 0 head-on."""
-    values = si_values(scene, None, None) | dict(impacts.others) | {"speed": impacts.speed, "angle": impacts.angle}
-    unit = rate_scales(scene, values)
+    scene, unit = impacts.scene, impacts.rates
     rates = {name: result(answers, name) * unit for name in RATES}
     if "final_spin_partner" not in load(select_model(scene, True, fold=not impacts.others)).names("outputs"):
         none = np.full(unit.size, np.nan)
@@ -163,9 +157,9 @@ def rates_of(scene: Scene, answers: np.ndarray, impacts: call.Impacts) -> Block:
     return rates
 
 
-def _ledger(request: Impacts, books: np.ndarray, impacts: call.Impacts) -> Block:
+def _ledger(books: np.ndarray, impacts: call.Impacts) -> Block:
     """The ledger in J, and the drift of the angular momentum; NaN where the scene has no such term."""
-    scene, others = request.scene, impacts.others
+    scene, others = impacts.scene, impacts.others
     unit = np.asarray(others.get("reduced_mass", scene.reduced_mass)) * impacts.speed**2
     terms = {name: books[column] * unit for name, column in TERMS.items()}
     terms |= {name: np.full(books.size, 0.0 if name == "strings" else np.nan) for name in absent_terms(scene)}

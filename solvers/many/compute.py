@@ -4,20 +4,23 @@ The Taylor kernel computes them in blocks. Those of other engines go in blocks t
 it does not complete, for their reasons. A collision that fails is marked and the rest go on.
 """
 
+import math
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 
+from ...generated.automaton import OUTCOMES
+from ..collision.collide import integrated
 from ..engines.settings import FEW
-from ..errors import InputError
+from ..errors import InputError, WetDoubletError
 from ..host.cores import usable_cores
 from ..host.workers import in_workers
-from ..results import FAILED, VALIDITY
-from .alone import run
+from ..model.dimensionless import nondimensionalise
+from ..model.validity import flags
+from ..results import FAILED, INTEGRATED, LEDGER, NONE, OF_IMPACT, REVERSALS, VALIDITY
 from .by_kernel import collide_by_kernel
-from .columns import impact_columns, validity
-from .impacts import Impacts
-from .results import Block, empty, fill
+from .impacts import Block, Impacts, empty, fill
 
 _BLOCK = 50  # collisions in a block for a worker
 _SLOW = 20  # as `FEW`, for collisions that the kernel did not complete; they take up to seconds each
@@ -71,3 +74,54 @@ def _compute(request: Impacts, which: np.ndarray, finished: Finished, cores: int
         return
     for block, result in in_workers(cores, run, ((block, (request.part(block),)) for block in blocks)):
         finished(block, result)
+
+
+def run(request: Impacts) -> Block:
+    """Compute the collisions of a batch one after another."""
+    block = empty(request.size, request.of)
+    for k in range(request.size):
+        try:
+            values = _results(request, k)
+        except WetDoubletError as error:
+            values = {"outcome": FAILED, "reason": str(error)}
+        except Exception as error:  # noqa: BLE001 # a defect of ours spoils one collision, not the others
+            reason = " ".join(f"internal error: {type(error).__name__}: {error}".split())
+            values = {"outcome": FAILED, "reason": reason}
+        for name, value in values.items():
+            block[name][k] = value
+    return block
+
+
+def _results(request: Impacts, k: int) -> dict[str, Any]:
+    ledger = any(name in LEDGER for name in request.of)
+    result = integrated(nondimensionalise(*request.impact(k)), request.rtol, request.engine, ledger, False)
+    values: dict[str, Any] = {"outcome": OUTCOMES.index(result.outcome), "certified": result.certified}
+    for name in ("restitution", *(name for name in request.of if name in INTEGRATED)):
+        table, _, term = name.rpartition(".")
+        value = getattr(getattr(result, table) if table else result, term)
+        if name == "reversal":
+            values[name] = NONE if value is None else REVERSALS.index(value)
+        else:
+            values[name] = math.nan if value is None else value
+    return values
+
+
+def impact_columns(request: Impacts) -> Block:
+    """Columns of `OF_IMPACT`; NaN where a scene has no such number, or where its collision is impossible."""
+    columns = {name: np.full(request.size, np.nan) for name in OF_IMPACT if name in request.of}
+    for k in range(request.size if columns else 0):
+        try:
+            scene, speed, angle = request.impact(k)
+            n = nondimensionalise(scene, speed, angle)
+        except WetDoubletError:  # the collision is marked as failed
+            continue
+        for name, column in columns.items():
+            value = getattr(n, name)
+            column[k] = np.nan if value is None else value
+    return columns
+
+
+def validity(request: Impacts, results: Block) -> np.ndarray:
+    """Bits for the limits of the model that each collision passes; 0 for one that failed."""
+    passed = flags(request.scene, request.all_quantities | results, request.size)
+    return np.where(results["outcome"] == FAILED, np.int16(0), passed)

@@ -14,21 +14,20 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...generated import scaling
-from ..engines.settings import check_engine, check_rtol
 from ..errors import InputError
 from ..formatting.labelled import Column, labelled
 from ..host.pictures import register
 from ..model.validity import flag_attributes, warn
-from ..results import FAILED, REQUESTED, VALIDITY, attributes, outcome_attributes
-from ..scene.quantities import normal_speed
+from ..results import ALWAYS, FAILED, NONE, REQUESTED, VALIDITY, attributes, outcome_attributes
+from ..scene.quantities import normal_speed, quantities
 from ..scene.scene import Scene
 from ..scene.schema import LEAST_ANGLE, MEETING
-from .arguments import check_outputs, checked_columns, first_accepted, of_one_length
-from .results import Block
+from .arguments import first_accepted, of_one_length
 
 if TYPE_CHECKING:
     import xarray
 
+Block = dict[str, np.ndarray]  # columns of results, by name
 Dims = tuple[Hashable, ...]
 Place = tuple[slice, ...]
 LISTED: Dims = ("collision",)
@@ -56,13 +55,10 @@ class Impacts:
     beside: xarray.Dataset | None = None
 
     @classmethod
-    def listed(
-        cls, scene: Scene, columns: Mapping[str, np.ndarray], rtol: float, engine: str, of: tuple[str, ...] = ()
-    ) -> Impacts:
+    def listed(cls, scene: Scene, columns: Mapping[str, np.ndarray], rtol: float) -> Impacts:
         """Impacts in one dimension, from columns of one length."""
         size = next(iter(columns.values())).size
-        along = {name: (LISTED, values) for name, values in columns.items()}
-        return cls(scene, along, LISTED, (size,), rtol, engine, of)
+        return cls(scene, {name: (LISTED, values) for name, values in columns.items()}, LISTED, (size,), rtol, "taylor")
 
     @property
     def size(self) -> int:
@@ -111,6 +107,23 @@ class Impacts:
         """Entries that are choices; the impacts are split by them before they are computed (`by_text`)."""
         return self._entries(numbers=False)
 
+    @property
+    def quantities(self) -> dict[str, np.ndarray]:
+        """Quantities by vocabulary name, SI, one value for each impact; without speed and angle."""
+        entries: dict[str, Any] = {name: value for name, value in self.scene.si if name not in MEETING}
+        values = quantities(entries | dict(self.vary), self.scene.ways)
+        return {name: np.broadcast_to(np.asarray(value, dtype=float), self.size) for name, value in values.items()}
+
+    @property
+    def all_quantities(self) -> dict[str, Any]:
+        """Quantities with speed, Stokes number and angle, which are arrays; others only if entries vary."""
+        values: dict[str, Any] = self.quantities if self.vary else dict(self.scene.material)
+        with np.errstate(all="ignore"):
+            per_speed = scaling.stokes(values["reduced_radius"], values["reduced_mass"], values["viscosity"], 1.0)
+            speed = np.asarray(self.stokes) / per_speed if self.speed is None else self.speed
+            stokes = speed * per_speed if self.stokes is None else self.stokes
+        return values | {"speed": speed, "stokes": stokes, "angle": self.angle}
+
     def scene_of(self, k: int) -> Scene:
         """The scene of impact k; InputError if the varied entries make it impossible."""
         if not self.vary:
@@ -152,11 +165,6 @@ class Impacts:
                 numbers = {name: column for name, column in part.columns.items() if name not in self.texts}
                 yield which, replace(part, scene=scene, columns=numbers)
 
-    def check_possible(self) -> None:
-        """InputError if the varied entries make every collision impossible; single ones are marked later."""
-        if self.vary and self.size:
-            first_accepted(partial(self.scene_of, k) for k in range(self.size))
-
     def check(self) -> None:
         """Raise InputError if the entries that vary make every scene impossible.
 
@@ -173,7 +181,8 @@ class Impacts:
             try:
                 if isinstance(part, InputError):
                     raise part
-                part.check_possible()
+                if part.vary and part.size:
+                    first_accepted(partial(part.scene_of, k) for k in range(part.size))
                 possible = True
                 warn(part.scene)
             except InputError as error:
@@ -240,14 +249,12 @@ class Impacts:
         }
         return {
             "scene": self.scene.si,
-            "volume": self.scene.ways.volume,
             "columns": columns,
             "shape": self.shape,
             "rtol": self.rtol,
             "engine": self.engine,
             "of": sorted(set(self.of)),
-            **software(),
-            "model": self.scene.package and self.scene.package.digest,
+            **software(self.scene),
         }
 
 
@@ -256,31 +263,31 @@ def _varied(scene: Scene, entries: tuple[tuple[str, float], ...]) -> Scene:
     return scene.with_si(dict(entries))
 
 
-def listed(
-    scene: Scene | str | Path,
-    impact: Mapping[str, Any],
-    vary: Mapping[str, Any],
-    rtol: float,
-    engine: str | None,
-    of: Sequence[str],
-) -> Impacts:
-    """Validated impacts in one dimension, of 1-D arrays broadcast to one length.
-
-    Arguments:
-        impact: `stokes`, `speed`, `relative_speed` and `angle`; None for the scene's.
-    """
-    names = check_outputs(of)
-    loaded, columns, _ = checked_columns(scene, impact, vary)
-    chosen = check_engine(engine) or "taylor"
-    impacts = Impacts.listed(loaded, of_one_length(columns), check_rtol(rtol), chosen, names)
-    impacts.check_possible()
-    return impacts
+def empty(size: int, of: Sequence[str]) -> Block:
+    """All columns of a result before anything is computed: outcome -2, reasons empty."""
+    columns: Block = {"outcome": np.full(size, -2, np.int8), "certified": np.zeros(size, bool)}
+    columns["reason"] = np.full(size, "", object)
+    for name in dict.fromkeys(("restitution", *of)):
+        if name == "reversal":
+            columns[name] = np.full(size, NONE, np.int8)
+        elif name == VALIDITY:
+            columns[name] = np.zeros(size, np.int16)
+        elif name not in ALWAYS:
+            columns[name] = np.full(size, np.nan)
+    return columns
 
 
-def software() -> dict[str, str]:
-    """Version and equations, for the identity of a request."""
+def fill(results: Block, where: np.ndarray, block: Block) -> None:
+    """Copy a finished block into the result columns."""
+    for name, values in block.items():
+        results[name][where] = values
+
+
+def software(scene: Scene) -> dict[str, Any]:
+    """Version, equations, and how a scene's entries are read, for the identity of a request."""
     manifest = Path(scaling.__file__).with_name("manifest.json").read_text()
-    return {"version": version("wetdoublet"), "equations": manifest}
+    reads = {"volume": scene.ways.volume, "model": scene.package and scene.package.digest}
+    return {"version": version("wetdoublet"), "equations": manifest, **reads}
 
 
 def _digest(values: np.ndarray) -> str:

@@ -26,7 +26,6 @@ from ..scene.schema import MEETING, SPEEDS
 from ..scene.user_model import Package
 from .arguments import check_outputs, checked_columns
 from .blocks import check_scheduler, check_store, into_memory, into_store
-from .columns import quantities_and_impacts
 from .impacts import Impacts
 
 if TYPE_CHECKING:
@@ -64,7 +63,7 @@ class Grid(Impacts):
         for dim, (name, (_, axis)) in zip(dims, self.columns.items(), strict=True):
             unit = {"units": self.scene.fields[name].unit or "1", "long_name": name.replace(".", ", ", 1)}
             coordinates[dim] = (dim,), axis, attributes(dim) if dim in IMPACT else unit
-        values = quantities_and_impacts(self)
+        values = self.all_quantities
         for name in ("speed", "stokes"):
             column = np.reshape(values[name], self.shape)
             if dims[1] == "relative_speed":

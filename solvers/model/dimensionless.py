@@ -1,16 +1,16 @@
 """Dimensionless groups of a collision, the scales for conversion to SI, and the generalised centrifugal number."""
 
-import math
-from collections.abc import Mapping
+from __future__ import annotations
+
 from dataclasses import dataclass
 from functools import cached_property
+from pathlib import Path
 
 import numpy as np
 
 from ...generated import scaling
-from ..errors import ComputationError, InputError
-from ..scene.contact import GAPS
-from ..scene.groups import Formula, formulas, si_values
+from ..errors import ComputationError
+from ..scene.groups import groups_and_scales
 from ..scene.scene import Scene
 from .key import ModelKey
 from .model import Model, load, select_model
@@ -37,6 +37,19 @@ class Problem:
     centrifugal: float | None
     capillary: float | None
     reynolds: float | None
+
+    @classmethod
+    def read(
+        cls,
+        scene: Scene | str | Path,
+        stokes: float | str | None = None,
+        speed: float | str | None = None,
+        angle: float | str | None = None,
+        relative_speed: float | str | None = None,
+    ) -> Problem:
+        """The collision of a scene, a file or a preset, with another impact where one is given."""
+        loaded = Scene.load(scene).with_impact(stokes, speed, angle, relative_speed)
+        return nondimensionalise(loaded, *loaded.need_impact())
 
     @cached_property
     def oblique(self) -> bool:
@@ -92,76 +105,23 @@ class Problem:
         return ComputationError(error.message, error.phase, time, shown, error.advice)
 
 
-def _as_given(scene: Scene, speed: float, stokes: float) -> float:
-    """The impact's Stokes number if given, which avoids the rounding of a conversion by the speed."""
-    entry = scene.impact.stokes
-    return entry if entry is not None and scene.speed_of(entry) == speed else stokes
-
-
-_ENTRIES = {"speed": "impact.speed", "impact_spin": "impact.spin", "impact_partner_spin": "impact.partner_spin"}
-# Ranges of groups and scales in which products and quotients of several stay within a double's range. Divisors have a
-# lower limit.
-_RANGES = (
-    dict.fromkeys(("adhesion", "weight", "obliquity"), (0.0, 1e100))
-    | dict.fromkeys(("stokes", "aspect", "capillary", "string_ratio", "rupture_gap"), (1e-100, 1e100))
-    | dict.fromkeys(("time", "energy"), (1e-300, 1e300))
-)
-_SCALES: dict[str, Formula] = {
-    "time": (lambda film_thickness, speed: film_thickness / speed, ("film_thickness", "speed")),
-    "energy": (lambda mass, speed: mass * speed * speed, ("reduced_mass", "speed")),
-}
-
-
-def _finite(name: str, formula: Formula, values: Mapping[str, float]) -> float:
-    """A group or scale by its formula; InputError outside its range in `_RANGES`."""
-    function, arguments = formula
-    inputs = [values[argument] for argument in arguments]
-    try:
-        value = float(function(*inputs))
-    except (OverflowError, ZeroDivisionError):
-        value = math.inf
-    least, most = _RANGES.get(name, (0.0, math.inf))
-    if least <= abs(value) <= most and math.isfinite(value):
-        return value
-    numbers = dict(zip(arguments, inputs, strict=True))
-    spins = [spin for spin in ("impact_spin", "impact_partner_spin") if numbers.get(spin)]
-    quantity = spins[0] if spins else "speed" if "speed" in arguments else arguments[0]
-    entry, shown = _ENTRIES.get(quantity, quantity), numbers[quantity]
-    kind = "scale" if name in _SCALES else "number"
-    span = "within a double's range" if most == math.inf else f"from {least:g} to {most:g}"
-    raise InputError(entry, shown, f"quantities whose {name.replace('_', ' ')} {kind} is {span}", "is too far off")
-
-
 def nondimensionalise(scene: Scene, speed: float, angle: float) -> Problem:
     """A scene's collision at normal speed `speed` (m/s) and `angle` (rad).
 
     A group exists if the scene has all its quantities; without an elastic criterion elastic_gap is 0.
     """
-    values = dict(si_values(scene, speed, angle))
-    plain = (
-        "dry_restitution", "friction", "contact_tangential_restitution", "volume", "contact_angle", "radius_ratio",
-        "mass_ratio",
-    )  # fmt: skip
-    groups: dict[str, float] = {name: values[name] for name in plain if name in values}
-    if scene.package is not None:
-        scene.package.demand(scene.entries)
-        groups |= {name: values[name] for name in scene.package.plain}
-    groups |= dict.fromkeys(GAPS.values(), 0.0)
-    for name, formula in formulas(scene).items():
-        if all(map(values.__contains__, formula[1])):
-            groups[name] = values[name] = _finite(name, formula, values)
-    x0 = scene.liquid.film_thickness
-    scales = {name: _finite(name, formula, values) for name, formula in _SCALES.items()}
+    groups, scales = groups_and_scales(scene, speed, angle)
+    given = scene.impact.stokes  # it has no rounding of a conversion by the speed
     return Problem(
         scene=scene,
         groups=groups,
         angle=angle,
         speed=speed,
-        length=x0,
+        length=scene.liquid.film_thickness,
         time=scales["time"],
         rate=groups["rate_scale"],
         energy=scales["energy"],
-        stokes=_as_given(scene, speed, groups["stokes"]),
+        stokes=given if given is not None and scene.speed_of(given) == speed else groups["stokes"],
         centrifugal=groups.get("centrifugal"),
         capillary=groups.get("capillary"),
         reynolds=groups.get("reynolds"),

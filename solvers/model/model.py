@@ -199,11 +199,6 @@ class Model:
         }
         return Laws(**laws)
 
-    @cached_property
-    def marks(self) -> tuple[int, ...]:
-        """Places of the marks of declared events in the state."""
-        return tuple(list(self.state).index(each.mark) for each in self.own_events)
-
     @property
     def escape(self) -> str:
         """Name of the function with the energies that can separate the pair."""

@@ -11,7 +11,6 @@ from casadi import SX, Function, cross, densify, fabs, fmin, horzcat, if_else, j
 from ...generated.automaton import CLOSING, EVENTS, VOID_WITHOUT
 from ...generated.automaton import Event as Row
 from ..host.thread_caches import own_cache
-from ..scene.user_model import OwnEvent
 from .key import ModelKey
 from .model import Model, load
 
@@ -23,7 +22,7 @@ class Phase:
     Arguments:
         film: 1 inside the film (gap < x0), else 0.
         shear: 1 inside the edge of the tangential force, else 0.
-        motion: CLOSING or OPENING.
+        motion: CLOSING or OPENING; 0 of a region, which has both.
         resting: the spheres stay in contact at a constant gap.
         cavitated: inside the film, which does not act because it cavitates on opening.
         sliding: with friction, the sign of the slip in resting contact; 0 otherwise.
@@ -45,25 +44,10 @@ class Phase:
             return "resting contact"
         return f"{'closing' if self.motion == CLOSING else 'opening'} {'inside' if self.film else 'beyond'} the film"
 
-    def with_(self, **changes: int | bool | tuple[int, ...]) -> Phase:
-        return replace(self, **changes)  # type: ignore[arg-type]  # fields by keyword
-
     @property
-    def region(self) -> Region:
-        return Region(self.film, self.shear, self.resting, self.cavitated, self.sliding, self.rolling, self.sides)
-
-
-@dataclass(frozen=True)
-class Region:
-    """The part of a phase that determines the equations, which both directions of motion share."""
-
-    film: int
-    shear: int
-    resting: bool
-    cavitated: bool = False
-    sliding: int = 0
-    rolling: bool = False
-    sides: tuple[int, ...] = ()
+    def region(self) -> Phase:
+        """What determines the equations, which both directions of motion share: the phase without one."""
+        return replace(self, motion=0)
 
     @property
     def flags(self) -> dict[str, int]:
@@ -82,11 +66,15 @@ class Flow:
 
     Extras: `rotation` (the angle turned), and the ledger's `normal_lubrication`, `tangential_lubrication`, `capillary`,
     `attraction`, in the units of `extra_units`.
+
+    Arguments:
+        edge_watched: the tangential force ends within the range of gaps, elsewhere than the film.
     """
 
     choice: ModelKey
-    region: Region
+    region: Phase
     extras: tuple[str, ...] = ()
+    edge_watched: bool = False
 
     @property
     def model(self) -> Model:
@@ -98,7 +86,6 @@ class Expressions:
     """A flow as CasADi expressions: vector of variables and vector of rates."""
 
     variables: SX
-    extras: dict[str, SX]
     rates: SX
 
 
@@ -124,10 +111,9 @@ def expressions(flow: Flow) -> Expressions:
             extra_rates |= model("turning_rate", state)
     if model.space and "rotation" in flow.extras:
         rates, extra_rates["rotation"] = _precessing(model, state, rates)
-    extras, units = {name: SX.sym(name) for name in flow.extras}, extra_units(model, flow.extras, model.parameters)
+    units = extra_units(model, flow.extras, model.parameters)
     return Expressions(
-        variables=vertcat(model.column, *extras.values()),
-        extras=extras,
+        variables=vertcat(model.column, *map(SX.sym, flow.extras)),
         rates=densify(
             vertcat(
                 *(SX(rate) for rate in rates.values()),
@@ -167,56 +153,36 @@ def _precessing(model: Model, state: dict[str, SX], rates: dict[str, SX]) -> tup
     return result, turning
 
 
-@dataclass(frozen=True)
-class Event:
-    """A guard function, positive before the event; `dips` if it may become negative and return within a step."""
+def event_table(flow: Flow, motion: SX) -> dict[str, SX]:
+    """Guards of the events of a region by name, positive before, for either direction of motion (CLOSING or OPENING).
 
-    name: str
-    function: SX
-    dips: bool = False
-
-
-@dataclass(frozen=True)
-class WatchedEvents:
-    """Options of an event table besides the flow.
-
-    Arguments:
-        tangential_edge: the edge of the tangential force is within the range of gaps and differs from the film's.
-    """
-
-    tangential_edge: bool = False
-
-
-def event_table(flow: Flow, watch: WatchedEvents, motion: SX) -> tuple[Event, ...]:
-    """The events of a region, for either direction of motion (`motion` is CLOSING or OPENING).
-
-    The order is the precedence among coincident events.
+    The order is the precedence among coincident events. A declared event happens once.
     """
     model, region = flow.model, flow.region
     guards = model("events", region=region.flags if model.friction else None)
-    table = [
-        Event(row.name, _guard(row, guards, region, motion), row.dips)
+    table = {
+        row.name: _guard(row, guards, region, motion)
         for row in EVENTS
         if all(name in guards for name in row.functions)
-        and (watch.tangential_edge or not row.within_reach)
+        and (flow.edge_watched or not row.within_reach)
         and (region.shear or model.strings or not row.driven)
         and all(
             getattr(region, part) == value
             for part, value in row.where
             if part != "motion" and VOID_WITHOUT.get(part, "turning") in guards
         )
-    ]
-    table += [
-        _own(each, guards[each.name], model, region, motion)
+    }
+    table |= {
+        each.name: if_else(model.state[each.mark] > 0.5, _guard(each.row, guards, region, motion), 1)
         for each in model.own_events
         if all(getattr(region, part) == value for part, value in each.row.where if part != "motion")
-    ]
+    }
     if not region.resting:
-        table += [Event(name, side * model.kinks[name], True) for name, side in zip(model.kinks, region.sides)]
-    return tuple(table)
+        table |= {name: side * model.kinks[name] for name, side in zip(model.kinks, region.sides)}
+    return table
 
 
-def _guard(row: Row, guards: dict[str, SX], region: Region, motion: SX) -> SX:
+def _guard(row: Row, guards: dict[str, SX], region: Phase, motion: SX) -> SX:
     """The guard function of an event; constant 1 in a direction of motion in which it cannot occur."""
     value = guards[row.functions[0]]
     for name in row.functions[1:]:
@@ -227,12 +193,6 @@ def _guard(row: Row, guards: dict[str, SX], region: Region, motion: SX) -> SX:
         value = value * (getattr(region, row.follows) or -1)
     directions = [wanted for part, wanted in row.where if part == "motion"]
     return if_else(motion == directions[0], value, 1) if directions else value
-
-
-def _own(each: OwnEvent, guard: SX, model: Model, region: Region, motion: SX) -> Event:
-    """A declared event, which happens once."""
-    value = _guard(each.row, {each.name: guard}, region, motion)
-    return Event(each.name, if_else(model.state[each.mark] > 0.5, value, 1), each.row.dips)
 
 
 @own_cache(256)

@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from ...generated.automaton import BOUNCE, OUTCOMES, STICK
+from ...generated.automaton import BOUNCE, OUTCOMES
 from ..errors import ModelWarning
 from ..scene.contact import GAPS, NEVER_MET
 from ..scene.groups import formulas, law_module, si_values
@@ -244,25 +244,8 @@ NEEDS = ("restitution", "tangential_restitution", "rotation", "smallest_gap")
 """Results that the limits ask for, beside the outcome."""
 
 
-def sentences(scene: Scene, speed: float, angle: float, outcome: str, results: Mapping[str, float | None]) -> list[str]:
-    """What of a collision lies outside the model's range, a sentence each; empty where nothing does.
-
-    Arguments:
-        speed, angle: of the impact, SI.
-        results: those of `NEEDS`, SI; None where undefined.
-    """
-    known = {name: math.nan if results[name] is None or outcome == STICK else results[name] for name in NEEDS}
-    values = si_values(scene, speed, angle) | known | {"outcome": OUTCOMES.index(outcome)}
-    result = []
-    for limit in LIMITS:
-        number = float(limit.number(scene, values))
-        if limit.exceeded(number):
-            result.append(limit.says(number))
-    return [*result, *remarks(scene)]
-
-
-def sentences_of_many(scene: Scene, values: Values) -> list[str]:
-    """What of any of many collisions lies outside the model's range, as `sentences`, with the number farthest outside.
+def sentences(scene: Scene, values: Values) -> list[str]:
+    """What of any of some collisions lies outside the model's range, a sentence each with the number farthest outside.
 
     Arguments:
         values: as for `flags`.

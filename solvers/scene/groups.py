@@ -9,7 +9,9 @@ from typing import Any
 import numpy as np
 
 from ...generated import scaling
+from ..errors import InputError
 from ..host import emitted
+from .contact import GAPS
 from .quantities import Ways, normal_speed, over_equal, quantities
 from .schema import MEETING, Field, Raw
 from .tables import Attraction, Bridge, Impact, Liquid, Model, Particles, Partner, Pendulum
@@ -221,11 +223,11 @@ def sideways(scene: System, angle: np.ndarray, varied: Mapping[str, Any]) -> np.
     return moves
 
 
-def rate_scales(scene: System, quantities: Mapping[str, Any]) -> np.ndarray:
+def rate_scales(scene: System, quantities: Mapping[str, Any], space: bool = False) -> np.ndarray:
     """The scale of angular velocities of each collision, rad/s, from quantities by vocabulary name, SI."""
-    values = dict(quantities)
-    for name in ("obliquity", "rate_scale"):
-        formula, arguments = formulas(scene)[name]
+    values, planar = dict(quantities), formulas(scene)
+    for name, in_space in (("obliquity", "obliquity_space"), ("rate_scale", "rate_scale_pair")):
+        formula, arguments = (getattr(scaling, in_space), scaling.ARGUMENTS[in_space]) if space else planar[name]
         values[name] = np.asarray(formula(*(values[each] for each in arguments))).reshape(-1)  # of arrays a DM
     scales: np.ndarray = values["rate_scale"]
     return scales
@@ -233,9 +235,63 @@ def rate_scales(scene: System, quantities: Mapping[str, Any]) -> np.ndarray:
 
 def scaled(group: str, scene: System, speed: float | None = None) -> float:
     """Return a group by its emitted formula; inf where a double overflows."""
-    values = si_values(scene, speed, None)
-    formula, arguments = formulas(scene)[group]
+    return _value(formulas(scene)[group], si_values(scene, speed, None))
+
+
+def _value(formula: Formula, values: Mapping[str, float]) -> float:
+    function, arguments = formula
     try:
-        return float(formula(*(values[name] for name in arguments)))
+        return float(function(*(values[name] for name in arguments)))
     except (OverflowError, ZeroDivisionError):
         return math.inf
+
+
+_ENTRIES = {"speed": "impact.speed", "impact_spin": "impact.spin", "impact_partner_spin": "impact.partner_spin"}
+# Ranges of groups and scales in which products and quotients of several stay within a double's range. Divisors have a
+# lower limit.
+_RANGES = (
+    dict.fromkeys(("adhesion", "weight", "obliquity"), (0.0, 1e100))
+    | dict.fromkeys(("stokes", "aspect", "capillary", "string_ratio", "rupture_gap"), (1e-100, 1e100))
+    | dict.fromkeys(("time", "energy"), (1e-300, 1e300))
+)
+_SCALES: dict[str, Formula] = {
+    "time": (lambda film_thickness, speed: film_thickness / speed, ("film_thickness", "speed")),
+    "energy": (lambda mass, speed: mass * speed * speed, ("reduced_mass", "speed")),
+}
+
+
+def _finite(name: str, formula: Formula, values: Mapping[str, float]) -> float:
+    """A group or scale by its formula; InputError outside its range in `_RANGES`."""
+    value, arguments = _value(formula, values), formula[1]
+    least, most = _RANGES.get(name, (0.0, math.inf))
+    if least <= abs(value) <= most and math.isfinite(value):
+        return value
+    numbers = {argument: values[argument] for argument in arguments}
+    spins = [spin for spin in ("impact_spin", "impact_partner_spin") if numbers.get(spin)]
+    quantity = spins[0] if spins else "speed" if "speed" in arguments else arguments[0]
+    entry, shown = _ENTRIES.get(quantity, quantity), numbers[quantity]
+    kind = "scale" if name in _SCALES else "number"
+    span = "within a double's range" if most == math.inf else f"from {least:g} to {most:g}"
+    raise InputError(entry, shown, f"quantities whose {name.replace('_', ' ')} {kind} is {span}", "is too far off")
+
+
+def groups_and_scales(scene: System, speed: float, angle: float) -> tuple[dict[str, float], dict[str, float]]:
+    """The groups of a collision at a normal speed (m/s) and angle (rad), and the scales of time and energy, by name.
+
+    Raises:
+        InputError: one is outside its range in `_RANGES`, or a quantity of a user's model is missing.
+    """
+    values = dict(si_values(scene, speed, angle))
+    plain = (
+        "dry_restitution", "friction", "contact_tangential_restitution", "volume", "contact_angle", "radius_ratio",
+        "mass_ratio",
+    )  # fmt: skip
+    groups: dict[str, float] = {name: values[name] for name in plain if name in values}
+    if scene.package is not None:
+        scene.package.demand(scene.entries)
+        groups |= {name: values[name] for name in scene.package.plain}
+    groups |= dict.fromkeys(GAPS.values(), 0.0)
+    for name, formula in formulas(scene).items():
+        if all(map(values.__contains__, formula[1])):
+            groups[name] = values[name] = _finite(name, formula, values)
+    return groups, {name: _finite(name, formula, values) for name, formula in _SCALES.items()}

@@ -218,7 +218,8 @@ class Package:
         return bool({key.partition(".")[0] for key in self.manifest["extra"]} & set(slots))
 
     def law(self, slot: str, name: str) -> ModuleType:
-        return _module(self, self.law_file(slot, name))
+        file = self.law_file(slot, name)
+        return _module(self, file)
 
     def law_file(self, slot: str, name: str) -> str:
         """Path of one of the model's laws, relative to the folder."""

@@ -17,8 +17,7 @@ from ..boundaries.result import Boundaries
 from ..boundaries.scene_sampler import SceneSampler
 from ..changes.brackets import Brackets, enclose
 from ..changes.experiment import Rows
-from ..changes.lines import Lines
-from ..changes.slopes import normals, outcomes_along, slopes
+from ..changes.slopes import Lines, normals, outcomes_along, slopes
 from ..engines.settings import RTOL, check_rtol
 from ..errors import ComputationError, InputError
 from ..formatting.markdown import numbers_aligned

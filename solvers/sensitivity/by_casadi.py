@@ -12,7 +12,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property, partial
 
 import numpy as np
@@ -21,12 +21,12 @@ from casadi import DM, MX, Function, densify, fmin, jtimes, vertcat
 from ..collision.by_kernel import sequence_of
 from ..engines.casadi.integrators import IntegrationFailed, Tolerance, failures, landing, plain, quiet
 from ..engines.casadi.replay import Replay, Stopped, replayed
-from ..engines.casadi.sequence import EventSequence
+from ..engines.casadi.sequence import EventSequence, PhaseRun
 from ..errors import ComputationError
 from ..host.thread_caches import own_cache
 from ..model.key import ModelKey
 from ..model.model import Model, load, select_model
-from ..model.phases import Flow, Phase, WatchedEvents, extra_units
+from ..model.phases import Flow, extra_units
 from ..model.rebound import jump, rubs
 from ..results import DEFINITIONS
 from ..scene.contact import GAPS, contact_word
@@ -49,42 +49,30 @@ _TRIES = 8
 
 
 @dataclass(frozen=True)
-class Leg:
-    """What a collision does until its next event, and at it.
-
-    Arguments:
-        phase: that is integrated; None if the event happens where the last leg ended.
-        event: on which the phase lands; None if it just ends.
-        rebounds, rubs: at the end the doublet rebounds, with dry friction.
-        holds: the normal velocity is set to zero at the end.
-        declared: name of the declared event that happens at the end.
-    """
-
-    phase: Phase | None
-    event: str | None
-    rebounds: bool = False
-    rubs: bool = False
-    holds: bool = False
-    declared: str = ""
-
-
-@dataclass(frozen=True)
 class Course:
-    """A model and the legs of a collision: the key of its cached expression."""
+    """A model and the legs of a collision: the key of its cached expression.
+
+    A leg is a phase of the record, without its times and words, or its part up to a kink; its duration is 1, or 0 where
+    the event happens as the last leg ends.
+    """
 
     choice: ModelKey
     extras: tuple[str, ...]  # quadratures
-    legs: tuple[Leg, ...]
-    watch: WatchedEvents
+    legs: tuple[PhaseRun, ...]
+    edge_watched: bool
 
     @cached_property
     def model(self) -> Model:
         return load(self.choice)
 
     @property
-    def flows(self) -> tuple[Leg, ...]:
-        """The legs that are integrated; each has a duration."""
-        return tuple(leg for leg in self.legs if leg.phase is not None)
+    def durations(self) -> int:
+        """How many legs are integrated."""
+        return sum(leg.duration > 0 for leg in self.legs)
+
+    def rubs(self, leg: PhaseRun) -> bool:
+        """True if the doublet rebounds at the end of a leg with dry friction."""
+        return leg.rebounds and rubs(self.model, leg.kinds[0])
 
     def influences(self, groups: Mapping[str, float]) -> np.ndarray:
         """Mask of the groups that influence the course: not those of rebound criteria that it does not meet."""
@@ -94,7 +82,7 @@ class Course:
             "glass_number": "glass" not in landed,
             **{gap: gap != met for gap in GAPS.values()},
             "dry_restitution": not any(leg.rebounds for leg in self.legs),
-            **dict.fromkeys(("friction", "contact_tangential_restitution"), not any(leg.rubs for leg in self.legs)),
+            **dict.fromkeys(("friction", "contact_tangential_restitution"), not any(map(self.rubs, self.legs))),
         }
         return np.array([not absent.get(name, False) for name in self.model.groups])
 
@@ -103,22 +91,15 @@ def course_of(path: EventSequence, replay: Replay, choice: ModelKey) -> Course:
     """The course of a replay of a collision; phases are its pieces, which kinks of a law's force divide."""
     model, pieces, legs = load(choice), iter(replay.pieces), []
     for step in path.steps:
-        last = partial(
-            Leg,
-            rebounds=step.rebounds,
-            rubs=step.rebounds and rubs(model, step.kinds[0]),
-            holds=step.holds,
-            declared=step.own,
-        )
-        if not step.duration > 0:
-            legs.append(last(None, None))
-            continue
-        piece = next(pieces)
-        while piece.event in model.kinks:
-            legs.append(Leg(piece.phase, piece.event))
+        last = replace(step, duration=0.0, event=None, kinds=step.kinds[:1] if step.rebounds else ())
+        if step.duration > 0:
             piece = next(pieces)
-        legs.append(last(piece.phase, piece.event))
-    return Course(choice, replay.extras, tuple(legs), path.watch)
+            while piece.event in model.kinks:
+                legs.append(PhaseRun(piece.phase, 1.0, piece.event, ()))
+                piece = next(pieces)
+            last = replace(last, phase=piece.phase, duration=1.0, event=piece.event)
+        legs.append(last)
+    return Course(choice, replay.extras, tuple(legs), path.edge_watched)
 
 
 @dataclass
@@ -143,27 +124,27 @@ def follow(course: Course, p: MX, durations: MX, plugin: str, tolerance: Toleran
     y = vertcat(start, DM.ones(len(course.extras)) * tolerance.offset)
     at = End(start, y, MX(0), start[0], MX(0), MX(0), MX(0), [])
     for leg in course.legs:
-        if leg.phase is not None:
-            flow = Flow(course.choice, leg.phase.region, course.extras)
+        if leg.duration > 0:
+            flow = Flow(course.choice, leg.phase.region, course.extras, course.edge_watched)
             at.y = plain(flow, plugin, tolerance).function(x0=at.y, p=vertcat(p, durations[k]))["xf"]
             at.time += durations[k]
             shift = MX(0)
             if leg.event is not None:
-                at.y, shift, _ = landing(flow, course.watch, leg.event)(at.y, vertcat(p, leg.phase.motion))
+                at.y, shift, _ = landing(flow, leg.event)(at.y, vertcat(p, leg.phase.motion))
             at.time += shift
             at.shifts.append(shift / durations[k])
             at.smallest_gap = fmin(at.smallest_gap, at.y[0])
             k += 1
         if leg.rebounds:
-            after, dry, friction = jump(course.choice, leg.holds)(at.y[:size], p, float(leg.rubs))
+            after, dry, friction = jump(course.choice, leg.holds)(at.y[:size], p, float(course.rubs(leg)))
             at.dry += dry
             at.friction += friction
             at.y = vertcat(after, at.y[size:])
         if leg.holds:
             at.y = vertcat(at.y[0], 0, at.y[2:])
-        if leg.declared:
+        if leg.own:
             before = model.function("energies")(at.y[:size], p)[kinetic]
-            at.y = vertcat(model.function(f"jump_{leg.declared}")(at.y[:size], p), at.y[size:])
+            at.y = vertcat(model.function(f"jump_{leg.own}")(at.y[:size], p), at.y[size:])
             at.own += before - model.function("energies")(at.y[:size], p)[kinetic]
     return at
 
@@ -171,7 +152,7 @@ def follow(course: Course, p: MX, durations: MX, plugin: str, tolerance: Toleran
 @own_cache(256)
 def trajectory(course: Course, of: tuple[str, ...], plugin: str, tolerance: Tolerance) -> Function:
     """A course as a function: (groups, durations) -> results `of`, and shifts of the durations by the landings."""
-    p, durations = MX.sym("groups", len(course.model.groups)), MX.sym("durations", len(course.flows))
+    p, durations = MX.sym("groups", len(course.model.groups)), MX.sym("durations", course.durations)
     end = follow(course, p, durations, plugin, tolerance)
     shifts = vertcat(*end.shifts) if end.shifts else MX(0, 1)
     named = results(course, p, end, tolerance)

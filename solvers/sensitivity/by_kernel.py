@@ -2,12 +2,12 @@
 
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
-from functools import lru_cache, partial
+from functools import lru_cache
 
 import numpy as np
 
 from ...generated.automaton import LAST_ANSWER, OUTCOMES
-from ..engines.choice import differentiates
+from ..engines.kernels import differentiates
 from ..engines.settings import KERNEL_STEPS
 from ..engines.taylor.call import Impacts
 from ..engines.taylor.layout import derivative_column, result
@@ -15,7 +15,7 @@ from ..engines.taylor.orders import order_for
 from ..engines.taylor.tangent import GRIPS, Carried, run_tangent
 from ..model.dimensionless import nondimensionalise
 from ..results import DEFINITIONS, TANGENTS
-from ..scene.groups import rate_scales, si_values
+from ..scene.groups import si_values
 from ..scene.scene import Scene
 from ..scene.schema import SPINS
 from .boundary_distance import check_grip
@@ -88,7 +88,7 @@ def gradients_by_kernel(
     bent = np.ones((1 if steep is None else size, len(wrt)))  # of rows of the speed, over those of the reference
     if steep is not None:
         bent[:, wrt.index("impact.angle")] = steep / _steep(np.array(angle))
-    scales = partial(_Scales, scene, impacts, at.scales, wrt, steep)
+    scales = _scales(impacts, at.scales, wrt, steep) if any(DEFINITIONS[name].scale for name in of) else {}
     for place, name in enumerate(of):
         if name == "tangential_restitution" and angle == 0:
             continue
@@ -110,8 +110,8 @@ def gradients_by_kernel(
         if name == "final_spin" and unspun:  # parted at initial contact: the spin is zero up to rounding
             plain = np.where(at_once, 0.0, plain)
             first[place] *= np.isin(wrt, SPINS) | ~at_once[:, None]
-        if DEFINITIONS[name].scale is not None:
-            scale, relative = scales().of(name)
+        if (unit := DEFINITIONS[name].scale) is not None:
+            scale, relative = scales[unit]
             first[place] = (first[place] + plain[:, None] * relative) * scale[:, None]
             plain = plain * scale
         value[place, separated] = plain[separated]
@@ -142,9 +142,8 @@ def slopes(problem: Problem, query: Query) -> Slopes | None:
     path, of, rtol = problem.path, query.of, query.rtol
     if not path.separated or not offers(problem.scene, of, (problem.n.oblique,)):
         return None
-    impact = Impacts(problem.scene, np.array([problem.n.speed]), np.array([problem.n.angle]), {})
     sharp = query.sharpened(path.parting)
-    along = gradients_by_kernel(impact, problem.kind, problem.wrt, of, sharp, order_for(rtol))
+    along = gradients_by_kernel(Impacts.single(problem.n), problem.kind, problem.wrt, of, sharp, order_for(rtol))
     if along is None:
         return None
     answer = along.run.answers[0]
@@ -160,35 +159,20 @@ def _steep(angle: np.ndarray) -> np.ndarray:
     return np.asarray(angle * np.tan(angle))
 
 
-class _Scales:
-    """SI scales of results: values and logarithmic derivatives.
+def _scales(
+    impacts: Impacts, slopes: Mapping[str, np.ndarray], wrt: tuple[str, ...], angle_slope: np.ndarray | None
+) -> dict[str, tuple[np.ndarray, np.ndarray]]:
+    """SI scales of results by name: values (collisions,), and derivatives of their logarithms (collisions, parameters).
 
     Arguments:
         angle_slope: -d ln(normal speed)/d ln(angle) at fixed relative speed; None where the normal speed is held.
     """
-
-    def __init__(
-        self,
-        scene: Scene,
-        impacts: Impacts,
-        slopes: Mapping[str, np.ndarray],
-        wrt: tuple[str, ...],
-        angle_slope: np.ndarray | None,
-    ) -> None:
-        speed, angle = impacts.speed, impacts.angle
-        reference_angle = ANGLE if angle[0] > 0 else 0.0
-        n = nondimensionalise(scene, SPEED, reference_angle)
-        speed_ratio = speed / SPEED
-        rates = rate_scales(scene, {**scene.material, "speed": speed, "angle": angle})
-        self._values = {"length": np.full_like(speed, n.length), "time": n.time / speed_ratio, "rate": rates}
-        reference = {"length": n.length, "time": n.time, "rate": n.rate or 1.0}
-        self._relative = {name: np.tile(slopes[name] / reference[name], (speed.size, 1)) for name in reference}
-        if angle_slope is not None and "impact.angle" in wrt:
-            k = wrt.index("impact.angle")
-            self._relative["time"][:, k], self._relative["rate"][:, k] = angle_slope, -angle_slope
-
-    def of(self, name: str) -> tuple[np.ndarray, np.ndarray]:
-        """The scale (collisions,) and the derivatives of its logarithm (collisions, parameters)."""
-        scale = DEFINITIONS[name].scale
-        assert scale is not None
-        return self._values[scale], self._relative[scale]
+    n = nondimensionalise(impacts.scene, SPEED, ANGLE if impacts.angle[0] > 0 else 0.0)
+    values = {"length": np.full_like(impacts.speed, n.length), "time": n.time / (impacts.speed / SPEED)}
+    values["rate"] = impacts.rates
+    reference = {"length": n.length, "time": n.time, "rate": n.rate or 1.0}
+    relative = {name: np.tile(slopes[name] / reference[name], (impacts.size, 1)) for name in reference}
+    if angle_slope is not None and "impact.angle" in wrt:
+        k = wrt.index("impact.angle")
+        relative["time"][:, k], relative["rate"][:, k] = angle_slope, -angle_slope
+    return {name: (values[name], relative[name]) for name in values}

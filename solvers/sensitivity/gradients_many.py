@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass, field
+from dataclasses import dataclass, replace
 from pathlib import Path as FilePath
 from typing import TYPE_CHECKING, Any
 
@@ -12,8 +12,7 @@ import numpy as np
 
 from ...generated.automaton import LAST_ANSWER, OUTCOMES
 from ...generated.automaton import STICK as STICKS
-from ..engines.choice import gradient_engine
-from ..engines.settings import KERNEL_STEPS, RTOL, check_engine
+from ..engines.settings import KERNEL_STEPS, RTOL, check_engine, check_rtol
 from ..engines.taylor.call import Impacts
 from ..engines.taylor.orders import order_backward, order_for
 from ..engines.taylor.tangent import CHATTERS, DISTANCES, Carried, run_tangent
@@ -21,10 +20,10 @@ from ..errors import WetDoubletError
 from ..formatting.labelled import Column, labelled
 from ..host.cores import usable_cores
 from ..host.pictures import register
-from ..many.impacts import listed
+from ..many import impacts as many
+from ..many.arguments import checked_columns, of_one_length
 from ..model.validity import warn
-from ..results import DEFINITIONS, FAILED, TANGENTS, check_differentiated, outcome_attributes
-from ..scene.groups import sideways
+from ..results import DEFINITIONS, FAILED, check_differentiated, outcome_attributes
 from ..scene.held import held_quantity
 from ..scene.scene import Scene
 from ..scene.schema import SPEEDS
@@ -46,37 +45,23 @@ _STRETCH = 4096  # collisions in a block for a thread
 STICK = "a stick: its restitution is 0, and nothing else of it is defined"
 
 
-@dataclass
-class _Request:
-    """The request, and the results so far; NaN where not computed."""
+@dataclass(frozen=True, kw_only=True)
+class _Gradients(Impacts):
+    """Impacts, what of them is requested, and the results so far, which are filled in; NaN where not computed."""
 
-    scene: Scene
-    speed: np.ndarray
-    angle: np.ndarray
     kind: Kind
     wrt: tuple[str, ...]
     of: tuple[str, ...]
     rtol: float
-    outcome: np.ndarray = field(init=False)
-    value: np.ndarray = field(init=False)
-    gradient: np.ndarray = field(init=False)
-    reason: np.ndarray = field(init=False)
-    engine: np.ndarray = field(init=False)
-
-    def __post_init__(self) -> None:
-        size = self.angle.size
-        self.outcome = np.full(size, FAILED, dtype=np.int8)
-        self.value = np.full((len(self.of), size), np.nan)
-        self.gradient = np.full((len(self.of), size, len(self.wrt)), np.nan)
-        self.reason = np.full(size, "", dtype=object)
-        self.engine = np.full(size, "", dtype=object)
+    outcome: np.ndarray
+    value: np.ndarray
+    gradient: np.ndarray
+    reason: np.ndarray
+    engine: np.ndarray
 
     @property
     def relative_speed(self) -> np.ndarray:
         return np.asarray(self.speed / np.cos(self.angle))
-
-    def impacts(self, which: np.ndarray, stretch: float = 1.0) -> Impacts:
-        return Impacts(self.scene, self.speed[which] * stretch, self.angle[which], {})
 
     def per_unit(self, slopes: np.ndarray, which: np.ndarray, units: np.ndarray) -> np.ndarray:
         """Derivatives by the parameters, from those in theta: (results, collisions, parameters).
@@ -143,31 +128,40 @@ def gradients_many(
         (2,)
     """
     names, by = check_differentiated(of), check_engine(engine)
-    batch = listed(
-        scene, {"stokes": stokes, "speed": speed, "relative_speed": relative_speed, "angle": angle}, {}, rtol,
-        "rosenbrock", (),
-    )  # fmt: skip
-    loaded = batch.scene
+    impact = {"stokes": stokes, "speed": speed, "relative_speed": relative_speed, "angle": angle}
+    loaded, columns, _ = checked_columns(scene, impact, {})
+    batch = many.Impacts.listed(loaded, of_one_length(columns), check_rtol(rtol))
     held = held_quantity(loaded, hold) if relative_speed is None or hold is not None else "relative_speed"
     warn(loaded)
     velocity = batch.speed if batch.speed is not None else np.asarray(batch.stokes) / loaded.stokes_per_speed
-    request = _Request(
-        loaded, np.asarray(velocity), batch.angle, kind_of(loaded, held), check_wrt(loaded, wrt), names, batch.rtol
+    size, parameters = batch.size, check_wrt(loaded, wrt)
+    request = _Gradients(
+        loaded,
+        np.asarray(velocity),
+        batch.angle,
+        kind=kind_of(loaded, held),
+        wrt=parameters,
+        of=names,
+        rtol=batch.rtol,
+        outcome=np.full(size, FAILED, np.int8),
+        value=np.full((len(names), size), np.nan),
+        gradient=np.full((len(names), size, len(parameters)), np.nan),
+        reason=np.full(size, "", object),
+        engine=np.full(size, "", object),
     )
-    left = np.arange(batch.size)
-    oblique = set(sideways(loaded, batch.angle, {}).tolist())
-    if by is None:
-        by = gradient_engine(loaded, names, TANGENTS, oblique)
-    if by == "taylor" and kernel.offers(loaded, names, oblique):
+    left = np.arange(size)
+    oblique = set(request.oblique.tolist())
+    offered = by in (None, "taylor") and kernel.offers(loaded, names, oblique)
+    if offered:
         left = _by_kernel(request)
     for k in left:
-        _alone(request, int(k), held, by)
+        _alone(request, int(k), held, by or ("taylor" if offered else "rosenbrock"))
     return _dataset(request, held)
 
 
-def _by_kernel(request: _Request) -> np.ndarray:
+def _by_kernel(request: _Gradients) -> np.ndarray:
     """Compute collisions by the kernel; returns the indices of those left to CasADi."""
-    moves = sideways(request.scene, request.angle, {})
+    moves = request.oblique
     turns = any(DEFINITIONS[name].odd for name in request.of) and bool({*request.wrt} & {*SIDEWAYS})
     parts, left = [], [np.flatnonzero(~moves) if turns else np.zeros(0, int)]
     for which in (np.flatnonzero(request.angle > 0), np.flatnonzero((request.angle == 0) & (moves | (not turns)))):
@@ -180,7 +174,7 @@ def _by_kernel(request: _Request) -> np.ndarray:
     return np.sort(np.concatenate(left))
 
 
-def _stretch(request: _Request, which: np.ndarray) -> np.ndarray:
+def _stretch(request: _Gradients, which: np.ndarray) -> np.ndarray:
     # for few parameters forward tangents cost no more
     back = request.of == kernel.BACKWARD and len(request.wrt) > kernel.DIRECTIONS
 
@@ -189,7 +183,7 @@ def _stretch(request: _Request, which: np.ndarray) -> np.ndarray:
     ) -> kernel.Along | None:
         order = (order_backward if backward else order_for)(request.rtol)
         return kernel.gradients_by_kernel(
-            request.impacts(part), request.kind, request.wrt, request.of, rtol, order, budget, backward, nearest
+            request.part(part), request.kind, request.wrt, request.of, rtol, order, budget, backward, nearest
         )
 
     answered = run_part(which, request.rtol, _SOON, back, NEAR)  # what is nearer is repeated
@@ -246,17 +240,17 @@ def _boundary(measures: np.ndarray) -> tuple[str, float, str]:
     return name, float(measures[0]), of
 
 
-def _without(request: _Request, which: np.ndarray, rtol: float, factor: float = 1.0) -> Carried:
+def _without(request: _Gradients, which: np.ndarray, rtol: float, factor: float = 1.0) -> Carried:
     """The collisions without derivatives, by the same kernel."""
-    oblique = bool(request.angle[which[0]] > 0)
+    part, oblique = request.part(which), bool(request.angle[which[0]] > 0)
     answered = run_tangent(
-        request.impacts(which, factor), oblique, rtol, "rotation" in request.of, (), order_for(request.rtol)
+        replace(part, speed=part.speed * factor), oblique, rtol, "rotation" in request.of, (), order_for(request.rtol)
     )
     assert answered is not None  # the kernel is available
     return answered
 
 
-def _keep(request: _Request, which: np.ndarray, answered: kernel.Along, part: np.ndarray) -> None:
+def _keep(request: _Gradients, which: np.ndarray, answered: kernel.Along, part: np.ndarray) -> None:
     into = which[part]
     if into.size:
         request.outcome[into] = answered.run.answers["outcome"][part]
@@ -267,7 +261,7 @@ def _keep(request: _Request, which: np.ndarray, answered: kernel.Along, part: np
         request.engine[into] = "taylor"
 
 
-def _alike_beside(request: _Request, which: np.ndarray, answers: np.ndarray, checked: np.ndarray) -> np.ndarray:
+def _alike_beside(request: _Gradients, which: np.ndarray, answers: np.ndarray, checked: np.ndarray) -> np.ndarray:
     """Those of `checked` that go the same way up to the limit on both sides, so that no boundary is between."""
     least = limit(request.rtol)
     for factor in (1 - least, 1 + least):
@@ -281,7 +275,7 @@ def _alike_beside(request: _Request, which: np.ndarray, answers: np.ndarray, che
     return checked
 
 
-def _alone(request: _Request, k: int, hold: str, engine: str) -> None:
+def _alone(request: _Gradients, k: int, hold: str, engine: str) -> None:
     speed, angle = float(request.speed[k]), float(request.angle[k])
     method = "adjoint" if engine != "taylor" and len(request.of) < len(request.wrt) else "forward"
     try:
@@ -301,7 +295,7 @@ def _alone(request: _Request, k: int, hold: str, engine: str) -> None:
         request.gradient[place, k] = [np.nan if slope is None else slope for slope in row.values()]
 
 
-def _dataset(request: _Request, hold: str) -> xarray.Dataset:
+def _dataset(request: _Gradients, hold: str) -> xarray.Dataset:
     register()
     reference = request.reference()
     with np.errstate(divide="ignore", invalid="ignore"):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 from pathlib import Path as FilePath
 from typing import TYPE_CHECKING, Any
@@ -15,7 +15,7 @@ from ..changes.experiment import free_names
 from ..collision.by_kernel import sequence_of
 from ..engines.casadi.sequence import EventSequence
 from ..engines.settings import check_rtol
-from ..engines.taylor.in_space import recorded_in_space
+from ..engines.taylor.record import recorded_in_space
 from ..errors import ComputationError, WetDoubletError
 from ..host.arguments import check_names
 from ..host.pictures import register
@@ -24,10 +24,9 @@ from ..model.model import load, select_model
 from ..model.validity import warn
 from ..results import FAILED, outcome_attributes
 from ..scene.scene import Scene
-from ..space.by_kernel import vectors_of
 from ..space.by_replay import groups_of, own_axes, sequence_in_space
-from ..space.collide_pair import AXES, NUMBERS, VECTORS, check_scene, refusals
-from ..space.pairs import Pairs, without_spins
+from ..space.collide_pair import NUMBERS, VECTORS, check_scene, refusals
+from ..space.pairs import AXES, Pairs, without_spins
 from ..space.pairs import checked as checked_pairs
 from .boundary_distance import FINE, Course, Courses, checked, course, courses_of
 from .by_casadi import STATE, differentiated
@@ -87,10 +86,11 @@ def pair_gradients(
     everything = (*free_names(loaded), *INPUTS)
     names = everything if wrt is None else check_names(wrt, everything, "wrt")
     pairs = checked_pairs(loaded, normal, velocities, spins)
-    request = _Request.of(loaded, names)
+    entries, vectors = tuple(name for name in names if name not in INPUTS), _components(loaded, names)
+    parameters = [*entries, *vectors.values()]
     size = pairs.size
     outcome, reason = np.full(size, FAILED, np.int8), np.full(size, "", object)
-    value, slope = np.full((size, _ROWS), np.nan), np.full((size, _ROWS, len(request.parameters)), np.nan)
+    value, slope = np.full((size, _ROWS), np.nan), np.full((size, _ROWS, len(parameters)), np.nan)
     refused = refusals(pairs)
     if len(refused) < size:
         warn(loaded)
@@ -99,7 +99,7 @@ def pair_gradients(
             reason[k] = refused[k]
             continue
         try:
-            outcome[k], results = _of_one_pair(request, pairs.part(np.array([k])), rtol)
+            outcome[k], results = _of_one_pair(pairs.part(np.array([k])), entries, [*vectors], rtol)
         except WetDoubletError as error:
             reason[k] = str(error)
             continue
@@ -119,61 +119,53 @@ def pair_gradients(
         more, about = ((), NUMBERS[name]) if name in NUMBERS else VECTORS[name]
         part = slice(first, first := first + int(np.prod(shape)))
         data[name] = (*dims, *more), value[:, part].reshape((*pairs.shape, *shape)), about
-        slopes = slope[:, part].reshape((*pairs.shape, *shape, len(request.parameters)))
+        slopes = slope[:, part].reshape((*pairs.shape, *shape, len(parameters)))
         meaning = {"long_name": f"derivative of the {about['long_name']}"}
         data[f"d_{name}"] = (*dims, *more, "parameter"), slopes, meaning
-    coordinates = {"axis": list(AXES), "parameter": list(request.parameters)}
+    coordinates = {"axis": list(AXES), "parameter": parameters}
     return xr.Dataset(data, coordinates, {"scene": loaded.to_toml(), "rtol": rtol, "engine": "rosenbrock"})
 
 
-@dataclass(frozen=True)
-class _Request:
-    """The request: entries of the scene, and the places of components among all inputs."""
-
-    scene: Scene
-    entries: tuple[str, ...]
-    components: tuple[int, ...]
-    parameters: tuple[str, ...]
-
-    @classmethod
-    def of(cls, scene: Scene, names: Sequence[str]) -> _Request:
-        entries = tuple(name for name in names if name not in INPUTS)
-        labels = {}
-        place = 0
-        for name, shape in _SHAPES.items():
-            for index in np.ndindex(shape):
-                is_wanted = name in names and not (scene.wall and name == "spins" and index[0] == 1)
-                if is_wanted:
-                    labels[place] = ".".join((name, *map(str, index[:-1]), AXES[index[-1]]))
-                place += 1
-        return cls(scene, entries, tuple(labels), (*entries, *labels.values()))
+def _components(scene: Scene, names: Sequence[str]) -> dict[int, str]:
+    """Place among all inputs, and name, of each component of the vectors among these names."""
+    every = [(name, index) for name, shape in _SHAPES.items() for index in np.ndindex(shape)]
+    return {
+        place: ".".join((name, *map(str, index[:-1]), AXES[index[-1]]))
+        for place, (name, index) in enumerate(every)
+        if name in names and not (scene.wall and name == "spins" and index[0] == 1)
+    }
 
 
-def _of_one_pair(request: _Request, pair: Pairs, rtol: float) -> tuple[int, tuple[np.ndarray, np.ndarray] | None]:
+def _of_one_pair(
+    pair: Pairs, entries: tuple[str, ...], components: list[int], rtol: float
+) -> tuple[int, tuple[np.ndarray, np.ndarray] | None]:
     """Outcome of one pair; its results and their derivatives (results, parameters), None if it sticks.
+
+    Arguments:
+        entries, components: the parameters, of which the second are places among all inputs.
 
     Raises:
         ComputationError: near a boundary, or the trajectory could not be differentiated.
     """
-    scene = request.scene
+    scene = pair.scene
     model = load(select_model(scene, True, space=not scene.wall))
     maps, names = pair_maps(model.choice), quantities_of(model)
     x = np.concatenate([pair.normal[0], pair.velocities[0].ravel(), pair.spins[0].ravel()])
     speed, d_speed = (each.full() for each in maps.speed(x))
     v0 = float(speed.item())
     kind = kind_of(scene, "speed")
-    mapping = parameter_map(kind, (*request.entries, "impact.speed"), names)
+    mapping = parameter_map(kind, (*entries, "impact.speed"), names)
     reference = references(scene, kind, v0, 0.0)
     by_theta, units = (each.full() for each in mapping.slopes(reference))
     g = np.append(mapping.values(reference).full().ravel()[: len(names) + 1], v0)  # quantities, film thickness, v0
     n, axes = _scaled(pair)
     scale = n.groups["obliquity"]
     # columns of order one: entries by their parameters theta, components over a typical size of each
-    count = len(request.entries)
+    count = len(entries)
     typical = np.concatenate([np.ones(3), np.full(6, v0), np.full(6, v0 / float(scene.material["reduced_radius"]))])
-    column_scales = np.append(units.ravel()[:count], typical[list(request.components)])
+    column_scales = np.append(units.ravel()[:count], typical[components])
     dx = np.zeros((x.size, column_scales.size))
-    dx[list(request.components), range(count, column_scales.size)] = typical[list(request.components)]
+    dx[components, range(count, column_scales.size)] = typical[components]
     by_speed = d_speed @ dx
     dg = np.zeros((g.size, column_scales.size))
     dg[:-1, :count] = by_theta[: len(names) + 1, :count]
@@ -219,7 +211,7 @@ def _followed(pair: Pairs, n: Problem) -> tuple[Callable[[float], EventSequence]
         rows = []
         for factor in factors.tolist():
             faster = replace(pair, velocities=factor * pair.velocities, spins=factor * pair.spins)
-            answer, log = recorded_in_space(pair.scene, vectors_of(faster), -faster.opening, FINE)
+            answer, log = recorded_in_space(faster.impacts, FINE)
             rows.append(course(answer, log, KINDS, float(answer["shown"][restitution])))
         return rows
 

@@ -6,11 +6,10 @@ from pathlib import Path as FilePath
 
 import numpy as np
 
-from ..engines.choice import gradient_engine
 from ..engines.settings import check_engine, check_rtol
 from ..errors import ComputationError, InputError
 from ..host.arguments import check_name
-from ..results import DEFINITIONS, SPENT, TANGENTS, check_differentiated
+from ..results import DEFINITIONS, SPENT, check_differentiated
 from ..scene.held import held_quantity
 from ..scene.scene import Scene
 from . import by_casadi, by_kernel
@@ -84,13 +83,13 @@ def sensitivities(
     except ComputationError as error:
         raise explained(courses, error, rtol) from None
     near = checked(courses, separated, rtol)
-    todo = tuple(name for name in _computed(of) if problem.defined(name))
+    todo = tuple(filter(problem.defined, dict.fromkeys(part for name in of for part in _parts(name))))
     odd = np.array([DEFINITIONS[name].odd for name in todo], dtype=bool)
     sideways = np.isin(names, SIDEWAYS)
     tilts = bool(todo and sideways.any() and odd.any()) and not n.oblique
     plugin = requested or "rosenbrock"
-    if requested is None and method == "forward":
-        plugin = gradient_engine(loaded, of, TANGENTS, {n.oblique, n.oblique or tilts})
+    if requested is None and method == "forward" and by_kernel.offers(loaded, of, {n.oblique, n.oblique or tilts}):
+        plugin = "taylor"
     query = Query(todo, method, rtol, near)
     slopes, plugin = _slopes(problem, query, plugin) if todo else (None, plugin)
     if tilts and slopes is not None:
@@ -123,11 +122,6 @@ def _slopes(problem: Problem, query: Query, engine: str) -> tuple[Slopes, str]:
     return Slopes(slopes.value, slopes.first / problem.units()), engine
 
 
-def _computed(of: Sequence[str]) -> tuple[str, ...]:
-    """The results to compute for these; the residual requires all terms of the ledger."""
-    return tuple(dict.fromkeys(part for name in of for part in _parts(name)))
-
-
 def _combined(
     name: str, todo: tuple[str, ...], slopes: Slopes | None, size: int
 ) -> tuple[float | None, np.ndarray | None]:
@@ -142,7 +136,7 @@ def _combined(
 
 
 def _parts(name: str) -> dict[str, float]:
-    """A quantity as a weighted sum of computed quantities."""
+    """A quantity as a weighted sum of computed quantities; the residual requires all terms of the ledger."""
     if name != "energy.residual":
         return {name: 1.0}
     return {"energy.initial": 1.0, "energy.final": -1.0} | dict.fromkeys(SPENT, -1.0)

@@ -8,7 +8,6 @@ Energies are quadratic in both vectors: for a ledger two more collisions, of whi
 coefficients.
 """
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
 
@@ -18,13 +17,12 @@ from ...generated.automaton import LAST_ANSWER, OUTCOMES
 from ..collision.by_kernel import sequence_of
 from ..engines.casadi.replay import Stopped, replayed
 from ..engines.taylor.call import Impacts, run_kernel
-from ..engines.taylor.record import run_with_books
+from ..engines.taylor.layout import OWN_LEDGER
 from ..engines.taylor.undecided import undecided
 from ..errors import WetDoubletError
 from ..model.dimensionless import nondimensionalise
 from ..model.model import load, select_model
-from .books import OPEN, TERMS, TRANSVERSE, extras_of, is_open, of_casadi, of_kernel
-from .ends import FAILED, Ends
+from .ends import FAILED, OPEN, TERMS, TRANSVERSE, Ends, is_open, of_kernel, of_replay
 from .pairs import Pairs, dot, length
 
 _SLIDES = np.pi / 4  # slides as fast as it approaches
@@ -45,26 +43,24 @@ class Planar:
     energy: np.ndarray
 
 
-def planar_by_kernel(impacts: Impacts, rtol: float, threads: int, ledger: bool) -> Planar:
+def _by_kernel(impacts: Impacts, rtol: float, threads: int, ledger: bool) -> Planar:
     """Planar collisions by the kernel."""
-    if ledger:
-        answers, books = run_with_books(impacts, rtol, threads)
-    else:
-        answers, books = run_kernel(impacts, rtol, False, threads), None
+    books = np.zeros(impacts.size, OWN_LEDGER) if ledger else None
+    answers = run_kernel(impacts, rtol, False, threads, ledgers=books)
     terms = np.full((answers.size, len(TERMS)), np.nan) if books is None else of_kernel(books)
     opening, slide, _, roll = answers["shown"].T[:4]
     outcome, certified = answers["outcome"].astype(int), answers["certified"] != 0
     reason = np.full(answers.size, "", object)
     states = tuple(load(select_model(impacts.scene, True, full=ledger)).state)
     for k in np.flatnonzero(answers["status"] > LAST_ANSWER):
-        n = nondimensionalise(impacts.scene, float(impacts.speed[k]), float(impacts.angle[k]))
+        n = impacts.problem(int(k))
         outcome[k], reason[k] = FAILED, str(n.in_si(undecided(answers[k], states)))
     return Planar(outcome, certified, reason, answers["time"], answers["final_gap"], opening, slide, roll, terms)
 
 
-def planar_by_replay(impacts: Impacts, plugin: str, rtol: float, ledger: bool) -> Planar:
+def _by_replay(impacts: Impacts, plugin: str, rtol: float, ledger: bool) -> Planar:
     """Planar collisions by Rosenbrock or CVODES, one after the other."""
-    size = impacts.speed.size
+    size = impacts.size
     time, gap, opening, slide, roll = (np.full(size, np.nan) for _ in range(5))
     outcome, reason = np.full(size, FAILED), np.full(size, "", object)
     terms = np.full((size, len(TERMS)), np.nan)
@@ -74,7 +70,7 @@ def planar_by_replay(impacts: Impacts, plugin: str, rtol: float, ledger: bool) -
         try:
             n = nondimensionalise(scene, float(impacts.speed[k]), float(impacts.angle[k]))
             model = load(select_model(scene, True, full=ledger))
-            extras = extras_of(model) if ledger else ()
+            extras = model.names("energy_rates") if ledger else ()
             try:
                 path, replay = replayed(partial(sequence_of, n), model.choice, extras, plugin, rtol)
             except Stopped as stopped:
@@ -88,23 +84,21 @@ def planar_by_replay(impacts: Impacts, plugin: str, rtol: float, ledger: bool) -
         time[k], gap[k], opening[k] = replay.time, float(replay.y[0]), shown["restitution"]
         slide[k], roll[k] = shown["tangential_restitution"], shown["final_spin"]
         if ledger:
-            taken = {name: replay.extra(name) for name in extras}
-            terms[k] = of_casadi(model, p, replay.y, taken, replay.dry_loss)
+            terms[k] = of_replay(model, replay, p)
     return result
 
 
-def beside_wall(pairs: Pairs, planar: Callable[[Impacts], Planar], rtol: float, ledger: bool = False) -> Ends:
-    """Ends of collisions with a wall; one that is not decided has the outcome FAILED and its reason.
-
-    Arguments:
-        planar: computes planar collisions.
-    """
+def beside_wall(pairs: Pairs, engine: str, rtol: float, threads: int, ledger: bool = False) -> Ends:
+    """Ends of collisions with a wall; one that is not decided has the outcome FAILED and its reason."""
     radius = float(pairs.scene.material["reduced_radius"])
     speed = -pairs.opening
 
     def collided(angle: float, spinning: float) -> Planar:
         spin = {"impact_spin": spinning * speed / radius}
-        return planar(Impacts(pairs.scene, speed, np.full(pairs.size, angle), spin))
+        impacts = Impacts(pairs.scene, speed, np.full(pairs.size, angle), spin)
+        if engine == "taylor":
+            return _by_kernel(impacts, rtol, threads, ledger)
+        return _by_replay(impacts, engine, rtol, ledger)
 
     cases = ((_SLIDES, 0.0), (_SLIDES, 1.0), (0.0, 1.0), (_SLIDES, -1.0))[: 4 if ledger else 2]
     parts = [collided(*case) for case in cases]

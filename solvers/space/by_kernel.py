@@ -1,36 +1,23 @@
 """Pairs by the Taylor kernel: in their plane where they have one, else with vectors."""
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from ...generated.automaton import LAST_ANSWER, TURNLESS, Status
 from ..engines.taylor.call import Impacts, run_kernel
-from ..engines.taylor.in_space import run_in_space
-from ..engines.taylor.record import run_with_books
+from ..engines.taylor.layout import OWN_LEDGER
 from ..engines.taylor.undecided import undecided
 from ..model.dimensionless import nondimensionalise
 from ..model.model import load, select_model
-from ..scene.groups import rate_scales, si_values
-from .books import OPEN, is_open, of_kernel
-from .ends import FAILED, Ends
+from .ends import FAILED, OPEN, Ends, is_open, of_kernel
 from .pairs import Bodies, Pairs, dot, length, spin_energy, without_spins
 
-_SPINS = ("impact_spin", "impact_partner_spin")
 
+def planes(pairs: Pairs) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Which pairs move in a plane: all rotation is along one direction across the line of centres.
 
-@dataclass(frozen=True)
-class Planes:
-    """Which pairs move in a plane, the direction of all rotation (zero of a head-on pair), and components along it."""
-
-    planar: np.ndarray
-    axis: np.ndarray
-    turning: np.ndarray
-    spins: np.ndarray
-
-
-def planes(pairs: Pairs) -> Planes:
-    """The planes of motion: all rotation is along one direction across the line of centres."""
+    Returns:
+        The mask, that direction (zero of a head-on pair), and turning and spins along it (pairs, 3).
+    """
     radii = np.array(Bodies.of(pairs.scene).radius)
     speeds = np.concatenate([pairs.sliding[:, None], radii[:, None] * pairs.spins], axis=1)
     sizes = length(speeds)
@@ -47,45 +34,32 @@ def planes(pairs: Pairs) -> Planes:
     rest[:, 1:] *= radii[:, None]
     rest[:, 0] *= pairs.distance
     size = np.maximum(largest, np.max(np.abs(pairs.velocities), axis=(1, 2)))
-    planar = pairs.head_on | np.all(length(rest) <= TURNLESS * size[:, None], axis=1)
-    return Planes(planar, axis, along[:, 0], along[:, 1:])
+    return pairs.head_on | np.all(length(rest) <= TURNLESS * size[:, None], axis=1), axis, along
 
 
 def by_kernel(pairs: Pairs, rtol: float, threads: int, ledger: bool = False) -> Ends:
     """Ends of the pairs; one that is not decided has the outcome FAILED and its reason."""
     ends = Ends.blank(pairs.size)
-    motion = planes(pairs)
-    for planar in (True, False):
-        which = np.flatnonzero(motion.planar == planar)
-        if not which.size:
-            continue
-        part = pairs.part(which), _part(motion, which)
-        group = _in_planes(*part, rtol, threads, ledger) if planar else _in_space(part[0], rtol, threads, ledger)
-        ends.put(which, group)
+    planar, axis, along = planes(pairs)
+    if (which := np.flatnonzero(planar)).size:
+        ends.put(which, _in_planes(pairs.part(which), axis[which], along[which], rtol, threads, ledger))
+    if (which := np.flatnonzero(~planar)).size:
+        ends.put(which, _in_space(pairs.part(which), rtol, threads, ledger))
     if ledger:  # where it is open the trajectory is wrong
         wrong = is_open(ends.energy, ends.outcome > 0, rtol)
         ends.outcome[wrong], ends.reason[wrong] = FAILED, OPEN
     return ends
 
 
-def _part(motion: Planes, which: np.ndarray) -> Planes:
-    return Planes(motion.planar[which], motion.axis[which], motion.turning[which], motion.spins[which])
-
-
-def vectors_of(pairs: Pairs) -> dict[str, np.ndarray]:
-    """Initial vectors by the names of the kernel in space, SI."""
-    vectors = {"initial_normal": pairs.normal, "impact_turning": pairs.turning}
-    return vectors | {name: pairs.spins[:, k] for k, name in enumerate(_SPINS)}
-
-
 def _in_space(pairs: Pairs, rtol: float, threads: int, ledger: bool) -> Ends:
-    answers, books = run_in_space(pairs.scene, vectors_of(pairs), -pairs.opening, rtol, threads, ledger)
+    books = np.zeros(pairs.size, OWN_LEDGER) if ledger else None
+    answers = run_kernel(pairs.impacts, rtol, False, threads, ledgers=books)
     states = load(select_model(pairs.scene, True, full=ledger, space=True)).state
     ends = _of_answers(pairs, answers, books, tuple(states))
     known = answers["status"] == Status.DECIDED
     names = load(select_model(pairs.scene, True, space=True)).names("outputs")
     place = {name: k for k, name in enumerate(names)}
-    rate = scales(pairs)
+    rate = pairs.impacts.rates
 
     def vector(name: str) -> np.ndarray:
         first = place[f"{name}_x"]
@@ -100,44 +74,22 @@ def _in_space(pairs: Pairs, rtol: float, threads: int, ledger: bool) -> Ends:
     return ends
 
 
-def scales(pairs: Pairs) -> np.ndarray:
-    """The scale of angular velocities of each collision in space, rad/s."""
-    from ...generated import scaling
-
-    quantities = dict(si_values(pairs.scene, None, None)) | {"speed": -pairs.opening}
-    for name, rows in (
-        ("impact_turning", pairs.turning),
-        (_SPINS[0], pairs.spins[:, 0]),
-        (_SPINS[1], pairs.spins[:, 1]),
-    ):
-        quantities |= {f"{name}_{axis}": rows[:, k] for k, axis in enumerate("xyz")}
-    tangent = scaling.obliquity_space(*(quantities[name] for name in scaling.ARGUMENTS["obliquity_space"]))
-    quantities["obliquity"] = np.asarray(tangent).reshape(-1)
-    scale = scaling.rate_scale_pair(*(quantities[name] for name in scaling.ARGUMENTS["rate_scale_pair"]))
-    return np.asarray(scale).reshape(-1)
-
-
-def _in_planes(pairs: Pairs, motion: Planes, rtol: float, threads: int, ledger: bool) -> Ends:
+def _in_planes(pairs: Pairs, axis: np.ndarray, along: np.ndarray, rtol: float, threads: int, ledger: bool) -> Ends:
     """By the planar kernel; what rounding leaves of the spins out of the plane stays as it is."""
-    same = pairs.scene.partner is None and bool(np.all(motion.spins[:, 0] == motion.spins[:, 1]))
+    same = pairs.scene.partner is None and bool(np.all(along[:, 1] == along[:, 2]))
     scene = without_spins(pairs.scene, own_spins=not same)
     contact = pairs.distance - float(scene.material["film_thickness"])
-    angle = np.arctan2(contact * np.abs(motion.turning), -pairs.opening)
-    sense = np.where(motion.turning < 0, -1.0, 1.0)  # the angle is not negative
-    spins = sense[:, None] * motion.spins
-    others = {name: np.ascontiguousarray(spins[:, k]) for k, name in enumerate(_SPINS)}
+    angle = np.arctan2(contact * np.abs(along[:, 0]), -pairs.opening)
+    sense = np.where(along[:, 0] < 0, -1.0, 1.0)  # the angle is not negative
+    others = {"impact_spin": sense * along[:, 1], "impact_partner_spin": sense * along[:, 2]}
     impacts = Impacts(scene, -pairs.opening, angle, others)
-    if ledger:
-        answers, books = run_with_books(impacts, rtol, threads)
-    else:
-        answers, books = run_kernel(impacts, rtol, True, threads), None
+    books = np.zeros(pairs.size, OWN_LEDGER) if ledger else None
+    answers = run_kernel(impacts, rtol, True, threads, ledgers=books)
     states = load(select_model(scene, not bool(pairs.head_on.all()), full=ledger)).state
     ends = _of_answers(pairs, answers, books, tuple(states))
     known = answers["status"] == Status.DECIDED
-    axis = sense[:, None] * motion.axis
-    quantities = dict(si_values(scene, None, None)) | others | {"speed": impacts.speed, "angle": angle}
-    rate = rate_scales(scene, quantities)
-    oblique = impacts.oblique
+    rest = pairs.spins - along[:, 1:, None] * axis[:, None]
+    axis, rate, oblique = sense[:, None] * axis, impacts.rates, impacts.oblique
     ends.slip[:] = np.where(oblique, np.abs(ends.slip), np.nan)  # a ratio of lengths, as in space
     shown = {name: answers["shown"][:, k] for k, name in enumerate(load(select_model(scene, True)).names("outputs"))}
     moved = {name: np.where(oblique, values * rate, 0.0) for name, values in shown.items() if name.startswith("final")}
@@ -147,7 +99,6 @@ def _in_planes(pairs: Pairs, motion: Planes, rtol: float, threads: int, ledger: 
     ends.normal = np.cos(turned) * pairs.normal + np.sin(turned) * across
     ends.opening[known] = (-pairs.opening * answers["shown"][:, 0])[known]
     ends.turning = moved["final_rotation_rate"][:, None] * axis
-    rest = pairs.spins - motion.spins[:, :, None] * motion.axis[:, None]
     ends.energy[:, :2] += spin_energy(pairs, rest)[:, None]
     for k, name in enumerate(("final_spin", "final_spin_partner")):
         ends.spins[:, k] = moved[name][:, None] * axis + rest[:, k]

@@ -7,6 +7,7 @@ During the integration they turn about the angular momentum as a rigid doublet w
 
 from dataclasses import replace
 from functools import partial
+from typing import Any
 
 import numpy as np
 
@@ -15,18 +16,14 @@ from ...generated.automaton import KINDS, LAST_ANSWER, LEAST_SLIP, OUTCOMES, TUR
 from ..collision.by_kernel import sequence_of
 from ..engines.casadi.replay import Replay, Stopped, replayed
 from ..engines.casadi.sequence import EventSequence, sequence
-from ..engines.taylor.in_space import recorded_in_space
+from ..engines.taylor.record import recorded_in_space
 from ..engines.taylor.undecided import undecided
 from ..errors import ComputationError, WetDoubletError
 from ..model.dimensionless import Problem, nondimensionalise
 from ..model.model import Model, load, select_model
-from ..scene.groups import si_values
-from .books import OPEN, extras_of, is_open, of_casadi
-from .by_kernel import vectors_of
-from .ends import FAILED, Ends
-from .pairs import Bodies, Pairs, length, spin_energy, without_spins
+from .ends import FAILED, OPEN, Ends, is_open, of_replay
+from .pairs import AXES, Bodies, Pairs, components, length, spin_energy, without_spins
 
-AXES = "xyz"
 EXTRAS = ("rotation",)
 _LEAST = 1e-300  # in place of zero where it divides
 
@@ -45,7 +42,7 @@ def pairs_by_replay(pairs: Pairs, plugin: str, rtol: float, ledger: bool = False
 def sequence_in_space(pair: Pairs, n: Problem, rtol: float) -> EventSequence:
     """The phases and events of one pair that turns, as the kernel finds them in the laboratory's axes."""
     model = load(select_model(pair.scene, True, space=True))
-    answer, log = recorded_in_space(pair.scene, vectors_of(pair), -pair.opening, rtol)
+    answer, log = recorded_in_space(pair.impacts, rtol)
     if answer["status"] > LAST_ANSWER:
         raise n.in_si(undecided(answer, tuple(model.state)))
     return sequence(answer, log, KINDS, model, n.groups)
@@ -70,31 +67,20 @@ def groups_of(pair: Pairs, axes: np.ndarray) -> Problem:
     """The groups of one pair, with the components of vectors along these axes."""
     speed = -float(pair.opening[0])
     n = nondimensionalise(pair.scene, speed, 0.0)
-    vectors = {
-        "turning": axes @ pair.turning[0],
-        "spin": axes @ pair.spins[0, 0],
-        "partner_spin": axes @ pair.spins[0, 1],
-    }
-    quantities = dict(si_values(pair.scene, None, None)) | {"speed": speed}
-    quantities |= {f"impact_{name}_{axis}": float(v[k]) for name, v in vectors.items() for k, axis in enumerate(AXES)}
+    vectors = components(
+        turning=axes @ pair.turning[0], spin=axes @ pair.spins[0, 0], partner_spin=axes @ pair.spins[0, 1]
+    )
+    quantities: dict[str, float] = {**pair.scene.material, "speed": speed}
+    quantities |= {f"impact_{name}": float(value) for name, value in vectors.items()}
 
     def formula(name: str) -> float:
         return float(getattr(scaling, name)(*(quantities[argument] for argument in scaling.ARGUMENTS[name])))
 
-    quantities["obliquity"] = formula("obliquity_space")
+    obliquity = quantities["obliquity"] = formula("obliquity_space")
     rate = formula("rate_scale_pair")
-    groups = {
-        "obliquity": quantities["obliquity"],
-        "radius_ratio": quantities["radius_ratio"],
-        "mass_ratio": quantities["mass_ratio"],
-    }
-    normal = dict(zip((f"initial_normal_{axis}" for axis in AXES), axes @ pair.normal[0], strict=True))
-    first = {
-        f"initial_{name}_{axis}": float(v[k]) / max(rate, _LEAST)
-        for name, v in vectors.items()
-        for k, axis in enumerate(AXES)
-    }
-    return replace(n, groups={**n.groups, **groups, **normal, **first}, rate=rate)
+    first = {f"initial_{name}": float(value) / max(rate, _LEAST) for name, value in vectors.items()}
+    groups: dict[str, Any] = {"obliquity": obliquity, **first, **components(initial_normal=axes @ pair.normal[0])}
+    return replace(n, groups={**n.groups, **groups}, rate=rate)
 
 
 def _end(pair: Pairs, plugin: str, rtol: float, ledger: bool) -> Ends:
@@ -103,7 +89,7 @@ def _end(pair: Pairs, plugin: str, rtol: float, ledger: bool) -> Ends:
     record = partial(sequence_in_space, pair, n) if turns else partial(sequence_of, n)
     choice = select_model(pair.scene, turns, full=ledger, space=turns)
     model = load(choice)
-    extras = (EXTRAS if turns else ()) + (extras_of(model) if ledger else ())
+    extras = (EXTRAS if turns else ()) + (model.names("energy_rates") if ledger else ())
     try:
         path, replay = replayed(record, choice, extras, plugin, rtol)
     except Stopped as stopped:
@@ -124,9 +110,7 @@ def _end(pair: Pairs, plugin: str, rtol: float, ledger: bool) -> Ends:
         first, last = (model.values("surface_slip", state, p)["surface_slip"] for state in (model.start(p), y))
         ends.slip[0] = last / first if first > LEAST_SLIP else np.nan
     if ledger:
-        ends.energy[0] = n.energy * of_casadi(
-            model, p, y, {name: replay.extra(name) for name in extras}, replay.dry_loss, replay.friction_loss
-        )
+        ends.energy[0] = n.energy * of_replay(model, replay, p)
         ends.energy[:, :2] += 0.0 if turns else spin_energy(pair, pair.spins)[0]
         if is_open(ends.energy, ends.outcome > 0, rtol)[0]:
             raise ComputationError(OPEN)

@@ -8,27 +8,24 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..engines.settings import FEW, RTOL, check_engine, check_rtol
-from ..engines.taylor.call import Impacts
 from ..errors import InputError
 from ..host.arguments import check_flag
 from ..host.cores import usable_cores
 from ..host.pictures import register
-from ..model.validity import sentences_of_many, warn
+from ..model.validity import sentences, warn
 from ..results import attributes, outcome_attributes
 from ..scene.groups import si_values
 from ..scene.scene import Scene
-from .beside_wall import Planar, beside_wall, planar_by_kernel, planar_by_replay
-from .books import GREW, named
+from .beside_wall import beside_wall
 from .by_kernel import by_kernel
 from .by_replay import pairs_by_replay
-from .ends import FAILED, Ends, Motions, after, after_wall, gains_energy
-from .pairs import Bodies, Pairs, checked, dot, length
+from .ends import FAILED, GREW, Ends, Motions, after, gains_energy, named
+from .pairs import AXES, Bodies, Pairs, checked, dot, length
 
 if TYPE_CHECKING:
     import xarray
 
 _FURTHEST = 1e100  # products and quotients of several groups then stay within a double's range
-AXES = ("x", "y", "z")
 
 
 def _vector(unit: str, meaning: str, *dims: str) -> tuple[tuple[str, ...], dict[str, Any]]:
@@ -122,7 +119,7 @@ def collide_pair(
         ends.put(which, _ends(pairs.part(which), chosen, rtol, ledger))
     until = ends.put_at_contact(pairs)
     with np.errstate(invalid="ignore"):
-        motions = after_wall(pairs, ends) if loaded.wall else after(pairs, ends)
+        motions = after(pairs, ends)
     attrs = {"scene": loaded.to_toml(), "rtol": rtol, "engine": chosen, "validity": _validity(pairs, ends, motions)}
     return _dataset(pairs, ends, until, motions, attrs, ledger)
 
@@ -180,13 +177,7 @@ def _ends(pairs: Pairs, engine: str, rtol: float, ledger: bool) -> Ends:
     """Ends of pairs that approach."""
     threads = usable_cores() if pairs.size > FEW else 1
     if pairs.scene.wall:
-
-        def planar(impacts: Impacts) -> Planar:
-            if engine == "taylor":
-                return planar_by_kernel(impacts, rtol, threads, ledger)
-            return planar_by_replay(impacts, engine, rtol, ledger)
-
-        ends = beside_wall(pairs, planar, rtol, ledger)
+        ends = beside_wall(pairs, engine, rtol, threads, ledger)
     elif engine == "taylor":
         ends = by_kernel(pairs, rtol, threads, ledger)
     else:
@@ -215,7 +206,7 @@ def _validity(pairs: Pairs, ends: Ends, motions: Motions) -> list[str]:
         "smallest_gap": np.nan,
     }
     known |= {"speed": -some.opening, "angle": angle}
-    return sentences_of_many(some.scene, known | course | {"outcome": ends.outcome[which]})
+    return sentences(some.scene, known | course | {"outcome": ends.outcome[which]})
 
 
 def _dataset(

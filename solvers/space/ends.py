@@ -7,10 +7,20 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...generated.automaton import OUTCOMES, STICK
+from ..collision.by_replay import terms_of
 from ..collision.outcome import open_beyond
-from .books import TERMS
+from ..engines.casadi.replay import Replay
+from ..model.model import Model
+from ..results import TERMS as OF_KERNEL
+from ..scene.scene import Scene
 from .pairs import Bodies, Pairs, dot, length
 
+TERMS = tuple(name for name in OF_KERNEL if name not in ("strings", "own_events"))  # no kernel in space has them
+_INITIAL, _FINAL, _SHEAR = (TERMS.index(name) for name in ("initial", "final", "tangential_lubrication"))
+OPEN = "the energy ledger is open: try a smaller rtol, or another engine"
+GREW = "energy has grown: errors have added up over a long trajectory; try a smaller rtol, or another engine"
+TRANSVERSE = [_INITIAL, _FINAL, _SHEAR]
+"""Places of the terms to which motion across the line of centres contributes."""
 FAILED = -1
 _STICK = OUTCOMES.index(STICK)
 
@@ -103,13 +113,15 @@ class Motions:
 
 
 def after(pairs: Pairs, ends: Ends) -> Motions:
-    """The motion of two spheres after their collision; a stick turns as one body.
+    """The motion after a collision, beside a wall as `_after_wall`; two spheres that stick turn as one body.
 
     A stick keeps its angular momentum L. Across the line of centres it turns with L over the doublet's inertia there,
     m r^2 + I_1 + I_2. The orbit has no momentum along the line, where L is that of twist, I_1 w_1 + I_2 w_2. Twist has
     no friction to leading logarithm: each sphere keeps its own, and the doublet's angular velocity has their mean by
     inertia. Among all motions with this L and twist the one returned has the least energy.
     """
+    if pairs.scene.wall:
+        return _after_wall(pairs, ends)
     bodies = Bodies.of(pairs.scene)
     sticks = (ends.outcome == _STICK)[:, None]
     normal = ends.normal / length(ends.normal)[:, None]
@@ -155,13 +167,13 @@ def gains_energy(pairs: Pairs, ends: Ends, rtol: float) -> np.ndarray:
         return twice
 
     with np.errstate(all="ignore"):
-        motions = after_wall(pairs, ends) if pairs.scene.wall else after(pairs, ends)
+        motions = after(pairs, ends)
         spins = np.where(inertia[:, None] > 0, motions.spins, 0.0)
         most = energy(pairs.velocities, pairs.spins) * (1 + open_beyond(rtol))
         return np.asarray((ends.outcome > 0) & ~(energy(motions.velocities, spins) <= most))
 
 
-def after_wall(pairs: Pairs, ends: Ends) -> Motions:
+def _after_wall(pairs: Pairs, ends: Ends) -> Motions:
     """The motion after a collision with a wall, whose velocity stays; a stick neither slides nor rolls on."""
     radius = float(pairs.scene.material["reduced_radius"])
     sticks = (ends.outcome == _STICK)[:, None]
@@ -182,3 +194,36 @@ def angular_momentum(pairs: Pairs) -> np.ndarray:
     spinning = bodies.inertia[0] * pairs.spins[:, 0] + bodies.inertia[1] * pairs.spins[:, 1]
     momentum: np.ndarray = bodies.reduced_mass * pairs.distance * turning + spinning
     return momentum
+
+
+def of_kernel(books: np.ndarray) -> np.ndarray:
+    """The terms of ledgers by the kernel, (collisions, terms)."""
+    return np.stack([books[name] for name in map(OF_KERNEL.get, TERMS)], axis=-1)
+
+
+def of_replay(model: Model, replay: Replay, p: np.ndarray) -> np.ndarray:
+    """The terms of one trajectory that is replayed."""
+    terms = terms_of(model, replay, p)
+    return np.array([terms[name] for name in TERMS])
+
+
+def residual(terms: np.ndarray) -> np.ndarray:
+    """What the terms (collisions, terms) leave of the initial energy: the error of the integration."""
+    rest: np.ndarray = terms[:, _INITIAL] - np.sum(np.delete(terms, _INITIAL, axis=1), axis=1)
+    return rest
+
+
+def is_open(terms: np.ndarray, separated: np.ndarray, rtol: float) -> np.ndarray:
+    """Mask of separated collisions whose residual says that the trajectory is wrong."""
+    rest = np.abs(residual(terms))
+    mask: np.ndarray = separated & (rest > open_beyond(rtol) * np.maximum(np.abs(terms).max(axis=1), rest))
+    return mask
+
+
+def named(scene: Scene, terms: np.ndarray) -> dict[str, np.ndarray]:
+    """The terms by name, without those of forces that the scene does not have, and the residual."""
+    result = {name: terms[:, k] for k, name in enumerate(TERMS)} | {"residual": residual(terms)}
+    for name, cause in (("attraction", scene.attraction), ("dry_friction", scene.particles.friction)):
+        if cause is None:
+            del result[name]
+    return result

@@ -11,10 +11,18 @@ from typing import Any
 import numpy as np
 
 from ...generated.automaton import TURNLESS
+from ..engines.taylor.call import Impacts
 from ..errors import InputError
 from ..scene.scene import Scene
 from ..scene.units import quantity
 from ..scene.values import array, scalar
+
+AXES = ("x", "y", "z")
+
+
+def components(**vectors: np.ndarray) -> dict[str, np.ndarray]:
+    """Components by the names of quantities, from vectors along the last axis."""
+    return {f"{name}_{axis}": rows[..., k] for name, rows in vectors.items() for k, axis in enumerate(AXES)}
 
 
 def dot(left: np.ndarray, right: np.ndarray) -> np.ndarray:
@@ -90,6 +98,17 @@ class Pairs:
         """Angular velocity of the line of centres at initial contact, rad/s."""
         rates: np.ndarray = np.cross(self.normal, self.sliding) / self.distance
         return rates
+
+    @cached_property
+    def impacts(self) -> Impacts:
+        """The pairs as the kernel in space takes them."""
+        others = components(
+            initial_normal=self.normal,
+            impact_turning=self.turning,
+            impact_spin=self.spins[:, 0],
+            impact_partner_spin=self.spins[:, 1],
+        )
+        return Impacts(self.scene, -self.opening, np.zeros(self.size), others)
 
     @cached_property
     def opening(self) -> np.ndarray:

@@ -15,7 +15,7 @@ from ..engines.casadi.integrators import IntegrationFailed, Tolerance, plain, to
 from ..errors import ComputationError
 from ..model.dimensionless import Problem, nondimensionalise
 from ..model.model import load, select_model
-from ..model.phases import Flow, Region
+from ..model.phases import Flow, Phase
 from ..scene.contact import contact_gap
 from ..scene.scene import Scene
 from ..scene.schema import SPINS
@@ -116,7 +116,7 @@ def film_alone(scene: Scene, engine: str, plain: Integrators = plain, collide: C
 def _approach(bare: Scene, stokes: float, engine: str, plain: Integrators) -> tuple[float, str]:
     """Error of -u/v0 against the closed form on approach, at several instants."""
     n = nondimensionalise(bare, bare.speed_of(stokes), 0.0)
-    flow, start = Flow(select_model(bare, oblique=False), Region(1, 1, False)), np.array([1.0, -1.0])
+    flow, start = Flow(select_model(bare, oblique=False), Phase(1, 1, 0)), np.array([1.0, -1.0])
     contact, errors = contact_gap(n.groups), [0.0]
     for time in _INSTANTS.tolist():
         gap, normal_velocity = _integrated(plain, flow, engine, n, start, time)
@@ -160,7 +160,7 @@ def straight_line(scene: Scene, engine: str, plain: Integrators = plain) -> tupl
     """Error of r and beta of free spheres, over r0 and 1 rad, at several instants."""
     bare = _bare(scene)
     n = _oblique(bare)
-    flow = Flow(select_model(bare, oblique=True, full=True), Region(0, 0, False), ("rotation",))
+    flow = Flow(select_model(bare, oblique=True, full=True), Phase(0, 0, 0), ("rotation",))
     start = np.array([1.0, 1.0, (4 + n.groups["aspect"]) ** 2, 0.0, 0.0])  # opening, or they would meet
     aspect, tangent = n.groups["aspect"], n.groups["obliquity"]
     distance = (4 + aspect) / aspect  # in x0; the tangential speed over v0 is tan(theta0) r0/(4a)
@@ -180,7 +180,7 @@ def spin_relaxes(scene: Scene, engine: str, plain: Integrators = plain) -> tuple
     bare = _bare(scene).with_entries({"model.arm": "midgap"})
     n = _oblique(bare)
     choice = select_model(bare, oblique=True, full=True)
-    flow, edge = Flow(choice, Region(1, 1, True)), float(load(choice).laws.shear.edge(n.groups["aspect"]))
+    flow, edge = Flow(choice, Phase(1, 1, 0, resting=True)), float(load(choice).laws.shear.edge(n.groups["aspect"]))
     a, m, mu = bare.particles.reduced_radius, bare.particles.reduced_mass, bare.liquid.viscosity
     worst = (-1.0, "")
     outer, contact = min(edge, 1.0), contact_gap(n.groups)
@@ -208,7 +208,7 @@ def swinging(scene: Scene, engine: str, plain: Integrators = plain) -> tuple[flo
     tables = {name: value for name, value in scene.to_dict().items() if name not in ("bridge", "custom")}
     dry = Scene.from_dict(tables).with_entries({"pendulum.law": "small-angle"})
     n = _oblique(dry)
-    flow = Flow(select_model(dry, oblique=True, full=True), Region(0, 0, False))
+    flow = Flow(select_model(dry, oblique=True, full=True), Phase(0, 0, 0))
     a, aspect = dry.particles.reduced_radius, n.groups["aspect"]
     start = np.array([1.0, 1.0, (4 + aspect) ** 2, 0.0, 0.0])
     swing = math.sqrt(scene.pendulum.gravity / scene.pendulum.length)  # rad/s

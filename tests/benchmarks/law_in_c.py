@@ -24,7 +24,7 @@ import numpy as np
 from wetdoublet.solvers import Scene
 from wetdoublet.solvers.engines.settings import KERNEL_STEPS
 from wetdoublet.solvers.engines.taylor.build import kernel
-from wetdoublet.solvers.engines.taylor.call import Impacts, bind_kernel, run_kernel
+from wetdoublet.solvers.engines.taylor.call import Impacts, run_kernel, task
 from wetdoublet.solvers.engines.taylor.layout import ANSWER
 from wetdoublet.solvers.export.law.kernels import PLANE, kernels
 from wetdoublet.solvers.host.environment import environment
@@ -72,14 +72,11 @@ def same_kernel(scene: Scene, rows: np.ndarray) -> Callable[[], np.ndarray]:
     library = kernel(own.variant)
     assert library is not None
     others = {"impact_spin": rows["spin"].copy(), "impact_partner_spin": rows["partner_spin"].copy()}
-    given, run = (
-        Impacts(own.scene, rows["speed"].copy(), rows["angle"].copy(), others),
-        bind_kernel(library, RTOL, KERNEL_STEPS),
-    )
+    given = Impacts(own.scene, rows["speed"].copy(), rows["angle"].copy(), others)
 
     def call() -> np.ndarray:
         found = np.zeros(rows.size, ANSWER)
-        run(given, found)
+        task(library, given, RTOL, KERNEL_STEPS, found).run()
         return found
 
     return call

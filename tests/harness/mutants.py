@@ -76,9 +76,9 @@ MUTANTS = {
         "test_reference.py::test_a_plane_turned_in_space_is_the_plane",
     ),
     "an approach in space that is too fast": Mutant(
-        "solvers/space/by_kernel.py",
-        "run_in_space(pairs.scene, vectors_of(pairs), -pairs.opening,",
-        "run_in_space(pairs.scene, vectors_of(pairs), -1.0001*pairs.opening,",
+        "solvers/space/pairs.py",
+        "Impacts(self.scene, -self.opening,",
+        "Impacts(self.scene, -1.0001*self.opening,",
         "test_reference.py::test_equals_the_reference_in_space",
     ),
     "no range": Mutant(

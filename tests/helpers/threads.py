@@ -28,7 +28,7 @@ from wetdoublet.solvers import Scene, boundary, collide, collide_many, gradients
 from wetdoublet.solvers.engines.casadi.integrators import IntegrationFailed, Tolerance, plain
 from wetdoublet.solvers.host.compiler import compiler
 from wetdoublet.solvers.model.model import load, select_model
-from wetdoublet.solvers.model.phases import Flow, Region
+from wetdoublet.solvers.model.phases import Flow, Phase
 
 GRANULATION, PENDULUM = "granulation", "pendulum"
 IMPACT: dict[str, Any] = {"stokes": 0.05, "angle": "60 deg"}
@@ -55,7 +55,7 @@ def _mapped(**options: Any) -> xr.Dataset:
 def _failing() -> str:
     """An integrator that cannot: what CasADi prints of it, from whichever thread, is nobody's business."""
     choice = select_model(Scene.load(GRANULATION), oblique=True)
-    integrate = plain(Flow(choice, Region(1, 1, False)), "cvodes", Tolerance(1e-9, 1e-12))
+    integrate = plain(Flow(choice, Phase(1, 1, 0)), "cvodes", Tolerance(1e-9, 1e-12))
     try:
         integrate(np.full(len(load(choice).state), math.nan), np.ones(len(load(choice).groups)), 1.0)
     except IntegrationFailed as error:

@@ -19,7 +19,7 @@ from ...formatting import ticks
 from ...scene.contact import GAPS
 from ...scene.groups import scaled
 from ..outcome import Outcome
-from ..text import prefix, quantity
+from ..text import ends_early, prefix, quantity
 from .frames import Frame
 from .strip import INK
 
@@ -177,7 +177,7 @@ def _events(column: Column, collision: Outcome) -> None:
     factor, _ = column.unit
     span = (column.end - column.start) * 1.04
     marks = [(event.time, event.kind) for event in collision.events]
-    if collision.decided is not None and collision.certified:
+    if collision.decided is not None and collision.certified and not ends_early(collision):
         marks.append((collision.decided, "proved to stick"))
         marks.sort(key=lambda mark: mark[0])  # a stick that is followed on has events after its proof
     lines = [time for time, _ in marks if time <= column.end * (1 + 1e-9)]

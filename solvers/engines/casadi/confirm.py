@@ -20,17 +20,12 @@ _APART = 1e2  # relative tolerances of the kernel by which two states may differ
 _SCALE = 1e-3  # of a motion of this size
 
 
-def confirm(path: EventSequence, steps: Steps, choice: ModelKey, plugin: str, rtol: float) -> None:
-    """Hold the kernel's steps against an engine; Stopped where they do not agree.
+class Confirmation(Run):
+    """A replay whose phases are the kernel's own steps, each confirmed by an engine.
 
     Arguments:
         steps: of the same collision as `path`, by a kernel with the states of the model `choice`.
     """
-    _Confirmation(path, steps, choice, plugin, rtol).run()
-
-
-class _Confirmation(Run):
-    """A replay whose phases are the kernel's own steps, each confirmed by an engine."""
 
     def __init__(self, path: EventSequence, steps: Steps, choice: ModelKey, plugin: str, rtol: float) -> None:
         super().__init__(path, choice, (), plugin, tolerance_for(rtol, plugin, path.groups), rtol)
@@ -38,7 +33,7 @@ class _Confirmation(Run):
 
     def integrate(self, k: int, step: PhaseRun) -> None:
         """Phase k by its steps, with the state at its end."""
-        at, phase, flow = self.at, step.phase, Flow(self.choice, step.phase.region)
+        at, phase, flow = self.at, step.phase, Flow(self.choice, step.phase.region, (), self.path.edge_watched)
         inside = Steps(self.steps.rows[self.steps.rows["phase"] == k], self.steps.turned)
         first, engine = at.time, plain(flow, self.plugin, self.tolerance)
         for row in inside.rows:
@@ -67,11 +62,11 @@ class _Confirmation(Run):
         def solution(parts: np.ndarray) -> np.ndarray:
             return inside.states(first + parts * step.duration)[: self.at.y.size]
 
-        phase, watch, rtol = step.phase, self.path.watch, self.tolerance.relative
+        phase, rtol = step.phase, self.tolerance.relative
         parameters, states = np.append(self.p, float(phase.motion)), solution(POINTS)
-        crossing = first_crossing(flow, watch, parameters, step.duration, states, solution, rtol, step.event)
+        crossing = first_crossing(flow, parameters, step.duration, states, solution, rtol, step.event)
         if crossing is not None:
             time = first + crossing.part * step.duration
             raise Stopped(f"finds the event {crossing.event} inside a phase of the kernel", phase, time, self.at.y)
-        if step.event is not None and not is_met(flow, watch, parameters, states, step.event, self.rtol):
+        if step.event is not None and not is_met(flow, parameters, states, step.event, self.rtol):
             raise Stopped(f"does not find the event {step.event} where the kernel does", phase, self.at.time, self.at.y)

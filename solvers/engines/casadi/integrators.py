@@ -19,7 +19,7 @@ from ...host.buffered import Buffered
 from ...host.captured_stderr import captured_stderr
 from ...host.interrupts import check
 from ...host.thread_caches import own_cache
-from ...model.phases import Flow, WatchedEvents, event_table, expressions
+from ...model.phases import Flow, event_table, expressions
 from ..settings import KERNEL_STEPS, casadi_steps
 
 _EXPECTED = "Event support is experimental"
@@ -143,7 +143,6 @@ class Plain:
     """A flow over a duration, without events. Call: (y, groups, duration) -> y at the end (or columns on a grid)."""
 
     function: Function
-    plugin: str
 
     def __call__(self, y: np.ndarray, p: np.ndarray, duration: float) -> np.ndarray:
         result = _call(self.function, y, np.append(p, duration))
@@ -161,13 +160,11 @@ def plain(flow: Flow, plugin: str, tolerance: Tolerance, grid: tuple[float, ...]
     duration = SX.sym("duration")
     dae = {"x": parts.variables, "p": vertcat(flow.model.parameters, duration), "ode": duration * parts.rates}
     with quiet():
-        return Plain(
-            integrator("flow", plugin, dae, 0, list(grid), tolerance.options(plugin, flow.model.space)), plugin
-        )
+        return Plain(integrator("flow", plugin, dae, 0, list(grid), tolerance.options(plugin, flow.model.space)))
 
 
 @own_cache(512)
-def landing(flow: Flow, watch: WatchedEvents, event: str) -> Function:
+def landing(flow: Flow, event: str) -> Function:
     """One second-order Taylor step of a flow onto an event's surface: (y, parameters) -> (y*, dt, g(y*)).
 
     dt = -g/g' - g'' g^2/(2 g'^3), y* = y + f dt + f' dt^2/2. Where the event is met the step is nearly zero, but its
@@ -175,8 +172,7 @@ def landing(flow: Flow, watch: WatchedEvents, event: str) -> Function:
     """
     parts, model = expressions(flow), flow.model
     motion = SX.sym("motion")
-    table = {row.name: row.function for row in event_table(flow, watch, motion)}
-    y, rates, g = parts.variables, parts.rates, table[event]
+    y, rates, g = parts.variables, parts.rates, event_table(flow, motion)[event]
     first = jtimes(g, y, rates)
     second = jtimes(first, y, rates)
     dt = -g / first - second * g**2 / (2 * first**3)

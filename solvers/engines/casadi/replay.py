@@ -7,17 +7,15 @@ and their derivatives are those of the engine. All events that could end a phase
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
-from casadi import SX, Function, jtimes, vertcat
 
 from ....generated.automaton import KINDS, LOOSEST, EventKind, is_parted, is_too_weak
 from ...errors import ComputationError
-from ...host.thread_caches import own_cache
 from ...model.key import ModelKey
 from ...model.model import Model, load
-from ...model.phases import Flow, Phase, WatchedEvents, event_table, expressions, extra_units, kinks_along
+from ...model.phases import Flow, Phase, extra_units, kinks_along
 from ...model.rebound import rebounded
 from .integrators import IntegrationFailed, Tolerance, landing, plain, tolerance_for
 from .sequence import EventSequence, PhaseRun
@@ -32,6 +30,8 @@ _ROUNDING = 1e-15  # noise of a gap or velocity of order 1, for times and event 
 _ON_KINK = 1e-11  # of a guard: below it the side is that towards which it changes
 _REST = 10.0  # factor in the height of a rebound within which two engines may differ on whether it comes to rest
 TIGHTEST = 1e-13  # relative tolerance at which a phase is tried last
+PHASES = 10_000  # most phases of a collision, a few seconds
+_PANELS, _BARRIER = 256, 1e-4  # of the work up to a barrier, and its error
 
 
 class Stopped(Exception):
@@ -111,7 +111,7 @@ def replayed(
     while True:
         tolerance = looser or tolerance_for(used, plugin, path.groups)
         try:
-            return path, replay(path, choice, extras, plugin, tolerance, used)
+            return path, Run(path, choice, extras, plugin, tolerance, used).run()
         except Stopped as stopped:
             looser = None if stopped.missed else tolerance.loosened(used)
             if looser is not None:
@@ -125,20 +125,13 @@ def replayed(
                 raise stopped from None
 
 
-def replay(
-    path: EventSequence, choice: ModelKey, extras: tuple[str, ...], plugin: str, tolerance: Tolerance, rtol: float
-) -> Replay:
-    """Integrate a sequence of events; Stopped if the engine fails, or its solution does not agree with the record.
+class Run:
+    """One replay of a sequence at one tolerance.
 
     Arguments:
         choice: the model that is integrated, with the quadratures `extras`.
         rtol: relative tolerance of the record.
     """
-    return Run(path, choice, extras, plugin, tolerance, rtol).run()
-
-
-class Run:
-    """One replay of a sequence at one tolerance."""
 
     def __init__(
         self,
@@ -157,17 +150,45 @@ class Run:
         self.at = Replay(start, tolerance, extras, extra_units(self.model, extras, self.p))
 
     def run(self) -> Replay:
-        """The whole replay."""
+        """The whole replay; Stopped if the engine fails, or its solution does not agree with the record."""
         if self.path.separated != self._separates():
             what = "separation has no event" if self.path.separated else "event of separation separates nothing"
             raise Stopped(f"cannot follow the record: its {what}", self.path.steps[-1].phase, self.path.time, self.at.y)
+        if len(self.path.steps) > PHASES:
+            last, time = self.path.steps[PHASES], sum(step.duration for step in self.path.steps[:PHASES])
+            why = f"replays at most {PHASES} phases, and the record has {len(self.path.steps)}"
+            raise Stopped(why, last.phase, time, np.zeros(0))
         for k, step in enumerate(self.path.steps):
             if step.duration > 0:
                 self.integrate(k, step)
             self.at.events += [(kind, self.at.time) for kind in step.kinds]
             self.at.smallest_gap = min(self.at.smallest_gap, float(self.at.y[0]))
             self._jump(step)
+        if self._held_by_energy() and not self._is_below_barrier():
+            what = "ends above the barrier that is to hold the stick"
+            raise Stopped(what, self.path.steps[-1].phase, self.at.time, self.at.y, missed=True)
         return self.at
+
+    def _held_by_energy(self) -> bool:
+        """True if a bridge's energy barrier proved the stick: not at rest, nor at a turning point, which has others."""
+        path, model, last = self.path, self.model, self.path.steps[-1]
+        proved = path.certified and not path.separated and (path.decided is None or path.decided <= path.time)
+        bound = model.bridge and not (model.strings or model.space or model.own_events or "attraction" in model.works)
+        return proved and bound and last.duration > 0 and not last.phase.resting
+
+    def _is_below_barrier(self) -> bool:
+        """True if the energy does not suffice for some gap ahead, where the least energy includes the bridge's work."""
+        gap, end = float(self.at.y[0]), float(self.path.groups["rupture_gap"])
+        kinetic = self.model.values(self.model.escape, self.at.y, self.p)["kinetic"]
+        excess = kinetic - self.model.values("effective_potential", self.at.y, self.p)["energy"]
+        nodes, weights = np.polynomial.legendre.leggauss(4)
+        ends = gap * (end / gap) ** np.linspace(0, 1, _PANELS + 1)
+        width = np.diff(ends)
+        states = np.repeat(self.at.y[: len(self.model.state), None], 4 * _PANELS, axis=1)
+        states[0] = (ends[:-1, None] + np.outer(width, nodes + 1) / 2).ravel()
+        slope = np.asarray(self.model.function("effective_potential")(states, self.p).full())[1]
+        rise = np.cumsum(slope.reshape(_PANELS, 4) @ weights * width / 2)
+        return bool(excess <= rise.max() + _BARRIER * max(excess, np.abs(rise).max()))
 
     def _separates(self) -> bool:
         """True if the last event is one that separates the doublet."""
@@ -182,7 +203,7 @@ class Run:
         remaining, phase = self.path.time - self.at.time if step.event is None else step.duration, step.phase
         while True:
             phase = self._sided(phase)
-            flow = Flow(self.choice, phase.region, self.extras)
+            flow = Flow(self.choice, phase.region, self.extras, self.path.edge_watched)
             solution = _Solution(self, flow, phase)
             if self.model.kinks:  # first of all, as behind a kink the solution is another
                 kink = solution.crossing(remaining, solution.end(remaining)[1], step.event)
@@ -217,8 +238,8 @@ class Run:
             return phase
         sides = phase.sides or (1,) * len(model.kinks)
         for _ in range(2):
-            phase = phase.with_(sides=sides)
-            flow = Flow(self.choice, phase.region, self.extras)
+            phase = replace(phase, sides=sides)
+            flow = Flow(self.choice, phase.region, self.extras, self.path.edge_watched)
             guards, rates = kinks_along(flow)(self.at.y, self.p).full().T
             sides = tuple(np.where(np.where(abs(guards) > _ON_KINK, guards, rates) < 0, -1, 1).tolist())
         if sides != phase.sides and not phase.resting:
@@ -294,10 +315,9 @@ class _Solution:
 
     def crossing(self, duration: float, states: np.ndarray, landed: str | None) -> Crossing | None:
         """The first event inside the phase, if there is one."""
-        watched = self.run.path.watch
         parameters = np.append(self.run.p, float(self.phase.motion))
         return first_crossing(
-            self.flow, watched, parameters, duration, states, lambda parts: self.states(duration, parts),
+            self.flow, parameters, duration, states, lambda parts: self.states(duration, parts),
             self.run.tolerance.relative, landed,
         )  # fmt: skip
 
@@ -308,9 +328,10 @@ class _Solution:
             moved: the duration is expected only about.
         """
         run = self.run
-        if event not in guards(self.flow, run.path.watch)[1]:
+        guard, events = guards(self.flow)
+        if event not in events:
             raise Stopped(f"has no event {event} in this phase", self.phase, run.at.time, run.at.y, missed=True)
-        land = landing(self.flow, run.path.watch, event)
+        land = landing(self.flow, event)
         parameters = np.append(run.p, float(self.phase.motion))
         scale, duration, nearer = self._scale(event), expected, np.inf
         y, states = self.end(duration)
@@ -321,7 +342,8 @@ class _Solution:
                 break
             landed_close = abs(shift) <= max(_LANDED * duration, _ROUNDING)
             if landed_close and abs(float(miss[0])) <= max(_MISSES * scale, _ROUNDING):
-                if float(_slope(self.flow, run.path.watch, event)(landed, parameters)) > _RISES * scale / duration:
+                slope = float(guard(landed, parameters)[1][events.index(event)])
+                if slope > _RISES * scale / duration:
                     break  # the event was found in the backward direction: the engine's own event is earlier
                 if not moved and abs(duration + shift - expected) > max(_MOVED * expected, _MOVED_LEAST):
                     break
@@ -338,12 +360,3 @@ class _Solution:
         """The size of an event's function: a group, or 1."""
         group = next((row.scale for row in self.flow.model.events if row.name == event), "")
         return float(self.run.p[list(self.flow.model.groups).index(group)]) if group else 1.0
-
-
-@own_cache(512)
-def _slope(flow: Flow, watch: WatchedEvents, event: str) -> Function:
-    """Rate of change of an event's function along the flow."""
-    parts, motion = expressions(flow), SX.sym("motion")
-    table = {row.name: row.function for row in event_table(flow, watch, motion)}
-    rate = jtimes(table[event], parts.variables, parts.rates)
-    return Function("slope", [parts.variables, vertcat(flow.model.parameters, motion)], [rate])

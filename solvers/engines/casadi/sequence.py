@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
 from ....generated.automaton import BOUNCE, CLOSING, CRITERIA, ENDS, EVENTS, KINDS, OPENING, ROTATE, STICK, EventKind
 from ...model.model import Model
-from ...model.phases import Phase, WatchedEvents
+from ...model.phases import Phase
 from ...scene.contact import contact_gap
 
 _RESTS, _ROLLS, _RUPTURE, _SLIDES = (
@@ -47,6 +47,7 @@ class EventSequence:
 
     Arguments:
         groups: dimensionless groups of the collision.
+        edge_watched: as of a `Flow`.
         separated: it ends apart.
         certified: of a stick, whether separation is excluded by a proof.
         time, smallest_gap: of the whole collision, x0/v0 and x0.
@@ -56,7 +57,7 @@ class EventSequence:
     """
 
     groups: Mapping[str, float]
-    watch: WatchedEvents
+    edge_watched: bool
     steps: tuple[PhaseRun, ...]
     separated: bool
     certified: bool
@@ -99,7 +100,6 @@ def sequence(
     """
     edge = tangential_edge(model, groups)
     rupture = groups["rupture_gap"] if model.bridge else 1.0
-    watch = WatchedEvents(tangential_edge=edge != 1.0 and min(contact_gap(groups), 1.0) < edge < rupture)
     phase, last, steps, over = Phase(film=1, shear=int(edge >= 1.0), motion=CLOSING), 0.0, [], False
     for rows in _simultaneous(log, words):
         time = float(rows[-1]["time"])
@@ -112,7 +112,7 @@ def sequence(
         steps.append(PhaseRun(phase, float(answer["time"]) - last, None, ()))
     return EventSequence(
         groups=groups,
-        watch=watch,
+        edge_watched=edge != 1.0 and min(contact_gap(groups), 1.0) < edge < rupture,
         steps=tuple(steps),
         separated=separated,
         certified=bool(answer["certified"]),
@@ -164,7 +164,8 @@ def _run(model: Model, phase: Phase, duration: float, kinds: tuple[str, ...]) ->
 def _following(model: Model, phase: Phase, row: np.void) -> Phase:
     """The phase with the mode that the kernel has noted."""
     motion = CLOSING if row["closing"] else OPENING
-    return phase.with_(
+    return replace(
+        phase,
         film=int(row["film"]),
         shear=int(row["shear"]),
         motion=motion,

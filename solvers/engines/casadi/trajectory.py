@@ -1,6 +1,6 @@
 """A trajectory as an xarray Dataset: gap, velocities, rates and angle against time, with units."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from importlib.metadata import version
 
@@ -10,7 +10,6 @@ import xarray as xr
 from ...errors import ComputationError
 from ...model.dimensionless import Problem
 from ...model.model import Model
-from ...scene.scene import Scene
 from .integrators import IntegrationFailed, plain
 from .replay import Piece, Replay
 
@@ -28,20 +27,6 @@ _VARIABLES: dict[str, tuple[str, str]] = {
     "sliding_velocity": ("m/s", "tangential velocity of the sphere's centre and the wall past each other"),
     "rotation": ("rad", "angle turned by the line of centres"),
 }
-
-
-def attributes(scene: Scene, outcome: str, engine: str, rtol: float) -> dict[str, str | float]:
-    """Attributes for a file of the trajectory: its provenance, sufficient to compute it again."""
-    release = version("wetdoublet")
-    return {
-        "title": f"Trajectory of an oblique wet collision: {scene.name or 'unnamed scene'}",
-        "source": f"wetdoublet {release}",
-        "scene": scene.to_toml(),
-        "outcome": outcome,
-        "engine": engine,
-        "rtol": rtol,
-        "version": release,
-    }
 
 
 Sample = Callable[[np.ndarray], tuple[np.ndarray, np.ndarray | None]]
@@ -87,16 +72,13 @@ def stretch(piece: Piece, model: Model, replayed: Replay, p: np.ndarray, plugin:
 
 
 def dataset(
-    stretches: Sequence[Stretch],
-    model: Model,
-    n: Problem,
-    first: np.ndarray,
-    attrs: Mapping[str, str | float] | None = None,
+    stretches: Sequence[Stretch], model: Model, n: Problem, first: np.ndarray, outcome: str, engine: str, rtol: float
 ) -> xr.Dataset:
     """A trajectory on a grid of _POINTS per phase; the time of an event occurs twice, before and after it.
 
     Arguments:
         first: the state at initial contact, used alone if the collision is decided there.
+        outcome, engine, rtol: for the attributes, which suffice to compute it again.
     """
     p, size = model.group_values(n.groups), len(model.state)
     times: list[np.ndarray] = []
@@ -137,4 +119,9 @@ def dataset(
         "time": ("time", time, {"units": "s", "long_name": "time since initial contact"}),
         "phase": ("time", np.array(phases)),
     }
-    return xr.Dataset(variables, coordinates, dict(attrs or {}))
+    release = version("wetdoublet")
+    return xr.Dataset(variables, coordinates, {
+        "title": f"Trajectory of an oblique wet collision: {n.scene.name or 'unnamed scene'}",
+        "source": f"wetdoublet {release}", "scene": n.scene.to_toml(), "outcome": outcome, "engine": engine,
+        "rtol": rtol, "version": release,
+    })  # fmt: skip

@@ -9,7 +9,7 @@ import numpy as np
 from casadi import SX, Function, densify, jtimes, vertcat
 
 from ...host.thread_caches import own_cache
-from ...model.phases import Flow, WatchedEvents, event_table, expressions
+from ...model.phases import Flow, event_table, expressions
 
 # Parts of a phase at which its events are looked at, denser towards its ends, where the fast transients are.
 _EVENLY = np.linspace(0, 1, 33)
@@ -36,19 +36,18 @@ class Crossing:
 
 
 @own_cache(512)
-def guards(flow: Flow, watch: WatchedEvents) -> tuple[Function, tuple[str, ...]]:
+def guards(flow: Flow) -> tuple[Function, tuple[str, ...]]:
     """Function (states, groups and motion) -> guards and their rates, and the names of their events."""
     parts, motion = expressions(flow), SX.sym("motion")
-    table = event_table(flow, watch, motion)
-    values = vertcat(*(event.function for event in table)) if table else SX(0, 1)
+    table = event_table(flow, motion)
+    values = vertcat(*table.values()) if table else SX(0, 1)
     rates = jtimes(values, parts.variables, parts.rates) if table else SX(0, 1)
     inputs = [parts.variables, vertcat(flow.model.parameters, motion)]
-    return Function("guards", inputs, [densify(values), densify(rates)]), tuple(event.name for event in table)
+    return Function("guards", inputs, [densify(values), densify(rates)]), tuple(table)
 
 
 def first_crossing(
     flow: Flow,
-    watch: WatchedEvents,
     parameters: np.ndarray,
     duration: float,
     states: np.ndarray,
@@ -68,7 +67,7 @@ def first_crossing(
         rtol: tolerance of the engine.
         landed: the event that ends the phase; None if nothing does, so that guards count at its end as well.
     """
-    function, names = guards(flow, watch)
+    function, names = guards(flow)
     if not names or duration <= _SHORT:
         return None
     values, rates = (result.full() for result in function(states, parameters))
@@ -98,11 +97,9 @@ def first_crossing(
     return min(crossings, key=lambda crossing: crossing.part, default=None)
 
 
-def is_met(
-    flow: Flow, watch: WatchedEvents, parameters: np.ndarray, states: np.ndarray, event: str, rtol: float
-) -> bool:
+def is_met(flow: Flow, parameters: np.ndarray, states: np.ndarray, event: str, rtol: float) -> bool:
     """True if the last of a phase's states lies on an event's surface, to the error of an engine of this tolerance."""
-    function, names = guards(flow, watch)
+    function, names = guards(flow)
     if event not in names:
         return False
     values = function(states, parameters)[0].full()[names.index(event)]

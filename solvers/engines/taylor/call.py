@@ -7,20 +7,22 @@ the caller computes them by other means.
 from __future__ import annotations
 
 import ctypes
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 
 from ....generated.automaton import LOOSEST
-from ...model.key import ModelKey
+from ...model.dimensionless import Problem, nondimensionalise
 from ...model.model import select_model
 from ...scene.contact import NEVER_MET
-from ...scene.groups import si_values, sideways
+from ...scene.groups import rate_scales, sideways
 from ...scene.scene import Scene
-from ..settings import KERNEL_STEPS
+from ..settings import KERNEL_STEPS, KERNEL_STEPS_IN_SPACE
 from .build import kernel
-from .layout import ANSWER, Task, names
+from .headers import has_events
+from .layout import ANSWER, ANSWER_IN_SPACE, LEDGER, OWN_LEDGER, Task, names
 from .orders import order_for
 from .source import Variant
 
@@ -29,79 +31,124 @@ CHUNK = 4096  # collisions in a block for a thread
 
 @dataclass(frozen=True)
 class Impacts:
-    """Collisions of one scene: angles (rad), speeds (m/s), other quantities in SI by their names in the vocabulary."""
+    """Collisions of one scene as kernels take them, in SI.
+
+    Arguments:
+        speed, angle: normal speeds (m/s), angles (rad); in space no angle is read.
+        others: columns of quantities by their names in the vocabulary, in place of the scene's.
+    """
 
     scene: Scene
     speed: np.ndarray
     angle: np.ndarray
-    others: Mapping[str, np.ndarray]
+    others: Mapping[str, np.ndarray] = field(default_factory=dict)
+
+    @classmethod
+    def single(cls, problem: Problem) -> Impacts:
+        """One collision."""
+        return cls(problem.scene, np.array([problem.speed]), np.array([problem.angle]))
+
+    @property
+    def size(self) -> int:
+        return int(self.speed.size)
+
+    @property
+    def values(self) -> dict[str, Any]:
+        """All quantities by name: columns, and numbers of the scene where they are alike."""
+        return {**self.scene.material, **self.others, "speed": self.speed, "angle": self.angle}
 
     @property
     def oblique(self) -> np.ndarray:
         return sideways(self.scene, self.angle, self.others)
 
+    @property
+    def rates(self) -> np.ndarray:
+        """The scale of angular velocities of each collision, rad/s."""
+        return rate_scales(self.scene, self.values, self.in_space)
+
+    @property
+    def in_space(self) -> bool:
+        """True if these are pairs with vectors."""
+        return "initial_normal_x" in self.others
+
+    def by_kind(self) -> Iterator[tuple[bool, np.ndarray]]:
+        """The indices of oblique collisions, and of head-on ones, which have a kernel of their own."""
+        mask = self.oblique if not self.in_space else np.ones(self.size, bool)
+        yield from ((kind, which) for kind in (True, False) if (which := np.flatnonzero(mask == kind)).size)
+
     def part(self, which: np.ndarray | slice) -> Impacts:
         others = {name: values[which] for name, values in self.others.items()}
         return Impacts(self.scene, self.speed[which], self.angle[which], others)
 
-
-RunKernel = Callable[[Impacts, np.ndarray], None]
-"""A kernel as a function that computes impacts into an array of answers (zeros of ANSWER)."""
+    def problem(self, k: int) -> Problem:
+        """Collision k as the scene has it, without columns."""
+        return nondimensionalise(self.scene, float(self.speed[k]), float(self.angle[k]))
 
 
 def variant(
-    scene: Scene, choice: ModelKey, rtol: float, rotation: bool, ledger: bool = False, trajectory: bool = False
+    scene: Scene,
+    oblique: bool,
+    rtol: float,
+    rotation: bool = True,
+    ledger: bool = False,
+    trajectory: bool = False,
+    fold: bool = True,
+    space: bool = False,
 ) -> Variant:
-    """The variant of the kernel for a scene at a tolerance."""
+    """The kernel of a scene's collisions at a tolerance; arguments as of `run_recorded` and `select_model`."""
     own_rupture = scene.bridge is not None and scene.bridge.rupture == "own"
-    return Variant(choice, order_for(rtol), rotation, own_rupture, ledger=ledger, trajectory=trajectory)
-
-
-def variant_for_many(scene: Scene, oblique: bool, rtol: float, rotation: bool, fold: bool = True) -> Variant:
-    """The variant that `run_kernel` takes; with `fold` no quantity varies: a partner equal to the sphere stays so."""
-    return variant(scene, select_model(scene, oblique, fold=fold), rtol, rotation)
+    choice = select_model(scene, oblique, full=ledger, fold=fold, space=space)
+    return Variant(choice, order_for(rtol), rotation and not space, own_rupture, ledger=ledger, trajectory=trajectory)
 
 
 def run_kernel(
-    impacts: Impacts, rtol: float, rotation: bool = False, threads: int = 1, budget: int = KERNEL_STEPS, jumps: int = 0
+    impacts: Impacts,
+    rtol: float,
+    rotation: bool = False,
+    threads: int = 1,
+    budget: int | None = None,
+    jumps: int = 0,
+    ledgers: np.ndarray | None = None,
 ) -> np.ndarray:
-    """An array of ANSWER, one per collision.
+    """An array of ANSWER, in space of ANSWER_IN_SPACE, one per collision.
 
     Arguments:
         rotation: also compute the angle through which the line of centres turns.
-        budget: number of steps after which a collision is left undecided.
+        budget: number of steps after which a collision is left undecided; None for the most.
         jumps: what the slow manifold may replace: 0 nothing, 1 what follows the turn (times are not needed), 2 the
             approach as well (nor is the smallest gap).
+        ledgers: array of OWN_LEDGER for the energy ledgers; what declared events take stays 0 without any.
     """
-    answers, oblique_ones = np.zeros(impacts.angle.size, ANSWER), impacts.oblique
-    for oblique, which in ((True, np.flatnonzero(oblique_ones)), (False, np.flatnonzero(~oblique_ones))):
-        if which.size == 0:
-            continue
-        library = kernel(variant_for_many(impacts.scene, oblique, rtol, rotation, fold=not impacts.others))
-        run, whole = bind_kernel(library, rtol, budget, jumps), which.size == answers.size  # no copy in this case
+    scene, space, ledger = impacts.scene, impacts.in_space, ledgers is not None
+    answers = np.zeros(impacts.size, ANSWER_IN_SPACE if space else ANSWER)
+    steps = budget or (KERNEL_STEPS_IN_SPACE if space else KERNEL_STEPS)
+    for oblique, which in impacts.by_kind():
+        wanted = variant(scene, oblique, rtol, rotation or ledger, ledger, fold=not impacts.others, space=space)
+        library, terms_of = kernel(wanted), OWN_LEDGER if has_events(wanted.choice) else LEDGER
 
-        def chunk(first: int, run: RunKernel = run, which: np.ndarray = which, whole: bool = whole) -> None:
-            part = slice(first, min(first + CHUNK, which.size)) if whole else which[first : first + CHUNK]
-            some = answers[part]
-            run(impacts.part(part), some)
+        def chunk(first: int, library: Any = library, which: np.ndarray = which, terms_of: Any = terms_of) -> None:
+            whole, last = which.size == answers.size, min(first + CHUNK, which.size)
+            part = slice(first, last) if whole else which[first:last]  # no copy of the whole
+            some, terms = answers[part], np.zeros(last - first if ledger else 0, terms_of)
+            call = task(library, impacts.part(part), rtol, steps, some, 0 if ledger else jumps)
+            call.buffer("books", terms)
+            call.run()
             if not whole:
                 answers[part] = some
+            if ledgers is not None:
+                for name in terms.dtype.names or ():
+                    ledgers[name][part] = terms[name]
 
-        in_chunks(which.size, chunk, threads)
+        firsts = range(0, which.size, CHUNK)
+        if threads == 1 or len(firsts) == 1:
+            for first in firsts:
+                chunk(first)
+        else:
+            from concurrent.futures import ThreadPoolExecutor  # slow import
+
+            with ThreadPoolExecutor(threads) as pool:  # the call releases the interpreter's lock
+                list(pool.map(chunk, firsts))
     return answers
-
-
-def in_chunks(count: int, run: Callable[[int], None], threads: int) -> None:
-    """Run a kernel on the collisions from each first one on, `CHUNK` at a time, on several threads."""
-    firsts = range(0, count, CHUNK)
-    if threads == 1 or len(firsts) == 1:
-        for first in firsts:
-            run(first)
-    else:
-        from concurrent.futures import ThreadPoolExecutor  # slow import
-
-        with ThreadPoolExecutor(threads) as pool:  # the call releases the interpreter's lock
-            list(pool.map(run, firsts))
 
 
 def task(library: ctypes.CDLL, impacts: Impacts, rtol: float, budget: int, answers: np.ndarray, jumps: int = 0) -> Task:
@@ -111,14 +158,12 @@ def task(library: ctypes.CDLL, impacts: Impacts, rtol: float, budget: int, answe
         answers: array for the answers, zeros of ANSWER.
         budget, jumps: as for `run_kernel`.
     """
-    one = Task(library, impacts.angle.size, min(rtol, LOOSEST), budget)
-    one.number("jumps", jumps)
-    values: dict[str, np.ndarray | float] = {"poisson_ratio": 0.0, **NEVER_MET}
-    values |= si_values(impacts.scene, None, None)
-    values |= dict(impacts.others) | {"speed": impacts.speed, "angle": impacts.angle}
-    one.columns([_column(values[name]) for name in names(library, "quantity_names")])
-    one.buffer("answers", answers)
-    return one
+    call = Task(library, impacts.size, min(rtol, LOOSEST), budget)
+    call.number("jumps", jumps)
+    values = {"poisson_ratio": 0.0, **NEVER_MET, **impacts.values}
+    call.columns([_column(values[name]) for name in names(library, "quantity_names")])
+    call.buffer("answers", answers)
+    return call
 
 
 def _column(values: np.ndarray | float) -> np.ndarray | float:
@@ -126,12 +171,3 @@ def _column(values: np.ndarray | float) -> np.ndarray | float:
         return values
     column = np.ascontiguousarray(values, dtype=float).reshape(-1)
     return column.item() if column.size == 1 else column
-
-
-def bind_kernel(library: ctypes.CDLL, rtol: float, budget: int, jumps: int = 0) -> RunKernel:
-    """The kernel as a function of impacts all oblique or all head-on, as it is; other arguments as of `run_kernel`."""
-
-    def run(impacts: Impacts, answers: np.ndarray) -> None:
-        task(library, impacts, rtol, budget, answers, jumps).run()
-
-    return run

@@ -3,19 +3,17 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
 from ....generated.automaton import LAST_ANSWER, Purpose
-from ...model.model import select_model
-from ...scene.scene import Scene
-from ..settings import KERNEL_STEPS
+from ..settings import KERNEL_STEPS, KERNEL_STEPS_IN_SPACE
 from ..steps import Steps
 from .build import kernel
-from .call import CHUNK, Impacts, in_chunks, task, variant
+from .call import Impacts, task, variant
 from .headers import has_events
-from .layout import ANSWER, HAPPENING, LEDGER, OWN_LEDGER, number, step_row
-from .source import Variant
+from .layout import ANSWER, ANSWER_IN_SPACE, HAPPENING, LEDGER, OWN_LEDGER, number, step_row
 
 _ROOM = 64, 256  # events and steps of a collision
 
@@ -24,7 +22,8 @@ _ROOM = 64, 256  # events and steps of a collision
 class Recorded:
     """Trajectories: an ANSWER each, its events (the first `events` of a row), its LEDGER, and all steps.
 
-    `peaks` has the largest margin of the glass criterion while closing (a logarithm; -inf if unknown).
+    `peaks` has the largest margin of the glass criterion while closing (a logarithm; -inf if unknown). `decided` is the
+    time (x0/v0) at which a stick was decided that ends at another.
     """
 
     answers: np.ndarray
@@ -32,13 +31,7 @@ class Recorded:
     ledger: np.ndarray | None
     steps: Steps | None
     peaks: np.ndarray | None = None
-
-
-def variant_to_record(
-    scene: Scene, oblique: bool, rtol: float, ledger: bool, trajectory: bool = False, fold: bool = True
-) -> Variant:
-    """The variant that `run_recorded` takes; arguments as there."""
-    return variant(scene, select_model(scene, oblique, full=ledger, fold=fold), rtol, True, ledger, trajectory)
+    decided: float | None = None
 
 
 def run_recorded(
@@ -70,10 +63,10 @@ def run_recorded(
             again.
         until: time (x0/v0) to which a single collision is followed, a stick beyond its proof.
     """
-    wanted = variant_to_record(impacts.scene, oblique, rtol, ledger, trajectory, fold)
+    wanted = variant(impacts.scene, oblique, rtol, True, ledger, trajectory, fold)
     wanted = wanted if until is None else replace(wanted, limit=True, lanes=1)
     library = kernel(wanted)
-    size, keep = impacts.angle.size, keep and trajectory
+    size, keep = impacts.size, keep and trajectory
     margins = np.full(size, -np.inf) if peaks else None
     log_room, step_room = room[0] * events, room[1] * size
     while True:
@@ -99,21 +92,15 @@ def run_recorded(
     return Recorded(answers, log, books if ledger else None, written, margins)
 
 
-def run_with_books(
-    impacts: Impacts, rtol: float, threads: int, budget: int = KERNEL_STEPS
-) -> tuple[np.ndarray, np.ndarray]:
-    """Answers and ledgers of impacts, oblique or head-on; these with the loss by declared events, 0 without any."""
-    answers, books = np.zeros(impacts.angle.size, ANSWER), np.zeros(impacts.angle.size, OWN_LEDGER)
-    turns, fold = impacts.oblique, not impacts.others
-    for oblique, which in ((True, np.flatnonzero(turns)), (False, np.flatnonzero(~turns))):
-
-        def chunk(first: int, oblique: bool = oblique, which: np.ndarray = which) -> None:
-            part = which[first : first + CHUNK]
-            recorded = run_recorded(impacts.part(part), oblique, rtol, True, budget=budget, events=False, fold=fold)
-            assert recorded.ledger is not None  # as requested
-            answers[part] = recorded.answers
-            for name in recorded.ledger.dtype.names or ():
-                books[name][part] = recorded.ledger[name]
-
-        in_chunks(which.size, chunk, threads)
-    return answers, books
+def recorded_in_space(impact: Impacts, rtol: float) -> tuple[Any, np.ndarray]:
+    """The answer of one pair in space, and its events with the modes between them (`HAPPENING`)."""
+    library, room = kernel(variant(impact.scene, True, rtol, space=True)), _ROOM[1]
+    while True:
+        answers, log = np.zeros(1, ANSWER_IN_SPACE), np.zeros(room, HAPPENING)
+        call = task(library, impact, rtol, KERNEL_STEPS_IN_SPACE, answers)
+        call.buffer("log", log)
+        call.run()
+        events = int(answers["events"][0])
+        if events <= room:
+            return answers[0], log[:events]
+        room = events

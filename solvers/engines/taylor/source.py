@@ -5,13 +5,14 @@ Imported when the package is built, too, and so without CasADi.
 
 import math
 import re
+from collections.abc import Mapping
 from dataclasses import dataclass, field
+from pathlib import Path
 
 from ...host.compiler import more_flags
 from ...model.key import ModelKey
 from ..machine import InstructionSet, lanes
 from .headers import automaton, has_events, headers, tangents
-from .includes import resolved
 from .layout import MORE_RESULTS, MOST_STEPS, SHOWN, SHOWN_IN_SPACE, declarations
 
 # No -ffast-math: NaN and infinity are compared. Products may be fused with sums; sqrt does not set errno.
@@ -20,6 +21,8 @@ _COMMON = ("-fno-math-errno", "-ffp-contract=fast", "-fPIC", "-shared", "-std=gn
 FLAGS = ("-O2", "-funroll-loops", *_COMMON)
 # With the ledger or the trajectory: compiles faster, runs about 5 % slower (docs/engineering/kernel.md).
 RECORD_FLAGS = ("-O1", "-fexpensive-optimizations", "-ftree-pre", "-fgcse", *_COMMON)
+RUNTIME = Path(__file__).resolve().parent / "runtime"
+_LINE = re.compile(r'#(?<![^\n]#)(?:pragma once\n|include "([^"]+)"\n)')  # a search for "#" is faster than for lines
 _ONCE = "#pragma once"
 # What only kernels of models with declared events contain is taken out of the others' text, and so out of their digest.
 _OWN_EVENTS, _KINKS = (
@@ -150,3 +153,33 @@ def stem(variant: Variant) -> str:
     package = variant.choice.package
     model = f"-{package.digest[:8]}" if package is not None else ""
     return f"taylor-{'tangent-' if variant.gradients else ''}{variant.choice.structure}{model}"
+
+
+def included(text: str) -> list[str]:
+    """Files that a C text includes by `#include "..."`, in order."""
+    return [name for name in _LINE.findall(text) if name]
+
+
+def resolved(source: str, texts: Mapping[str, str]) -> str:
+    r"""A C text with each included file inserted once, at its first #include.
+
+    Includes must be unconditional: a file that a variant does not need contains the condition itself.
+
+    Arguments:
+        texts: of the files that are not in the runtime's folder, by name.
+
+    Examples:
+        >>> resolved('#include "settings.h"\nint order = ORDER;\n', {"settings.h": "#define ORDER 9\n"})
+        '#define ORDER 9\nint order = ORDER;\n'
+    """
+    seen: set[str] = set()
+
+    def put(line: re.Match[str]) -> str:
+        name = line[1]
+        if name is None or name in seen:
+            return ""
+        seen.add(name)
+        text = texts[name] if name in texts else (RUNTIME / name).read_text()
+        return _LINE.sub(put, text)
+
+    return _LINE.sub(put, source)

@@ -2,17 +2,16 @@
 
 import ctypes
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from ....generated.automaton import LOOSEST
-from ...model.model import select_model
 from ...scene.groups import si_values
 from ...scene.scene import Scene
 from ..settings import KERNEL_STEPS
 from .build import kernel, kernel_supports
-from .call import Impacts, task
+from .call import Impacts, task, variant
 from .layout import ANSWER, MOST_STEPS, NEARNESS, RESULTS, names
 from .orders import order_backward, order_for
 from .source import Variant
@@ -69,8 +68,8 @@ def run_tangent(
     """
     order = order or (order_backward if backward else order_for)(min(rtol, LOOSEST))
     scene = impacts.scene
-    variant = variant_of(scene, oblique, order, rotation, backward, fold)
-    library = kernel(variant) if kernel_supports(scene, (oblique,), gradients=True) else None
+    wanted = variant_of(scene, oblique, order, rotation, backward, fold)
+    library = kernel(wanted) if kernel_supports(scene, (oblique,), gradients=True) else None
     if library is None:
         return None
     if backward:
@@ -97,10 +96,8 @@ def variant_of(
     scene: Scene, oblique: bool, order: int, rotation: bool, backward: bool = False, fold: bool = True
 ) -> Variant:
     """The variant of the kernel that differentiates a scene's collisions."""
-    own_rupture = scene.bridge is not None and scene.bridge.rupture == "own"
-    return Variant(
-        select_model(scene, oblique, fold=fold), order, rotation, own_rupture, gradients=True, backward=backward
-    )
+    plain = variant(scene, oblique, LOOSEST, rotation, fold=fold)
+    return replace(plain, order=order, gradients=True, backward=backward)
 
 
 def _groups_moved(

@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from ...engines.taylor.includes import RUNTIME, included
+from ...engines.taylor.source import RUNTIME, included
 from .conditions import Conditions
 from .items import Item, items, own_names
 

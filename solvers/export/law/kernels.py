@@ -7,11 +7,10 @@ from functools import cached_property
 from ...engines.settings import KERNEL_STEPS, KERNEL_STEPS_IN_SPACE
 from ...engines.taylor.call import variant
 from ...engines.taylor.headers import headers
-from ...engines.taylor.in_space import variant_in_space
 from ...engines.taylor.source import Variant, files
 from ...errors import CheckFailed, InputError
 from ...model.key import ModelKey
-from ...model.model import load, select_model
+from ...model.model import load
 from ...scene.scene import Scene
 from ...space.collide_pair import check_scene
 from .amalgam import Source
@@ -142,15 +141,13 @@ def kernels(scene: Scene, rtol: float, ledger: bool = False) -> tuple[Kernel, ..
         spinning = scene.with_entries({"impact.partner_spin": 0.0})
     result = []
     for prefix, oblique in ((HEAD_ON, False), (PLANE, True)):
-        choice = select_model(spinning, oblique)
-        own = variant(scene, choice, _MAPPED if ledger else rtol, rotation=True)
+        own = variant(spinning, oblique, _MAPPED if ledger else rtol, fold=False)
         result.append(Kernel(prefix, replace(own, limit=not ledger), spinning))
         if ledger:
-            choice = select_model(spinning, oblique, full=True)
-            booked = replace(variant(scene, choice, rtol, rotation=True, ledger=True), limit=True)
+            booked = replace(variant(spinning, oblique, rtol, ledger=True, fold=False), limit=True)
             result.append(Kernel(BOOKED + prefix, booked, spinning))
     if not ledger and not scene.wall and not only_in_a_plane(scene):
-        result.append(Kernel(SPACE, variant_in_space(scene, rtol), spinning))
+        result.append(Kernel(SPACE, variant(scene, True, rtol, space=True), spinning))
     return tuple(result)
 
 

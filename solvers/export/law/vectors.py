@@ -9,12 +9,11 @@ import numpy as np
 from ....generated.automaton import LAST_ANSWER
 from ...engines.settings import KERNEL_STEPS
 from ...engines.taylor.build import kernel
-from ...engines.taylor.call import Impacts, bind_kernel
+from ...engines.taylor.call import Impacts, task
 from ...engines.taylor.layout import ANSWER
 from ...errors import ComputationError
-from ...many import impacts as many
 from ...many.by_kernel import block_of
-from ...many.results import Block
+from ...many.impacts import Block
 from ...scene.scene import Scene
 from ...space.collide_pair import collide_pair
 from ...space.pairs import Bodies
@@ -145,9 +144,8 @@ def _computed(of_law: Kernel, impacts: dict[str, np.ndarray]) -> list[Vector]:
 
 def _by_kernel(library: ctypes.CDLL, impacts: Impacts, rtol: float) -> Block:
     answers, scene = np.zeros(impacts.speed.size, ANSWER), impacts.scene
-    bind_kernel(library, rtol, KERNEL_STEPS)(impacts, answers)
-    columns = {"impact.speed": impacts.speed, "impact.angle": impacts.angle}
-    block = block_of(many.Impacts.listed(scene, columns, rtol, "taylor", _RESULTS), answers, impacts, None)
+    task(library, impacts, rtol, KERNEL_STEPS, answers).run()
+    block = block_of(_RESULTS, answers, impacts)
     separated = answers["outcome"] > 0
     block["final_gap"] = np.where(separated, answers["final_gap"] * scene.liquid.film_thickness, np.nan)
     return block | {"rebound": answers["reversal"], "answered": answers["status"] <= LAST_ANSWER}

@@ -9,12 +9,12 @@ from dataclasses import replace
 from ....generated.automaton import OUTCOMES
 from ...collision.by_kernel import recorded
 from ...collision.by_replay import by_replay
-from ...engines.taylor.call import variant_for_many
+from ...engines.taylor.call import variant
 from ...engines.taylor.source import Variant
 from ...engines.taylor.undecided import CHATTERS, SEPARATES
 from ...errors import ComputationError, ModelWarning
 from ...many.collide_many import collide_many
-from ...model.dimensionless import Problem, nondimensionalise
+from ...model.dimensionless import Problem
 from ...model.validity import remarks
 from ...scene.scene import Scene
 from ..audit import LONG
@@ -27,10 +27,6 @@ OPEN = 1e-5  # largest residual, relative to the ledger's largest term
 DRIFT = 1e-6  # largest relative drift of the angular momentum
 _STEP = 1e-6  # relative step in St for the conditioning
 _PARTICULAR = re.compile(r" = .* is (?=above|below)| \(.*")  # value and source of a remark
-
-
-def _dimensionless(scene: Scene) -> Problem:
-    return nondimensionalise(scene, *scene.need_impact())
 
 
 def fast(scene: Scene, rtol: float) -> Result:
@@ -64,12 +60,12 @@ def _surface_speeds(scene: Scene, *spins: float | None) -> tuple[float, ...]:
 
 def fast_kernel(scene: Scene) -> Variant:
     """The kernel variant of a scene."""
-    return variant_for_many(scene, _dimensionless(scene).oblique, RTOL, rotation=False)
+    return variant(scene, Problem.read(scene).oblique, RTOL, rotation=False)
 
 
 def chained(scene: Scene, rtol: float, plugin: str = "cvodes") -> Result:
     """Result as by `collide` with its ledger."""
-    one = by_replay(_dimensionless(scene), rtol, plugin, True, False)
+    one = by_replay(Problem.read(scene), rtol, plugin, True, False)
     more: dict[str, float] = {}
     if one.energy is not None:
         terms = one.energy.to_dict()
@@ -209,8 +205,8 @@ def _audited(case: Case, first: str) -> list[Issue]:
     A trajectory that is not certified has another outcome, which its error near a boundary may explain.
     """
     try:
-        ended = recorded(_dimensionless(case.scene), RTOL).answers["time"][0]
-        recorded(_dimensionless(case.scene), RTOL, until=float(ended) + LONG)
+        ended = recorded(Problem.read(case.scene), RTOL).answers["time"][0]
+        recorded(Problem.read(case.scene), RTOL, until=float(ended) + LONG)
     except ComputationError as error:
         if SEPARATES not in str(error):
             return []  # it continued until the kernel gave up

@@ -13,7 +13,6 @@ from ...host.cores import usable_cores
 from ...host.environment import environment
 from ...host.progress import Progress
 from ...host.workers import undisturbed, workers
-from ...model.model import select_model
 from .judge import fast_kernel, judge
 from .sample import SEED, sample
 from .verdict import DISAGREEMENTS, RTOL, Case, Issue, Verdict
@@ -95,7 +94,7 @@ def stress(count: int, seed: int = SEED, tell: Progress = lambda _done, _total: 
 def _kernel_of(case: Case) -> Variant:
     """The first kernel that a case needs."""
     if case.angles:
-        return variant(case.scene, select_model(case.scene, True), RTOL, True, trajectory=True)
+        return variant(case.scene, True, RTOL, trajectory=True, fold=False)
     return fast_kernel(case.scene)
 
 

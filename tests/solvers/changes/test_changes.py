@@ -7,8 +7,7 @@ import pytest
 from wetdoublet.solvers import Scene, boundary, boundary_sensitivities, collide_many
 from wetdoublet.solvers.changes.brackets import Brackets, bisect, enclose, locate
 from wetdoublet.solvers.changes.experiment import Experiment, Rows
-from wetdoublet.solvers.changes.lines import Lines
-from wetdoublet.solvers.changes.slopes import outcomes_along, slopes, slopes_by_differences
+from wetdoublet.solvers.changes.slopes import Lines, outcomes_along, slopes, slopes_by_differences
 
 ENTRIES = ("liquid.viscosity", "liquid.film_thickness")
 

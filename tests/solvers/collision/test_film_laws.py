@@ -5,7 +5,7 @@ import math
 import pytest
 from wetdoublet.solvers import Scene
 from wetdoublet.solvers.model.model import load, select_model
-from wetdoublet.solvers.model.phases import Region
+from wetdoublet.solvers.model.phases import Phase
 
 from ...helpers.reference import collide
 
@@ -60,6 +60,6 @@ def test_the_head_on_certificate_knows_its_film(film):
 
 def test_a_cavitated_film_does_not_act():
     """The force flag of a region is off only where the film is there, opens, and cavitates."""
-    assert Region(1, 1, False, True).flags == {"film": 0, "shear": 1}
-    assert Region(1, 1, False).flags == {"film": 1, "shear": 1}
+    assert Phase(1, 1, 0, cavitated=True).flags == {"film": 0, "shear": 1}
+    assert Phase(1, 1, 0).flags == {"film": 1, "shear": 1}
     assert [load(select_model(alone(film), False)).cavitates for film in ("finite", "cavitating")] == [False, True]

@@ -12,7 +12,7 @@ from loky import process_executor
 from wetdoublet.solvers import ModelWarning, Scene, collide, collide_many, gradients_many, regime_map
 from wetdoublet.solvers.errors import ComputationError, InputError
 from wetdoublet.solvers.host.compiler import compiler
-from wetdoublet.solvers.many import alone, compute
+from wetdoublet.solvers.many import compute
 from wetdoublet.solvers.model.dimensionless import nondimensionalise
 from wetdoublet.solvers.results import BY_DEFAULT, REQUESTED, REVERSALS
 
@@ -42,9 +42,9 @@ def test_a_failure_is_marked_and_the_rest_go_on(monkeypatch):
             raise bad[problem.groups["stokes"]]
         return real(problem, *rest)
 
-    real = alone.integrated
+    real = compute.integrated
     plain = collide_many(scene, stokes=[0.01, 0.2], angle=1.0, engine="rosenbrock")
-    monkeypatch.setattr(alone, "integrated", integrated)
+    monkeypatch.setattr(compute, "integrated", integrated)
     data = collide_many(scene, stokes=[0.01, 0.02, 0.03, 0.2], angle=1.0, engine="rosenbrock")
     assert data.outcome.values.tolist() == [plain.outcome.values[0], -1, -1, plain.outcome.values[1]]
     assert data.reason.values.tolist() == ["", "no luck", "internal error: ZeroDivisionError: oops", ""]

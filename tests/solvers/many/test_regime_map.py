@@ -10,7 +10,7 @@ import pytest
 import xarray as xr
 from wetdoublet.solvers import Scene, collide_many, regime_map
 from wetdoublet.solvers.errors import ComputationError, InputError
-from wetdoublet.solvers.many import alone
+from wetdoublet.solvers.many import compute
 from wetdoublet.solvers.many.plot_map import draw_map
 from wetdoublet.solvers.many.regime_map import write
 from wetdoublet.solvers.many.text_map import failures, table
@@ -32,14 +32,14 @@ def data():
 @pytest.fixture
 def unlucky(monkeypatch):
     """Let the collisions of one Stokes number, 0.1, fail."""
-    real = alone.integrated
+    real = compute.integrated
 
     def integrated(problem, *rest):
         if abs(problem.groups["stokes"] - 0.1) < 1e-12:
             raise ComputationError("no luck", advice="none")
         return real(problem, *rest)
 
-    monkeypatch.setattr(alone, "integrated", integrated)
+    monkeypatch.setattr(compute, "integrated", integrated)
 
 
 def test_the_grid(data):

@@ -4,11 +4,9 @@ import numpy as np
 import pytest
 from wetdoublet.generated.automaton import LAST_ANSWER, OUTCOMES, Status
 from wetdoublet.solvers import ComputationError, InputError, Scene, collide, gradients_many, sensitivities
-from wetdoublet.solvers.engines.choice import gradient_engine
 from wetdoublet.solvers.engines.taylor.call import Impacts
 from wetdoublet.solvers.engines.taylor.tangent import run_tangent
 from wetdoublet.solvers.host.compiler import compiler
-from wetdoublet.solvers.results import TANGENTS
 from wetdoublet.solvers.scene.groups import si_values
 from wetdoublet.solvers.sensitivity import gradients_many as many
 from wetdoublet.solvers.sensitivity.gradients_many import STICK
@@ -106,7 +104,7 @@ def test_the_engine_that_is_chosen() -> None:
     assert found.engine == "taylor"
     assert gradients_many(scene, **asked, of=OF).engine.values.tolist() == ["taylor"]
     assert sensitivities(scene, OF, **asked, method="adjoint").engine == "rosenbrock"
-    assert gradient_engine(scene, (*OF, "energy.capillary"), TANGENTS, (True,)) == "rosenbrock"
+    assert sensitivities(scene, (*OF, "energy.capillary"), **asked).engine == "rosenbrock"
     plain = gradients_many(scene, **asked, of=OF, engine="rosenbrock")
     assert plain.engine.values.tolist() == ["rosenbrock"]
     for of in OF:

@@ -7,8 +7,8 @@ import pytest
 from wetdoublet.generated.automaton import OUTCOMES
 from wetdoublet.solvers import Scene, collide, collide_pair
 from wetdoublet.solvers.host.compiler import compiler
-from wetdoublet.solvers.space.books import residual
 from wetdoublet.solvers.space.by_kernel import by_kernel
+from wetdoublet.solvers.space.ends import residual
 from wetdoublet.solvers.space.pairs import checked
 
 from ...helpers.random_in_space import arrivals, differences, quantities, request

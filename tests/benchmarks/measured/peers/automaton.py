@@ -5,6 +5,7 @@ is proved where the energy is below a barrier ahead, or, on strings, where the f
 """
 
 from collections.abc import Sequence
+from dataclasses import replace
 from functools import cached_property, lru_cache
 from typing import NamedTuple
 
@@ -149,7 +150,7 @@ class Automaton:
                 case "turn":
                     self._moves(-phase.motion)
                 case "cross film edge":
-                    self.phase = phase.with_(film=1 - phase.film)
+                    self.phase = replace(phase, film=1 - phase.film)
                 case "separate":
                     self.outcome = rules.BOUNCE if self.reversed else rules.ROTATE
                 case "cut off":
@@ -160,11 +161,11 @@ class Automaton:
     def _opens(self, resting: bool) -> None:
         """Open from here, or rest; on an edge, the phase is beyond it."""
         film = 0 if self.model.edged and rules.is_on_edge(self.y[0], 1.0) else self.phase.film
-        self.phase = self.phase.with_(film=film, resting=resting)
+        self.phase = replace(self.phase, film=film, resting=resting)
         self._moves(OPENING)
 
     def _moves(self, motion: int) -> None:
-        self.phase = self.phase.with_(motion=motion, cavitated=self.model.cavitates and motion == OPENING)
+        self.phase = replace(self.phase, motion=motion, cavitated=self.model.cavitates and motion == OPENING)
 
     def sticks(self, y: np.ndarray) -> bool:
         """True if a stick is proved in a state."""

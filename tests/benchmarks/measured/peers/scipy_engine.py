@@ -17,7 +17,7 @@ from casadi import SX, Function, densify, jacobian, jtimes, vertcat
 from wetdoublet.solvers.engines.casadi.integrators import tolerance_for
 from wetdoublet.solvers.host.buffered import Buffered
 from wetdoublet.solvers.model.dimensionless import Problem
-from wetdoublet.solvers.model.phases import Flow, WatchedEvents, event_table, expressions
+from wetdoublet.solvers.model.phases import Flow, event_table, expressions
 
 from .automaton import CERTIFIED, Automaton, Hit, proof_of, proving
 
@@ -49,12 +49,13 @@ def equations(flow: Flow) -> Equations:
     """The equations of a flow for an external integrator; the parameters are groups, motion and level."""
     parts = expressions(flow)
     motion, level = SX.sym("motion"), SX.sym("level")
-    table = event_table(flow, WatchedEvents(), motion)
-    dips = tuple(k for k, event in enumerate(table) if event.dips)
-    guards = {event.name: event.function for event in table}
+    table = event_table(flow, motion)
+    lasting = {row.name for row in flow.model.events if not row.dips}
+    dips = tuple(k for k, name in enumerate(table) if name not in lasting)
+    guards, functions = dict(table), [*table.values()]
     if proof_of(flow.model):
         guards[CERTIFIED] = proving(flow.choice)(parts.variables, flow.model.parameters) - level
-    slopes = [-jtimes(table[k].function, parts.variables, parts.rates) for k in dips]
+    slopes = [-jtimes(functions[k], parts.variables, parts.rates) for k in dips]
     inputs = [parts.variables, vertcat(flow.model.parameters, motion, level)]
     return Equations(
         Function("rates", inputs, [parts.rates]),

@@ -11,9 +11,9 @@ import pytest
 from wetdoublet.generated.automaton import KINDS
 from wetdoublet.solvers import Scene, boundary, collide
 from wetdoublet.solvers.collision.by_kernel import followed, sequence_in, sequence_of
-from wetdoublet.solvers.engines.casadi.confirm import confirm
+from wetdoublet.solvers.engines.casadi.confirm import Confirmation
 from wetdoublet.solvers.engines.casadi.integrators import tolerance_for
-from wetdoublet.solvers.engines.casadi.replay import Stopped, replay
+from wetdoublet.solvers.engines.casadi.replay import PHASES, Run, Stopped
 from wetdoublet.solvers.engines.casadi.sequence import EventSequence
 from wetdoublet.solvers.engines.steps import Steps
 from wetdoublet.solvers.model.dimensionless import Problem, nondimensionalise
@@ -98,15 +98,45 @@ def test_a_wrong_record_is_noticed(name: str, plugin: str) -> None:
     scene = SCENES[name]()
     n, path = recorded(scene)
     choice, tolerance = n.key(full=True), tolerance_for(RTOL, plugin, n.groups)
-    assert replay(path, choice, (), plugin, tolerance, RTOL).events
+    assert Run(path, choice, (), plugin, tolerance, RTOL).run().events
     followed_all_the_same = []
     for what, wrong in mutants(path):
         try:
-            replay(wrong, choice, (), plugin, tolerance, RTOL)
+            Run(wrong, choice, (), plugin, tolerance, RTOL).run()
             followed_all_the_same.append(what)
         except Stopped:
             pass
     assert not followed_all_the_same
+
+
+@pytest.mark.parametrize("plugin", ["cvodes", "rosenbrock"])
+def test_a_barrier_that_does_not_hold_is_noticed(plugin: str) -> None:
+    """A stick is replayed to its proof; a pair that escapes is no stick, wherever the record says that it is proved."""
+    n, path = recorded(impact("granulation", 0.05, "30 deg"))
+    assert path.certified
+    Run(path, n.key(full=True), (), plugin, tolerance_for(RTOL, plugin, n.groups), RTOL).run()
+    n, path = recorded(impact(*PARTS))
+    tolerance, done = tolerance_for(RTOL, plugin, n.groups), 0.0
+    for k, step in enumerate(path.steps):
+        last = replace(step, duration=step.duration * 0.9, event=None, kinds=())
+        proved = replace(
+            path, steps=(*path.steps[:k], last), separated=False, certified=True, time=done + last.duration
+        )
+        with pytest.raises(Stopped, match="above the barrier"):
+            Run(proved, n.key(full=True), (), plugin, tolerance, RTOL).run()
+        done += step.duration
+
+
+def test_more_phases_than_it_takes_are_refused_at_once() -> None:
+    """The error has the phase and time at which the budget ends, and what to try."""
+    scene = impact(*PARTS)
+    n, path = recorded(scene)
+    many = replace(path, steps=path.steps[:1] * (PHASES + 1), separated=False)
+    with pytest.raises(Stopped, match=f"at most {PHASES} phases, and the record has {PHASES + 1}") as raised:
+        Run(many, n.key(full=True), (), "cvodes", tolerance_for(RTOL, "cvodes", n.groups), RTOL).run()
+    error = raised.value.error("cvodes", n.model(full=True))
+    assert (error.phase, error.advice) == (str(path.steps[0].phase), "try --engine rosenbrock")
+    assert error.time == pytest.approx(PHASES * path.steps[0].duration, rel=1e-9)
 
 
 def test_every_kind_of_event_is_among_them() -> None:
@@ -138,14 +168,14 @@ def test_the_kernels_steps_are_confirmed_and_wrong_ones_are_not(name: str) -> No
     scene = SCENES[name]()
     n = nondimensionalise(scene, *scene.need_impact())
     ran = followed(n, RTOL, None, ledger=True, trajectory=True)
-    path, steps = sequence_in(n, ran), ran.record.steps
+    path, steps = sequence_in(n, ran), ran.steps
     assert steps is not None
     choice = n.key(full=True)
-    confirm(path, steps, choice, "cvodes", RTOL)
+    Confirmation(path, steps, choice, "cvodes", RTOL).run()
     confirmed = []
     for what, wrong, its_steps in misled(path, steps):
         try:
-            confirm(wrong, its_steps, choice, "cvodes", RTOL)
+            Confirmation(wrong, its_steps, choice, "cvodes", RTOL).run()
             confirmed.append(what)
         except Stopped:
             pass

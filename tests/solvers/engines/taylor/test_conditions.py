@@ -13,7 +13,7 @@ from wetdoublet.generated import automaton
 from wetdoublet.solvers import Scene
 from wetdoublet.solvers.engines.taylor import source as text
 from wetdoublet.solvers.engines.taylor.headers import headers
-from wetdoublet.solvers.engines.taylor.includes import resolved
+from wetdoublet.solvers.engines.taylor.source import resolved
 from wetdoublet.solvers.host.compiler import compiler
 from wetdoublet.solvers.model.model import select_model
 

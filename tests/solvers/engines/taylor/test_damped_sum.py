@@ -9,7 +9,7 @@ import pytest
 from wetdoublet.solvers import Scene
 from wetdoublet.solvers.engines.taylor import call as engine
 from wetdoublet.solvers.engines.taylor import orders
-from wetdoublet.solvers.engines.taylor.includes import RUNTIME
+from wetdoublet.solvers.engines.taylor.source import RUNTIME
 from wetdoublet.solvers.host.compiler import compiler
 
 HEADER = (RUNTIME / "damped_sum.h").read_text()

@@ -8,7 +8,7 @@ import pytest
 from wetdoublet.solvers import Scene
 from wetdoublet.solvers.engines.taylor import source
 from wetdoublet.solvers.engines.taylor.headers import headers, tangents
-from wetdoublet.solvers.engines.taylor.includes import RUNTIME, included
+from wetdoublet.solvers.engines.taylor.source import RUNTIME, included
 from wetdoublet.solvers.host.compiler import compiler
 from wetdoublet.solvers.model.model import select_model
 

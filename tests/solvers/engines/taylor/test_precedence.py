@@ -9,7 +9,7 @@ from wetdoublet.generated.automaton import EVENTS
 from wetdoublet.solvers import Scene
 from wetdoublet.solvers.engines.taylor import source
 from wetdoublet.solvers.engines.taylor.headers import headers
-from wetdoublet.solvers.engines.taylor.includes import resolved
+from wetdoublet.solvers.engines.taylor.source import resolved
 from wetdoublet.solvers.host.compiler import compiler
 from wetdoublet.solvers.model.model import select_model
 

@@ -10,7 +10,6 @@ from wetdoublet.solvers.engines.taylor import build as library
 from wetdoublet.solvers.engines.taylor import call as engine
 from wetdoublet.solvers.engines.taylor import layout, record
 from wetdoublet.solvers.host.compiler import compiler
-from wetdoublet.solvers.model.model import select_model
 
 from ....helpers.data import COLLISIONS as REFERENCE
 from ....helpers.own_arm import described
@@ -108,7 +107,7 @@ def test_steps_that_are_not_kept_are_not_written():
 def test_a_buffer_that_is_too_small_is_refused(short: str):
     """The kernel is given the size of every buffer, and writes nothing where one does not hold what it would write."""
     scene = Scene.load("granulation")
-    kernel = library.kernel(engine.variant(scene, select_model(scene, True, full=True), RTOL, True, True, True))
+    kernel = library.kernel(engine.variant(scene, True, RTOL, ledger=True, trajectory=True, fold=False))
     assert kernel is not None
     impacts = record.Impacts(scene, np.full(9, scene.speed_of(0.02)), np.full(9, 1.3), {})
     answers = np.zeros(9, layout.ANSWER)

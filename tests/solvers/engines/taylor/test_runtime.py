@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from wetdoublet.solvers.engines import machine
 from wetdoublet.solvers.engines.taylor import source as text
-from wetdoublet.solvers.engines.taylor.includes import resolved
+from wetdoublet.solvers.engines.taylor.source import resolved
 from wetdoublet.solvers.host.compiler import compiler
 
 ORDER = 12
