@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from .engines.kernels import compile_kernels
     from .errors import CheckFailed, ComputationError, InputError, ModelWarning, WetDoubletError
     from .explorer.page_of_scene import Explorer, explore
+    from .export.hybrid import Equations, equations
     from .fitting.examine import check_data
     from .fitting.fit import fit, log_likelihood
     from .fitting.result import Fit
@@ -51,6 +52,7 @@ _NAMES = {
     "engines.kernels": "compile_kernels",
     "errors": "CheckFailed ComputationError InputError ModelWarning WetDoubletError",
     "explorer.page_of_scene": "Explorer explore",
+    "export.hybrid": "Equations equations",
     "fitting.examine": "check_data",
     "fitting.fit": "fit log_likelihood",
     "fitting.result": "Fit",
@@ -78,10 +80,10 @@ _HOMES = {name: home for home, names in _NAMES.items() for name in names.split()
 
 __all__ = [
     "Atlas", "Boundaries", "BoundarySensitivities", "CheckFailed", "Collision", "ComputationError", "Critical",
-    "Design", "Explorer", "Fit", "InputError", "ModelWarning", "Proof", "ProvedBoundary", "ProvedMap", "Scene",
-    "Sensitivities", "WetDoubletError", "atlas", "band", "boundary", "boundary_sensitivities", "check_data",
+    "Design", "Equations", "Explorer", "Fit", "InputError", "ModelWarning", "Proof", "ProvedBoundary", "ProvedMap",
+    "Scene", "Sensitivities", "WetDoubletError", "atlas", "band", "boundary", "boundary_sensitivities", "check_data",
     "collide", "collide_many", "collide_pair", "collision_averages", "compile_kernels", "critical",
-    "design", "explore", "fit", "gradients_many", "log_likelihood", "pair_gradients", "plot", "prove",
+    "design", "equations", "explore", "fit", "gradients_many", "log_likelihood", "pair_gradients", "plot", "prove",
     "prove_boundary", "prove_map", "regime_map", "sensitivities", "tracks",
 ]  # fmt: skip
 
