@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from .engines.kernels import compile_kernels
     from .errors import CheckFailed, ComputationError, InputError, ModelWarning, WetDoubletError
     from .explorer.page_of_scene import Explorer, explore
+    from .export.hybrid import Equations, equations
     from .fitting.examine import check_data
     from .fitting.fit import fit, log_likelihood
     from .fitting.result import Fit
@@ -39,6 +40,7 @@ if TYPE_CHECKING:
     from .sensitivity.pair_gradients import pair_gradients
     from .sensitivity.result import Sensitivities
     from .sensitivity.sensitivities import sensitivities
+    from .sensitivity.solve import solve
     from .sensitivity.uncertainty import band
     from .space.collide_pair import collide_pair
 
@@ -51,6 +53,7 @@ _NAMES = {
     "engines.kernels": "compile_kernels",
     "errors": "CheckFailed ComputationError InputError ModelWarning WetDoubletError",
     "explorer.page_of_scene": "Explorer explore",
+    "export.hybrid": "Equations equations",
     "fitting.examine": "check_data",
     "fitting.fit": "fit log_likelihood",
     "fitting.result": "Fit",
@@ -71,6 +74,7 @@ _NAMES = {
     "sensitivity.pair_gradients": "pair_gradients",
     "sensitivity.result": "Sensitivities",
     "sensitivity.sensitivities": "sensitivities",
+    "sensitivity.solve": "solve",
     "sensitivity.uncertainty": "band",
     "space.collide_pair": "collide_pair",
 }
@@ -78,11 +82,11 @@ _HOMES = {name: home for home, names in _NAMES.items() for name in names.split()
 
 __all__ = [
     "Atlas", "Boundaries", "BoundarySensitivities", "CheckFailed", "Collision", "ComputationError", "Critical",
-    "Design", "Explorer", "Fit", "InputError", "ModelWarning", "Proof", "ProvedBoundary", "ProvedMap", "Scene",
-    "Sensitivities", "WetDoubletError", "atlas", "band", "boundary", "boundary_sensitivities", "check_data",
+    "Design", "Equations", "Explorer", "Fit", "InputError", "ModelWarning", "Proof", "ProvedBoundary", "ProvedMap",
+    "Scene", "Sensitivities", "WetDoubletError", "atlas", "band", "boundary", "boundary_sensitivities", "check_data",
     "collide", "collide_many", "collide_pair", "collision_averages", "compile_kernels", "critical",
-    "design", "explore", "fit", "gradients_many", "log_likelihood", "pair_gradients", "plot", "prove",
-    "prove_boundary", "prove_map", "regime_map", "sensitivities", "tracks",
+    "design", "equations", "explore", "fit", "gradients_many", "log_likelihood", "pair_gradients", "plot", "prove",
+    "prove_boundary", "prove_map", "regime_map", "sensitivities", "solve", "tracks",
 ]  # fmt: skip
 
 if not TYPE_CHECKING:  # so that type checkers know the names above and no others
@@ -106,8 +110,9 @@ if not TYPE_CHECKING:  # so that type checkers know the names above and no other
 
                 from .errors import InputError, did_you_mean
 
-                known = list(signature(function).parameters)
-                for name in options.keys() - known:
+                parameters = signature(function).parameters
+                known = [name for name, each in parameters.items() if each.kind is not each.VAR_KEYWORD]
+                for name in options.keys() - known if len(known) == len(parameters) else ():
                     problem = f"is no argument of {function.__name__}" + did_you_mean(name, known)
                     raise InputError(name, options[name], ", ".join(known), problem) from None
                 raise

@@ -24,6 +24,7 @@ def assembled(
     rotation: float,
     time: float,
     smallest_gap: float,
+    final_gap: float,
     slip: float,
     events: Sequence[tuple[str, float]],
     engine: str,
@@ -40,7 +41,7 @@ def assembled(
         outputs: the model's outputs at separation, by name; empty for a stick.
         rotation: angle turned by the line of centres until the end, rad.
         time: end of the trajectory (x0/v0): separation, or for a stick the end of integration.
-        smallest_gap: over x0.
+        smallest_gap, final_gap: over x0.
         events: words, and times over x0/v0.
         terms: of the ledger, over m v0^2; None without one.
         momentum: L/L(0) at the end, with a ledger.
@@ -73,6 +74,7 @@ def assembled(
         final_spin=rate("final_spin"),
         final_spin_partner=0.0 if separated and scene.wall else rate(partner) if scene.pair else None,
         final_rotation_rate=rate("final_rotation_rate"),
+        final_gap=final_gap * problem.length if separated else None,
         stokes=problem.stokes,
         centrifugal=problem.centrifugal,
         generalised_centrifugal=problem.generalised_centrifugal,

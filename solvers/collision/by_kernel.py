@@ -16,6 +16,7 @@ from ..engines.taylor.record import Recorded, run_recorded
 from ..engines.taylor.undecided import SEPARATES, undecided
 from ..errors import ComputationError
 from ..model.dimensionless import Problem
+from ..model.model import Model
 from ..results import TERMS
 from ..scene.scene import Scene
 from .assemble import assembled
@@ -103,6 +104,7 @@ def collision(
         rotation=answer["turned"],
         time=answer["time"],
         smallest_gap=answer["smallest_gap"],
+        final_gap=answer["final_gap"],
         slip=answer["slip"],
         events=[(words[kind], time) for kind, time in log[["kind", "time"]].tolist()],
         engine="taylor",
@@ -130,19 +132,20 @@ def _trajectory(problem: Problem, rtol: float, recorded: Recorded, full: bool) -
     first, reversal = model.start(p), int(recorded.answers["reversal"][0])
     if reversal >= 0:  # where initial contact decides, the state after it
         first = rebounded(model, KINDS[reversal], first, p).after
-    return dataset([*_stretches(recorded.steps, len(model.state))], model, problem, first, outcome, "taylor", rtol)
+    return dataset([*_stretches(recorded.steps, model, full)], model, problem, first, outcome, "taylor", rtol)
 
 
-def _stretches(steps: Steps, states: int) -> Iterator[Stretch]:
+def _stretches(steps: Steps, model: Model, ledger: bool) -> Iterator[Stretch]:
     """The phases of one collision, each with a sampler of its states; none where initial contact decides the outcome.
 
     Arguments:
-        states: number of series that are states of the model; the angle turned may follow them.
+        ledger: its terms are the last series of a step, the work against all attractions the first behind the states.
     """
-    from ..engines.casadi.trajectory import Stretch
+    from ..engines.casadi.trajectory import TAKEN, Stretch
     from ..model.phases import Phase
 
-    rows, turned = steps.rows, steps.turned
+    rows, turned, size = steps.rows, steps.turned, len(model.state)
+    terms = [name for name in model.names("energy_rates") if name != "capillary"] if ledger else []
     firsts = np.flatnonzero(np.diff(rows["phase"], prepend=-1)) if rows.size else np.zeros(0, int)
     for first, end in zip(firsts, np.append(firsts[1:], rows.size)):
         part, row = Steps(rows[first:end], turned), rows[first]
@@ -151,9 +154,13 @@ def _stretches(steps: Steps, states: int) -> Iterator[Stretch]:
 
         def sample(
             parts: np.ndarray, part: Steps = part, start: float = start, duration: float = duration
-        ) -> tuple[np.ndarray, np.ndarray | None]:
+        ) -> tuple[np.ndarray, dict[str, np.ndarray]]:
             y = part.states(start + parts * duration)
-            return y[:states], None if turned is None else y[turned]
+            along = dict(zip(terms, y[len(y) - len(terms) :], strict=True))
+            if ledger and "capillary" in model.works:
+                along["capillary"] = y[size] - along.get("attraction", 0.0)
+            along = {name: along[name] for name in TAKEN if name in along}
+            return y[:size], along if turned is None else {"rotation": y[turned], **along}
 
         if duration > 0.0:
             phase = Phase(int(row["film"]), 0, CLOSING if row["closing"] else OPENING, bool(row["resting"]))

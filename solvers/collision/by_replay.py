@@ -57,6 +57,7 @@ def by_replay(
         rotation=_rotation(replay, model),
         time=replay.time,
         smallest_gap=replay.smallest_gap,
+        final_gap=float(replay.y[0]),
         slip=slip_restitution(model, replay.y, p) if path.separated else math.nan,
         events=replay.events,
         engine=plugin,

@@ -110,6 +110,7 @@ class Outcome:
             attraction.
         final_spin: spin of each sphere, rad/s; of the first if the partner differs.
         final_spin_partner: spin of the partner, rad/s; None without a [partner].
+        final_gap: gap at separation, m.
         rotation: angle turned by the line of centres until separation, rad.
         until: for a stick, the time at which integration stopped, s.
         decided: for a stick, the time at which it was certain, s: `until`, unless another was asked for.
@@ -147,6 +148,7 @@ class Outcome:
     rtol: float
     generalised_centrifugal: float | None = None
     final_spin_partner: float | None = None
+    final_gap: float | None = None
     scene: Scene = field(repr=False, compare=False)
     trajectory: xarray.Dataset | None = field(default=None, repr=False, compare=False)
     proof: Proof | None = field(default=None, repr=False, compare=False)

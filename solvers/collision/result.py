@@ -5,6 +5,7 @@ from dataclasses import dataclass, fields
 from ..formatting.notebook import view
 from ..host.pictures import Drawn
 from ..results import DEFINITIONS, OF_SEPARATION
+from .budget import Budget
 from .outcome import Outcome
 
 _ENDS = 20  # events that `repr` shows at each end of a longer list
@@ -25,6 +26,14 @@ class Collision(Outcome, Drawn):
     """
 
     _picture = "collision.plot.figure.draw"
+
+    @property
+    def budget(self) -> Budget | None:
+        """Pairs of a term and its share of the initial normal energy, which sum to e_n^2 - 1.
+
+        Empty for a stick, which has no e_n; None without the ledger.
+        """
+        return None if self.energy is None else Budget(self)
 
     def __repr__(self) -> str:
         names = [entry.name for entry in fields(self) if entry.repr and entry.name != "events"]

@@ -18,7 +18,7 @@ from ..host.locks import sweep_temporary
 from .bar import AtWork
 
 COMMANDS = (
-    "scenes", "collide", "sensitivity", "map", "boundary", "critical", "averages", "reproduce", "generate",
+    "scenes", "collide", "sensitivity", "map", "boundary", "critical", "solve", "averages", "reproduce", "generate",
     "diff", "export", "explore", "verify", "bench", "prove", "tracks", "check", "fit", "design", "compile", "cite",
 )  # fmt: skip
 """Each is the function `command` of the module of that name in `commands/`, imported when it is called."""

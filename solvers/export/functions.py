@@ -7,12 +7,9 @@ from ..model.dimensionless import Problem, nondimensionalise
 from ..model.model import Model, load, select_model
 from ..scene.scene import Scene
 from .equations import file_name
+from .hybrid import units_of
 
 _REGIONS = (("", 1, 1), ("_beyond_film", 0, 1), ("_beyond_shear", 1, 0), ("_beyond_both", 0, 0))
-_UNITS = {
-    "gap": "x0", "normal_velocity": "v0", "orbital_momentum": "a^2 Omega", "spin": "Omega", "partner_spin": "Omega",
-    "last_slide": "v0 T", "last_roll": "v0 T/a", "rotation": "rad",
-}  # fmt: skip
 
 
 def texts(scene: Scene) -> dict[str, str]:
@@ -47,7 +44,7 @@ def functions(model: Model, prefix: str) -> list[Function]:
 
 def _comment(scene: Scene, model: Model, values: Problem | None) -> str:
     """Comment at the head of the file that describes the functions."""
-    choice, glassy = model.choice, scene.liquid.glass_transition_pressure is not None
+    units, choice, glassy = units_of(model), model.choice, scene.liquid.glass_transition_pressure is not None
     lines = [
         f"{scene.name or 'scene'}: functions of the structure `{choice.structure}`, emitted by wetdoublet.",
         "Laws: " + ", ".join(f"{slot} {law}" for slot, law in choice.laws if slot != "glass" or glassy) + ".",
@@ -56,7 +53,7 @@ def _comment(scene: Scene, model: Model, values: Problem | None) -> str:
         "Each function takes arg[0] = state, arg[1] = groups and fills res[0]; casadi's calling convention.",
         *(["T = obliquity; Omega = v0 T over the distance of the centres in contact."] if model.oblique else []),
         "Time in x0/v0. Suffix _beyond_film: gap > x0; _beyond_shear: beyond the edge of the tangential force.",
-        "State: " + ", ".join(f"{name} [{_UNITS.get(name, '1')}]" for name in model.state) + ".",
+        "State: " + ", ".join(f"{name} [{units[name]}]" for name in model.state) + ".",
         "Groups: " + ", ".join(model.groups) + ".",
         *([] if values is None else [f"  {name} = {values.groups[name]!r}" for name in model.groups]),
         "Scene (SI): " + ", ".join(f"{name} = {value}" for name, value in scene.si),

@@ -16,7 +16,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property, partial
 
 import numpy as np
-from casadi import DM, MX, Function, densify, fmin, jtimes, vertcat
+from casadi import DM, MX, SX, Function, densify, fmin, jtimes, vertcat
 
 from ..collision.by_kernel import sequence_of
 from ..engines.casadi.integrators import IntegrationFailed, Tolerance, failures, landing, plain, quiet
@@ -119,7 +119,7 @@ class End:
 def follow(course: Course, p: MX, durations: MX, plugin: str, tolerance: Tolerance) -> End:
     """A course from initial contact on."""
     model, k = course.model, 0
-    size, kinetic = len(model.state), model.names("energies").index("kinetic")
+    size = len(model.state)
     start = model.function("start")(DM.zeros(size), p)
     y = vertcat(start, DM.ones(len(course.extras)) * tolerance.offset)
     at = End(start, y, MX(0), start[0], MX(0), MX(0), MX(0), [])
@@ -135,18 +135,33 @@ def follow(course: Course, p: MX, durations: MX, plugin: str, tolerance: Toleran
             at.shifts.append(shift / durations[k])
             at.smallest_gap = fmin(at.smallest_gap, at.y[0])
             k += 1
-        if leg.rebounds:
-            after, dry, friction = jump(course.choice, leg.holds)(at.y[:size], p, float(course.rubs(leg)))
+        if leg.rebounds or leg.holds or leg.own:
+            after, dry, friction, own = reset(course, leg)(at.y[:size], p)
             at.dry += dry
             at.friction += friction
+            at.own += own
             at.y = vertcat(after, at.y[size:])
-        if leg.holds:
-            at.y = vertcat(at.y[0], 0, at.y[2:])
-        if leg.own:
-            before = model.function("energies")(at.y[:size], p)[kinetic]
-            at.y = vertcat(model.function(f"jump_{leg.own}")(at.y[:size], p), at.y[size:])
-            at.own += before - model.function("energies")(at.y[:size], p)[kinetic]
     return at
+
+
+@own_cache(256)
+def reset(course: Course, leg: PhaseRun) -> Function:
+    """What happens at the end of a leg: (state, groups) -> state after it; taken by rebound, friction, declared event.
+
+    Energies over m v0^2.
+    """
+    model = course.model
+    y, p, dry, friction, own = model.column, model.parameters, SX(0), SX(0), SX(0)
+    if leg.rebounds:
+        y, dry, friction = jump(course.choice, leg.holds)(y, p, float(course.rubs(leg)))
+    if leg.holds:
+        y = vertcat(y[0], 0, y[2:])
+    if leg.own:
+        energies, kinetic = model.function("energies"), model.names("energies").index("kinetic")
+        before, y = energies(y, p)[kinetic], model.function(f"jump_{leg.own}")(y, p)
+        own = before - energies(y, p)[kinetic]
+    names = ["state", "groups"], ["after", "dry_contact", "dry_friction", "own_events"]
+    return Function("reset", [model.column, p], [densify(y), dry, friction, own], *names)
 
 
 @own_cache(256)

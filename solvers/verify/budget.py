@@ -1,6 +1,6 @@
-"""Budget of e_n^2 - 1: released rotational energy minus losses to film, tangential force, bridge, solids and strings.
+"""Budgets of e_n^2 - 1 (`collision/budget.py`) over angles and Stokes numbers, and the ceiling of e_n^2.
 
-Every term is 2 E/(m v0^2), so that e_n^2 - 1 is their sum, and e_n > 1 where more energy is released than lost.
+Here the energy of rotation is that of the rates at separation of equal spheres, so that the sum is a check.
 """
 
 from __future__ import annotations
@@ -87,31 +87,30 @@ def budgeted(
 
 
 def terms(one: Collision) -> dict[str, float]:
-    """The terms of one collision; for a stick, or where a declared event parts it, only the restitution."""
-    package = one.scene.package
-    parting = [each.word for each in package.events if each.row.actions[-1] == "part"] if package else []
-    if one.outcome == "stick" or one.energy is None or (one.events and one.events[-1].kind in parting):
-        return {"restitution": one.restitution}  # a declared event parts them at a gap that is no result
-    unit = one.scene.particles.reduced_mass * one.speed**2 / 2
+    """The terms of one collision, rotation from the rates at separation; for a stick only the restitution."""
+    shares = dict(one.budget or ())
+    if not shares:
+        return {"restitution": one.restitution}
     budget = {
         "restitution": one.restitution,
         "excess": one.restitution**2 - 1,
-        "rotation_released": _released(one) / unit,
-        "residual": one.energy.residual / unit,
+        "rotation_released": _released(one),
+        "residual": -shares["residual"],
         "ceiling": ceiling(one),
-    } | {name: getattr(one.energy, name) / unit for name in LOSSES}
-    budget["dry_contact"] += (one.energy.dry_friction or 0.0) / unit  # all that the solids take
-    lost = sum(budget[name] for name in LOSSES) + budget["residual"] + (one.energy.own_events or 0.0) / unit
+    } | {name: 0.0 - shares.get(name, 0.0) for name in LOSSES}
+    budget["dry_contact"] -= shares.get("dry_friction", 0.0)  # all that the solids take
+    more = sum(shares.get(name, 0.0) for name in ("attraction", "own_events"))
+    lost = sum(budget[name] for name in LOSSES) + budget["residual"] - more
     return budget | {"gap": budget["excess"] - budget["rotation_released"] + lost}
 
 
 def _released(one: Collision) -> float:
-    """Rotational energy at initial contact minus that at separation, J, from the rates, independent of the ledger."""
-    a, m = one.scene.particles.reduced_radius, one.scene.particles.reduced_mass
-    spin, last = one.final_spin or 0.0, 4 * a + one.scene.rupture_gap
+    """Rotational energy at initial contact minus that at separation, from the rates, independent of the ledger."""
+    assert one.final_gap is not None
+    a, spin = one.scene.particles.reduced_radius, one.final_spin or 0.0
     spins = spin, spin if one.final_spin_partner is None else one.final_spin_partner
-    left = (last * (one.final_rotation_rate or 0.0)) ** 2 + _spun(spins, a)
-    return 0.5 * m * (first_rotation(one.scene, one.angle, one.speed) * one.speed**2 - left)
+    last = ((4 * a + one.final_gap) * (one.final_rotation_rate or 0.0)) ** 2 + _spun(spins, a)
+    return first_rotation(one.scene, one.angle, one.speed) - last / one.speed**2
 
 
 def first_rotation(scene: Scene, angle: float, speed: float) -> float:
@@ -137,7 +136,7 @@ def ceiling(one: Collision) -> float:
     if one.energy is None or scene.pendulum is not None or scene.model.arm != "midgap":
         return math.nan
     a, m = scene.particles.reduced_radius, scene.particles.reduced_mass
-    first, last = 4 + scene.liquid.film_thickness / a, 4 + scene.rupture_gap / a  # distances over a
+    first, last = 4 + scene.liquid.film_thickness / a, 4 + (one.final_gap or 0.0) / a  # distances over a
     momentum = first**2 * math.tan(one.angle) / 4 + 3.2 * a * sum(_first_spins(scene)) / one.speed  # L over m a v0
     released = first_rotation(scene, one.angle, one.speed) - momentum**2 / (last**2 + 6.4)
     return 1 + released - 2 * one.energy.capillary / (m * one.speed**2)

@@ -52,25 +52,34 @@ class Column:
         return (self.shaded < time or not self.shaded) and time <= self.end
 
 
-def time_panels(figure: Figure, place: Any, collision: Outcome, rows: int, pictures: Sequence[Frame]) -> None:
-    """Draw the trajectory into a cell of the figure's grid, `rows` panels high; mark the instants of `pictures`."""
-    data = collision.trajectory
-    assert data is not None
-    time = np.asarray(data["time"])
-    duration, zoom = float(time[-1]), _zoom(collision, float(time[-1]))
-    grid = place.subgridspec(rows, 2 if zoom else 1, width_ratios=[1, 1.7] if zoom else [1])
+def columns_of(
+    figure: Figure, place: Any, collision: Outcome, rows: int, heights: Sequence[float] | None = None
+) -> list[Column]:
+    """Empty panels for a trajectory in a cell of the figure's grid; the whole of it is the last column."""
+    assert collision.trajectory is not None
+    duration = float(collision.trajectory["time"][-1])
+    zoom = _zoom(collision, duration)
+    widths = [1, 1.7] if zoom else [1]
+    grid = place.subgridspec(rows, len(widths), width_ratios=widths, height_ratios=heights)
     panels = [[figure.add_subplot(grid[row, column]) for row in range(rows)] for column in range(grid.ncols)]
     whole = Column(0.0, duration, "whole trajectory" if zoom else "", panels[-1], 5.0 if zoom else 8.0, zoom or 0.0)
-    columns = [Column(0.0, zoom, "approach", panels[0], 2.9), whole] if zoom else [whole]
+    return [Column(0.0, zoom, "approach", panels[0], 2.9), whole] if zoom else [whole]
+
+
+def time_panels(figure: Figure, place: Any, collision: Outcome, rows: int, pictures: Sequence[Frame]) -> None:
+    """Draw the trajectory into a cell of the figure's grid, `rows` panels high; mark the instants of `pictures`."""
+    assert collision.trajectory is not None
+    columns = columns_of(figure, place, collision, rows)
+    whole = columns[-1]
     for column in columns:
         _fill(column, collision, rows, last=column is whole)
-        _events(column, collision)
-    _match(columns, time)
+        finish(column, collision)
+    _match(columns, np.asarray(collision.trajectory["time"]))
     for row, text in ((0, "a"), (2, "b")):
         if row < rows:
-            letter(panels[0][row], text)
-    for column_of_panels in panels:
-        figure.align_ylabels(column_of_panels)
+            letter(columns[0].panels[row], text)
+    for column in columns:
+        figure.align_ylabels(column.panels)
     if rows == 4 and not collision.scene.wall:
         shown = [(frame.time / whole.unit[0], math.degrees(frame.angle)) for frame in pictures if not frame.free]
         whole.panels[3].plot(*zip(*shown), "o", color=INK, markersize=4, fillstyle="none")
@@ -92,7 +101,7 @@ def _fill(column: Column, collision: Outcome, rows: int, last: bool) -> None:
     """Draw the curves of a column; only the last column has labels in the right margin."""
     data = collision.trajectory
     assert data is not None
-    factor, unit = column.unit
+    factor, _ = column.unit
     time = np.asarray(data["time"]) / factor
     _gap(column.panels[0], time, np.asarray(data["gap"]), collision, last)
     velocity, approach = column.panels[1], [-collision.speed]  # also where it ends at first touch
@@ -122,6 +131,11 @@ def _fill(column: Column, collision: Outcome, rows: int, last: bool) -> None:
         else:
             angle.plot(time, np.degrees(data["rotation"]), color=INK)
             angle.set_ylabel("angle β (deg)")
+
+
+def finish(column: Column, collision: Outcome) -> None:
+    """Limits, labels of the time, and the events of a column that is filled."""
+    factor, unit = column.unit
     margin = 0.02 * (column.end - column.start) / factor
     for panel in column.panels:
         after = 0.2 * margin if column.title == "approach" else margin
@@ -134,6 +148,7 @@ def _fill(column: Column, collision: Outcome, rows: int, last: bool) -> None:
         if column.shaded:
             panel.axvspan(0, column.shaded / factor, color="#DDDDDD", linewidth=0, zorder=0)
     column.panels[-1].set_xlabel(f"time{', ' * bool(column.title)}{column.title} ({unit})", fontsize=9)
+    _events(column, collision)
 
 
 def _gap(axes: Axes, time: np.ndarray, gap: np.ndarray, collision: Outcome, last: bool) -> None:

@@ -53,7 +53,7 @@ class Stopped(Exception):
 
 @dataclass(frozen=True)
 class Piece:
-    """An integrated phase, or its part on one side of a kink: flow, initial state, start and duration (x0/v0).
+    """An integrated phase, or its part on one side of a kink: flow, first and last state, start and duration (x0/v0).
 
     `event`: on which it ends, of the phase or a kink; None if it just ends.
     """
@@ -62,6 +62,7 @@ class Piece:
     event: str | None
     flow: Flow
     start: np.ndarray
+    end: np.ndarray
     time: float
     duration: float
 
@@ -227,7 +228,7 @@ class Run:
             return
 
     def _record(self, phase: Phase, event: str | None, flow: Flow, duration: float, y: np.ndarray) -> None:
-        self.at.pieces.append(Piece(phase, event, flow, self.at.y, self.at.time, duration))
+        self.at.pieces.append(Piece(phase, event, flow, self.at.y, y, self.at.time, duration))
         self.at.time += duration
         self.at.y = y
 

@@ -1,6 +1,6 @@
 """A trajectory as an xarray Dataset: gap, velocities, rates and angle against time, with units."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from importlib.metadata import version
 
@@ -10,6 +10,7 @@ import xarray as xr
 from ...errors import ComputationError
 from ...model.dimensionless import Problem
 from ...model.model import Model
+from ...model.phases import extra_units
 from .integrators import IntegrationFailed, plain
 from .replay import Piece, Replay
 
@@ -26,11 +27,19 @@ _VARIABLES: dict[str, tuple[str, str]] = {
     "spin_partner": ("rad/s", "angular velocity of the partner about its own centre"),
     "sliding_velocity": ("m/s", "tangential velocity of the sphere's centre and the wall past each other"),
     "rotation": ("rad", "angle turned by the line of centres"),
+    "kinetic": ("J", "kinetic energy"),
+    "strings": ("J", "potential energy of the strings"),
+    "normal_lubrication": ("J", "energy taken so far by the film along the line of centres"),
+    "tangential_lubrication": ("J", "energy taken so far by the shear"),
+    "capillary": ("J", "work so far against the bridge"),
+    "attraction": ("J", "work so far against van der Waals forces"),
 }
+TAKEN = ("normal_lubrication", "tangential_lubrication", "capillary", "attraction")
+"""Terms of the ledger that are integrated along with the motion."""
 
 
-Sample = Callable[[np.ndarray], tuple[np.ndarray, np.ndarray | None]]
-"""Parts of a phase's duration, 0 to 1 -> states as columns, and the angle turned where it is known (rad)."""
+Sample = Callable[[np.ndarray], tuple[np.ndarray, Mapping[str, np.ndarray]]]
+"""Parts of a phase's duration, 0 to 1 -> states as columns, and integrals: `rotation` (rad), `TAKEN` (m v0^2)."""
 
 
 @dataclass(frozen=True)
@@ -45,28 +54,28 @@ class Stretch:
 
 def stretch(piece: Piece, model: Model, replayed: Replay, p: np.ndarray, plugin: str) -> Stretch:
     """A phase of a replay, integrated again through the requested times; ComputationError if that fails."""
-    size, turned = len(model.state), tuple(name for name in replayed.extras if name == "rotation")
-    names, tolerance = (*model.state, *turned), replayed.tolerance
-    offset = tolerance.offset if turned else 0.0
-    shown = [*range(size), *(size + replayed.extras.index(name) for name in turned)]
+    size, names, tolerance = len(model.state), replayed.extras, replayed.tolerance
+    turned = tuple(name for name in names if name == "rotation")
 
-    def sample(parts: np.ndarray) -> tuple[np.ndarray, np.ndarray | None]:
+    def sample(parts: np.ndarray) -> tuple[np.ndarray, Mapping[str, np.ndarray]]:
         try:
-            inside = integrated(parts)
-        except IntegrationFailed as failure:
-            state = dict(zip(model.state, piece.start.tolist(), strict=False))
-            message, advice = f"the trajectory by {plugin} gave up ({failure})", "try the other --engine"
-            raise ComputationError(message, str(piece.phase), piece.time, state, advice) from None
-        y = np.column_stack([piece.start[shown], inside])
-        return y[:size], y[names.index("rotation")] - offset if "rotation" in names else None
+            return integrated(parts, names)
+        except IntegrationFailed:  # possibly due to the ledger
+            try:
+                return integrated(parts, turned)
+            except IntegrationFailed as failure:
+                state = dict(zip(model.state, piece.start.tolist(), strict=False))
+                message, advice = f"the trajectory by {plugin} gave up ({failure})", "try the other --engine"
+                raise ComputationError(message, str(piece.phase), piece.time, state, advice) from None
 
-    def integrated(parts: np.ndarray) -> np.ndarray:
-        grid = tuple(parts[1:])
-        try:
-            return plain(piece.flow, plugin, tolerance, grid)(piece.start, p, piece.duration)[shown]
-        except IntegrationFailed:  # possibly due to the ledger, which is not needed here
-            flow = replace(piece.flow, extras=turned)
-            return plain(flow, plugin, tolerance, grid)(piece.start[shown], p, piece.duration)
+    def integrated(parts: np.ndarray, extras: tuple[str, ...]) -> tuple[np.ndarray, Mapping[str, np.ndarray]]:
+        start = piece.start[[*range(size), *(size + names.index(name) for name in extras)]]
+        flow = replace(piece.flow, extras=extras)
+        y = np.column_stack([start, plain(flow, plugin, tolerance, tuple(parts[1:]))(start, p, piece.duration)])
+        units = extra_units(model, extras, p)
+        return y[:size], {
+            name: unit * (row - tolerance.offset) for name, unit, row in zip(extras, units, y[size:], strict=True)
+        }
 
     return Stretch(str(piece.phase), piece.time, piece.duration, sample)
 
@@ -76,6 +85,8 @@ def dataset(
 ) -> xr.Dataset:
     """A trajectory on a grid of _POINTS per phase; the time of an event occurs twice, before and after it.
 
+    Terms of the ledger are in it if they were integrated along with every phase.
+
     Arguments:
         first: the state at initial contact, used alone if the collision is decided there.
         outcome, engine, rtol: for the attributes, which suffice to compute it again.
@@ -83,18 +94,23 @@ def dataset(
     p, size = model.group_values(n.groups), len(model.state)
     times: list[np.ndarray] = []
     columns: list[np.ndarray] = []
-    angles: list[np.ndarray] = []
+    integrals: list[Mapping[str, np.ndarray]] = []
     phases: list[str] = []
     for phase in stretches:
-        states, angle = phase.sample(_GRID)
+        states, along = phase.sample(_GRID)
         times.append(phase.time + phase.duration * _GRID)
         columns.append(states)
-        angles.append(np.zeros(_GRID.size) if angle is None else angle)
+        integrals.append({"rotation": np.zeros(_GRID.size), **along})
         phases += [phase.name] * _GRID.size
     if not columns:  # decided at initial contact
         times, columns, phases = [np.zeros(1)], [first[:size, None]], ["initial contact"]
-        angles = [np.zeros(1)]
+        integrals = [{"rotation": np.zeros(1)}]
     y, time = np.hstack(columns), np.concatenate(times) * n.time
+    along = {
+        name: np.concatenate([each[name] for each in integrals])
+        for name in integrals[0]
+        if all(name in each for each in integrals)
+    }
     zero = np.zeros(time.size)
     values = {"gap": y[0] * n.length, "normal_velocity": y[1] * n.speed}
     if model.oblique:
@@ -102,7 +118,7 @@ def dataset(
         values |= {
             "rotation_rate": outputs["final_rotation_rate"] * n.rate,
             "spin": outputs["final_spin"] * n.rate,
-            "rotation": np.concatenate(angles),
+            "rotation": along["rotation"],
         }
         if "final_spin_partner" in outputs:
             values["spin_partner"] = outputs["final_spin_partner"] * n.rate
@@ -111,6 +127,8 @@ def dataset(
             values["sliding_velocity"] = (slip + outputs["final_spin"]) * n.speed * n.groups["obliquity"]
     else:
         values |= {"rotation_rate": zero, "spin": zero, "rotation": zero}
+    stored = zip(model.names("energies"), np.asarray(model.function("energies")(y, p).full()), strict=True)
+    values |= {name: value * n.energy for name, value in (*stored, *along.items()) if name != "rotation"}
     variables = {
         name: ("time", value, {"units": _VARIABLES[name][0], "long_name": _VARIABLES[name][1]})
         for name, value in values.items()

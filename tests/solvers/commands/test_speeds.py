@@ -30,6 +30,8 @@ SHOWN: dict[str, tuple[str, ...]] = {
     "boundary --json": (*LINES, "--json"),
     "critical": ("--angle", "55"),
     "critical --json": ("--angle", "55", "--json"),
+    "solve": ("--free", "impact.relative_speed=1:4 m/s", "--for", "contact_time=0.1 ms"),
+    "solve --json": ("--free", "liquid.viscosity=0.5:9 Pa s", "--for", "contact_time=0.1 ms", "--json"),
     "averages": ("--tolerance", "1e-2"),
     "check": (),
     "fit": ("--free", "liquid.viscosity"),

@@ -1,0 +1,235 @@
+"""`equations()`: the model of a scene as plain CasADi functions, and the order of phases of its collision."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from functools import partial
+from pathlib import Path as FilePath
+
+import numpy as np
+from casadi import DM, SX, Function, densify, vertcat
+
+from ...generated.assemble import casadi_functions
+from ..collision.by_kernel import sequence_of
+from ..collision.text import name_of
+from ..engines.casadi.replay import Stopped, replayed
+from ..engines.casadi.sequence import PhaseRun
+from ..engines.casadi.watch import guards
+from ..engines.settings import check_rtol
+from ..model.dimensionless import nondimensionalise
+from ..model.model import Model, load, select_model
+from ..model.phases import Flow, expressions
+from ..results import DEFINITIONS
+from ..scene.held import held_quantity
+from ..scene.scene import Scene
+from ..sensitivity.by_casadi import Course, course_of, reset
+from ..sensitivity.parameters import SCALES, kind_of, parameter_map, references
+
+_ENGINE = "rosenbrock"
+_OTHERS = ("right_hand_side", "resting_rates", "energy_rates", "jacobian", "event_rates", "start")  # by phase, or made
+_LINE = re.compile(r"^- (\w+) \[(.+?)\]: ", re.MULTILINE)
+_OF_SCALES = dict(zip(SCALES, ("m", "s", "rad/s", "J"), strict=True))
+_OF_RESULTS = {None: "1", "rate": "Omega"}
+
+
+def units_of(model: Model) -> dict[str, str]:
+    """Units of the states and groups of a model, as its emitted text has them."""
+    return dict(_LINE.findall(model.structure.__doc__ or ""))
+
+
+@dataclass(frozen=True)
+class Phase:
+    """A phase of a collision, between two events; every phase takes time.
+
+    Attributes:
+        name: in words.
+        duration: in x0/v0.
+        before, after: the states at its start and at its end, before the event's reset.
+        event: what ends it, in the words of `Collision.events`; "" where it just ends.
+        watched: the events of `events_K`, in order; the kinks of a law's force included.
+    """
+
+    name: str
+    duration: float
+    before: np.ndarray = field(repr=False)
+    after: np.ndarray = field(repr=False)
+    event: str
+    watched: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class Equations:
+    """The equations of a scene's model, dimensionless, and what happens in its collision.
+
+    Attributes:
+        functions: CasADi functions by name. Of the entries: `groups`, `scales`. Of the groups: `start`, the state at
+            initial contact (behind what happens there). Of (state, groups): `energies`, `angular_momentum`, `outputs`
+            and all others that are emitted; for phase K, counted from 0, `rates_K`, `events_K` (all guards, positive
+            before their events), `event_K` (that of the event which ends it), `reset_K` (the state after the event).
+        states: names of the states, in order.
+        outputs: names of the elements of `energies`, `outputs` and other functions, by function.
+        entries, groups, scales: values of the scene and its impact by name, in the order of the functions' arguments;
+            entries in SI; scales of length x0, time x0/v0, angular velocity Omega and energy m v0^2.
+        phases: of the scene's collision, in order; of a stick up to where it is certain, or to `until`.
+        units: by name, of all of these, `outputs`, `energies` and the `duration` of phases.
+
+    Example:
+        >>> import wetdoublet as wd
+        >>> found = wd.equations("granulation")
+        >>> [phase.event for phase in found.phases]
+        ['turned', 'film edge', 'rupture']
+        >>> found.functions["rates_0"]
+        Function(rates_0:(state[4],groups[13])->(rates[4]) SXFunction)
+    """
+
+    functions: Mapping[str, Function] = field(repr=False)
+    states: tuple[str, ...]
+    outputs: Mapping[str, tuple[str, ...]] = field(repr=False)
+    entries: Mapping[str, float] = field(repr=False)
+    groups: Mapping[str, float]
+    scales: Mapping[str, float]
+    phases: tuple[Phase, ...]
+    units: Mapping[str, str] = field(repr=False)
+    outcome: str
+    scene: Scene = field(repr=False, compare=False)
+
+    def __str__(self) -> str:
+        """States, groups and scales with their units, the phases, and the functions with their arguments."""
+
+        def listed(values: Mapping[str, float]) -> list[str]:
+            return [f"  {name:<28}{value:>14.6g} {self.units[name]}" for name, value in values.items()]
+
+        phases = [
+            f"  {k:<3}{phase.name:<28}{phase.duration:>11.6g}  {phase.event}" for k, phase in enumerate(self.phases)
+        ]
+        shared = [name for name in self.functions if not name[-1].isdigit()]
+        by_phase = dict.fromkeys(name.rpartition("_")[0] for name in self.functions if name not in shared)
+        return "\n".join(
+            [
+                f"{name_of(self.scene)}: {self.outcome}",
+                "state: " + ", ".join(f"{name} [{self.units[name]}]" for name in self.states),
+                "groups",
+                *listed(self.groups),
+                "scales",
+                *listed(self.scales),
+                "phases" + f"{'duration in x0/v0, and the event that ends it':>61}",
+                *(phases or ["  none: the outcome is certain at initial contact"]),
+                "functions",
+                *(f"  {str(self.functions[name]).rpartition(' ')[0]}" for name in shared),
+                *([f"  {', '.join(f'{name}_K' for name in by_phase)}: (state, groups), of phase K"] if phases else []),
+            ]
+        )
+
+
+def equations(
+    scene: Scene | str | FilePath,
+    model: str | FilePath | None = None,
+    *,
+    until: float | None = None,
+    rtol: float = 1e-10,
+) -> Equations:
+    """The equations of a scene's model as plain CasADi functions, and the order of phases of its collision.
+
+    No integrator is among them: they are to build on. The phases are those that the kernel finds, with states by
+    Rosenbrock. While the order of events stays, the functions of the phases one after another are the collision.
+
+    Arguments:
+        scene: a Scene, a path to a scene file, or a preset's name, with an impact.
+        model: a user's model, as for `Scene.load`.
+        until: time (s) up to which a stick is followed on.
+        rtol: relative tolerance of durations and states.
+
+    Raises:
+        InputError: the scene is not acceptable, or has no impact.
+        ComputationError: the collision could not be completed.
+
+    Example:
+        >>> import wetdoublet as wd
+        >>> found = wd.equations("granulation")
+        >>> float(found.functions["outputs"](found.phases[-1].after, list(found.groups.values()))[0]) > 0
+        True
+    """
+    loaded, rtol = Scene.load(scene, model), check_rtol(rtol)
+    v0, theta0 = loaded.need_impact()
+    problem = nondimensionalise(loaded, v0, theta0)
+    choice = select_model(loaded, problem.oblique, full=True)
+    built = load(choice)
+    try:
+        path, replay = replayed(partial(sequence_of, problem, until=until), choice, (), _ENGINE, rtol)
+    except Stopped as stopped:
+        raise problem.in_si(stopped.error(_ENGINE, built)) from None
+    kind = kind_of(loaded, held_quantity(loaded, None))
+    reference, names = references(loaded, kind, v0, theta0), tuple(built.groups)
+    values = parameter_map(kind, (), names).values
+    numbers = np.asarray(values(reference).full()).ravel()
+    course, steps, pieces = course_of(path, replay, choice), iter(path.steps), iter(replay.pieces)
+    functions, phases = _shared(built, values), list[Phase]()
+    outputs = {name: built.names(name) for name in functions if built.has(name)}
+    for leg in course.legs:
+        words = leg.event if leg.event in built.kinks else ", ".join(next(steps).kinds)
+        if leg.duration > 0:
+            piece = next(pieces)
+            watched = guards(piece.flow)[1]
+            functions |= _of_phase(len(phases), piece.flow, course, leg)
+            phases.append(Phase(str(leg.phase), piece.duration, piece.start, piece.end, words or "", watched))
+        elif phases:  # what happens where a phase has ended already belongs to its end
+            phases[-1] = replace(phases[-1], event=", ".join(filter(None, (phases[-1].event, words))))
+            name = f"reset_{len(phases) - 1}"
+            functions[name] = _then(functions[name], reset(course, leg))
+        else:
+            functions["start"] = _then(functions["start"], reset(course, leg))
+    entries = dict(zip(kind.entries, reference.tolist(), strict=True))
+    fields, states = loaded.fields, dict.fromkeys(built.state)
+    units = {name: fields[name].unit or "1" for name in entries} | _OF_SCALES
+    units |= {"duration": "x0/v0", "angular_momentum": "1"}
+    units |= {name: _OF_RESULTS[DEFINITIONS[name].scale] for name in outputs["outputs"]}
+    units |= dict.fromkeys(outputs["energies"], "m v0^2") | units_of(built)
+    return Equations(
+        functions=functions,
+        states=tuple(states),
+        outputs=outputs,
+        entries=entries,
+        groups=dict(zip(names, numbers[: len(names)].tolist(), strict=True)),
+        scales=dict(zip(SCALES, numbers[len(names) :].tolist(), strict=True)),
+        phases=tuple(phases),
+        units=units,
+        outcome=path.outcome,
+        scene=loaded,
+    )
+
+
+def _shared(model: Model, values: Function) -> dict[str, Function]:
+    """The functions that are the same in all phases."""
+    entries, groups = SX.sym("entries", values.size1_in(0)), model.parameters
+    numbers, count = values(entries), groups.numel()
+    start = model.function("start")(DM.zeros(len(model.state)), groups)
+    emitted = casadi_functions(model.structure, model.laws)
+    return {
+        "groups": Function("groups", [entries], [numbers[:count]], ["entries"], ["groups"]),
+        "scales": Function("scales", [entries], [numbers[count:]], ["entries"], ["scales"]),
+        "start": Function("start", [groups], [start], ["groups"], ["state"]),
+    } | {name: function for name, function in emitted.items() if name not in _OTHERS}
+
+
+def _of_phase(k: int, flow: Flow, course: Course, leg: PhaseRun) -> dict[str, Function]:
+    """The functions of phase k."""
+    model, (watched, names) = flow.model, guards(flow)
+    state, groups = model.column, model.parameters
+    values = watched(state, vertcat(groups, leg.phase.motion))[0]
+    columns = {"rates": expressions(flow).rates, "events": values}
+    if leg.event is not None:
+        columns["event"] = values[names.index(leg.event)]
+        columns["reset"] = reset(course, leg)(state, groups)[0]
+    return {
+        f"{name}_{k}": Function(f"{name}_{k}", [state, groups], [densify(column)], ["state", "groups"], [name])
+        for name, column in columns.items()
+    }
+
+
+def _then(first: Function, second: Function) -> Function:
+    """A function of (state, groups) or of the groups, and what happens to its state next."""
+    inputs = first.sx_in()
+    state = second(first(*inputs), inputs[-1])[0]
+    return Function(first.name(), inputs, [state], first.name_in(), first.name_out())

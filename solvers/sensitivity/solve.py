@@ -1,0 +1,261 @@
+"""`solve()`: the values of an entry at which a result of the collision has a value."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from pathlib import Path as FilePath
+from typing import Any
+
+import numpy as np
+from scipy.optimize import brentq
+
+from ...generated.automaton import OUTCOMES, STICK
+from ..changes.brackets import Brackets, enclose
+from ..collision.collide import collide
+from ..engines.settings import check_rtol
+from ..errors import ComputationError, InputError, WetDoubletError
+from ..host.arguments import check_name
+from ..many.collide_many import collide_many
+from ..results import DEFINITIONS, DIFFERENTIATED, INTEGRATED, OF_IMPACT, REVERSALS
+from ..scene import units
+from ..scene.held import held_quantity
+from ..scene.scene import Scene
+from ..scene.schema import MEETING, SPEEDS
+from .parameters import check_wrt
+from .sensitivities import sensitivities
+from .solutions import Jump, Question, Solution, Solutions
+
+TARGETS = tuple(
+    name
+    for name in (*INTEGRATED, *OF_IMPACT)
+    if name not in ("reversal", "steps", "until", "energy.residual", "angular_momentum_drift")
+)
+"""Results that may have a value: not codes, nor errors of the integration."""
+_SAMPLES = 1025
+_DECADE = 10.0  # a range whose ends have a larger ratio is searched in the logarithm
+_FINER, _LOOKS = 17, 8  # samples between the neighbours of a minimum, and how often it is narrowed down
+_SEEN, _CHANGED = 1e-6, 1e-11  # widths to which roots and changes are enclosed, as parts of the range
+_SHARP = 1e-2  # tolerance of the search over the requested one: noise moves a root by less
+_SHARPEST = 1e-13
+_AGREES = 1e-6  # of the value, or of the largest at hand: how well a collision has to confirm a root
+_FLAT = 1e2  # tolerances within which a result is its target
+_SAME = 1e-9  # part of the range within which two roots are one: what errors of a collision move a root by
+_KINDS, _SIDES = len(REVERSALS) + 1, 3  # sides of the value: below, above, undefined
+
+
+def solve(
+    scene: Scene | str | FilePath,
+    *,
+    free: str,
+    within: tuple[float | str, float | str],
+    stokes: float | str | None = None,
+    speed: float | str | None = None,
+    angle: float | str | None = None,
+    relative_speed: float | str | None = None,
+    hold: str | None = None,
+    rtol: float = 1e-9,
+    **target: float | str,
+) -> Solutions:
+    """All values of an entry, within a range, at which a result of the collision has the value that is asked for.
+
+    The range is sampled. Between samples with the same outcome and criterion, extrema towards the value are narrowed
+    down. Changes of outcome are enclosed to 1e-11 of the range, so that roots beside them are found. A value that is
+    only jumped over there is no root; nor is one that the result has all along, where it does not depend on the entry.
+    Each root is confirmed by a collision of its own.
+
+    Arguments:
+        scene: a Scene, a path to a scene file, or a preset's name.
+        free: the entry, by dotted name; one of the impact's included.
+        within: lowest and highest value; SI numbers, or strings with their units.
+        stokes, speed, angle, relative_speed: the impact, as for `collide`.
+        hold: what the impact keeps where the entry varies, as for `Scene.with_entries`.
+        rtol: relative tolerance, 1e-13..1e-3; the search takes a hundredth.
+        target: one result by name, as `restitution=0.5` or `**{"energy.capillary": 1e-12}`, SI or a string with its
+            unit.
+
+    Returns:
+        Solutions: a list of the values, SI, ascending; with derivatives, and what was jumped over. Printed it says the
+        range where there is none.
+
+    Raises:
+        InputError: an entry, result or value that is not acceptable; a restitution of 0, which all sticks have.
+        ComputationError: no collision of the range could be computed, or one does not confirm a root.
+
+    Example:
+        >>> import wetdoublet as wd
+        >>> found = wd.solve("granulation", restitution=1, free="impact.stokes", within=(0.01, 0.05), angle="75 deg")
+        >>> [round(value, 4) for value in found]
+        [0.0131]
+    """
+    name, value = _target(target)
+    rtol, loaded = check_rtol(rtol), Scene.load(scene)
+    given = {"stokes": stokes, "speed": speed, "relative_speed": relative_speed, "angle": angle}
+    for each, number in given.items():
+        clashes = free == f"impact.{each}" or (free in SPEEDS and each != "angle")
+        if clashes and number is not None:
+            raise InputError(each, number, f"{each} left out, where {free} is free", "is given together with free")
+    loaded = loaded.with_impact(**given)
+    (entry,) = check_wrt(loaded, free, "free")
+    if not isinstance(within, (tuple, list)) or len(within) != 2:
+        raise InputError("within", within, "the lowest and the highest value, (LO, HI)", "is not a pair")
+    low, high = (loaded.si_number(entry, end, "within") for end in within)
+    if not low < high:
+        raise InputError("within", within, "LO below HI", "is not a range")
+    if entry not in MEETING:
+        loaded.need_impact()
+    sharp = max(rtol * _SHARP, _SHARPEST)
+    return Search(loaded, entry, low, high, name, value, held_quantity(loaded, hold), sharp).solutions()
+
+
+def _target(target: Mapping[str, Any]) -> tuple[str, float]:
+    """The result and its value, SI; InputError unless there is one."""
+    if len(target) != 1:
+        raise InputError("target", ", ".join(target) or None, "one result with its value, as restitution=0.5")
+    ((name, raw),) = target.items()
+    unit = DEFINITIONS[check_name(name, TARGETS, "target")].unit
+    accepted = f"a number{f' with its unit, {unit}' if unit != '1' else ''}"
+    try:
+        measured = isinstance(raw, str) and not units.is_number(raw)
+        value = units.quantity(str(raw), unit, name, accepted) if measured else float(raw)
+    except (TypeError, ValueError):
+        raise InputError(name, raw, accepted) from None
+    if not math.isfinite(value):
+        raise InputError(name, raw, accepted, "is not finite")
+    if name == "restitution" and value <= 0:
+        raise InputError(name, raw, "a number above 0; where sticking ends is a `boundary`", "is that of all sticks")
+    return name, value
+
+
+class Search(Question):
+    """A search along one entry; places are parts of its range, 0 to 1."""
+
+    def at(self, place: Any) -> Any:
+        """Values of the entry, SI."""
+        if self.low > 0 and self.high > _DECADE * self.low:
+            return np.clip(self.low * (self.high / self.low) ** place, self.low, self.high)
+        return self.low + (self.high - self.low) * place
+
+    def sampled(self, place: Any) -> tuple[np.ndarray, np.ndarray]:
+        """Values of the result, and labels: outcome, criterion and side of the value as a number; -1 where unknown."""
+        values = np.atleast_1d(self.at(place))
+        options: dict[str, Any] = {"rtol": self.rtol, "of": ("outcome", "reversal", self.of)}
+        if self.free in MEETING:
+            options[self.free.partition(".")[2]] = values
+        else:
+            measured = self.scene.fields[self.free].or_unit  # a volume is given with its unit
+            given = [self.scene.as_given(self.free, each) for each in values.tolist()] if measured else values
+            options |= {"vary": {self.free: given}, "hold": self.hold}
+        data = collide_many(self.scene, **options)
+        outcome, reversal = data["outcome"].values.astype(int), data["reversal"].values.astype(int)
+        result = np.asarray(data[self.of].values, float)
+        if self.of not in ("restitution", *OF_IMPACT):
+            result = np.where(outcome == OUTCOMES.index(STICK), np.nan, result)
+        side = np.where(np.isnan(result), 2, result > self.value)
+        return result, np.where(outcome < 0, -1, (outcome * _KINDS + reversal + 1) * _SIDES + side)
+
+    def solutions(self) -> Solutions:
+        """All roots, the jumps over the value, and where it does not change."""
+        place, result, label = self._samples()
+        known = label >= 0
+        if not known.any():
+            raise ComputationError(f"no collision with {self.free} in the range could be computed")
+        place, result, label = place[known], result[known], label[known]
+        defined = result[~np.isnan(result) & ((label // _SIDES // _KINDS > 0) | (self.of in OF_IMPACT))]
+        size = abs(self.value) or float(np.abs(defined).max(initial=0.0)) or 1.0
+        flat = _runs(np.abs(result - self.value) <= _FLAT * self.rtol * size, label // _SIDES)
+        for first, last in flat:
+            label[first : last + 1] += 2 - label[first : last + 1] % _SIDES  # neither side
+        closed = enclose(
+            lambda _, at: self.sampled(at)[1], Brackets.between(np.zeros(place.size, int), place, label),
+            lambda each: np.where(each.before // _SIDES == each.after // _SIDES, _SEEN, _CHANGED),
+            at_once=4 * _FINER, unknown=-1,
+        )  # fmt: skip
+        roots: list[float] = []
+        jumps: list[Jump] = []
+        alike = closed.before // _SIDES == closed.after // _SIDES
+        passed = closed.before % _SIDES + closed.after % _SIDES == 1  # from one side of the value to the other
+        for low, high, smooth in zip(closed.low[passed], closed.high[passed], alike[passed], strict=True):
+            root = self._root(low, high) if smooth else low
+            if not smooth or not abs(self._off(root)) <= _AGREES * size:
+                jumps.append(self._jump(low, high))
+            elif not roots or root - roots[-1] > _SAME:
+                roots.append(root)
+        remarks = [f"{known.size - place.size} samples could not be computed and are passed over"] * (not known.all())
+        if not (alike.all() or roots):
+            remarks.append(f"beside a change of outcome nothing is resolved within {_CHANGED:g} of the range")
+        return Solutions(
+            self, [self._confirmed(root, size) for root in roots], jumps,
+            [(float(self.at(place[j])), float(self.at(place[k]))) for j, k in flat],
+            (float(defined.min()), float(defined.max())) if defined.size else None, remarks,
+        )  # fmt: skip
+
+    def _samples(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Samples over the range, finer about extrema towards the value that do not reach it."""
+        first = np.linspace(0, 1, _SAMPLES)
+        columns = np.vstack([first, *self.sampled(first)])
+        for _ in range(_LOOKS):
+            place, label, off = columns[0], columns[2], np.abs(columns[1] - self.value)
+            alike = (label[1:-1] == label[:-2]) & (label[1:-1] == label[2:]) & (label[1:-1] >= 0)
+            low = (off[1:-1] <= off[:-2]) & (off[1:-1] <= off[2:]) & (off[:-2] + off[2:] > 2 * off[1:-1])
+            minima = 1 + np.flatnonzero(alike & low)
+            if not minima.size or minima.size > _SAMPLES // _FINER:  # what varies so much is rounding
+                break
+            finer = [np.linspace(place[k - 1], place[k + 1], _FINER + 2)[1:-1] for k in minima]
+            new = np.setdiff1d(np.concatenate(finer), place)
+            columns = np.hstack([columns, [new, *self.sampled(new)]])
+            columns = columns[:, np.argsort(columns[0])]
+        return columns[0], columns[1], columns[2].astype(int)
+
+    def _root(self, low: float, high: float) -> float:
+        try:
+            return float(brentq(self._off, low, high, xtol=1e-16, rtol=1e-15))
+        except ValueError:  # both ends are the value, to rounding
+            return low
+
+    def _off(self, place: float) -> float:
+        return float(self.sampled(place)[0][0]) - self.value
+
+    def _jump(self, low: float, high: float) -> Jump:
+        result, label = self.sampled(np.array([low, high]))
+        sides = []
+        for code, value in zip(label.tolist(), result.tolist(), strict=True):
+            outcome, criterion = divmod(code // _SIDES, _KINDS)
+            sides += [OUTCOMES[outcome] + (f" by {REVERSALS[criterion - 1]}" if criterion else ""), value]
+        return Jump(float(self.at((low + high) / 2)), *sides)
+
+    def _confirmed(self, place: float, size: float) -> Solution:
+        """A root that a collision of its own confirms, with derivatives.
+
+        The collision may miss the value by as much as it changes nearby: beside a boundary every error is amplified.
+        """
+        root, beside = float(self.at(place)), self.sampled(np.clip(place + _SAME * np.array([-1, 1]), 0, 1))[0]
+        allowed = _AGREES * size + float(np.nan_to_num(np.abs(beside - self.value)).max())
+        if self.free in MEETING:
+            scene = self.scene.with_impact(**{self.free.partition(".")[2]: root})
+        else:
+            scene = self.scene.with_si({self.free: root}, self.hold)
+        one, (of, _, term) = collide(scene, rtol=self.rtol), self.of.partition(".")
+        found = getattr(one.energy, term) if term else getattr(one, of)
+        if found is None or not abs(found - self.value) <= allowed:
+            message = f"the collision with {self.free} = {root!r} has {self.of} {found}, not {self.value:g}"
+            raise ComputationError(message, advice="it lies within the error of a boundary; try a smaller rtol")
+        if self.of not in DIFFERENTIATED:
+            return Solution(root, one.outcome)
+        try:
+            slopes = sensitivities(scene, [self.of], hold=self.hold, rtol=self.rtol).gradient[self.of]
+        except WetDoubletError as error:  # too near a boundary
+            return Solution(root, one.outcome, reason=str(error))
+        by_free = slopes.get(self.free)
+        if not by_free:
+            return Solution(root, one.outcome, reason=f"{self.of} does not change with {self.free} there")
+        same = SPEEDS if self.free in SPEEDS else (self.free,)
+        gradient = {name: -slope / by_free for name, slope in slopes.items() if name not in same and slope is not None}
+        return Solution(root, one.outcome, gradient | {self.of: 1 / by_free})
+
+
+def _runs(at_value: np.ndarray, regime: np.ndarray) -> list[tuple[int, int]]:
+    """First and last indices of at least three samples one after another that have the value in one regime."""
+    group = np.cumsum(np.append(True, (np.diff(regime) != 0) | (np.diff(at_value.astype(int)) != 0)))
+    runs = (np.flatnonzero(group == each) for each in np.unique(group[at_value]))
+    return [(int(run[0]), int(run[-1])) for run in runs if run.size > 2]

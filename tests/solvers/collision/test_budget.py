@@ -1,0 +1,139 @@
+"""The terms of e_n^2 - 1 of a collision, over time, as a table and as a picture."""
+
+import json
+import math
+import pickle
+
+import numpy as np
+import pytest
+from wetdoublet.solvers import InputError, Scene, collide
+from wetdoublet.solvers.collision.budget import over_time
+
+from ...helpers.command import run
+from ...helpers.snapping import EVENTS
+
+GAINS = {"stokes": 0.02, "angle": "75 deg"}
+
+
+def test_growing_inertia_is_what_makes_e_n_larger_than_one():
+    """Granulation, 75 deg, St 0.02: rigid rotation gives L^2/2 (1/I(x0) - 1/I(x_f)), of which film and bridge take."""
+    one = collide("granulation", **GAINS)
+    shares, scene = dict(one.budget), one.scene
+    a, m, x0 = scene.particles.reduced_radius, scene.particles.reduced_mass, scene.liquid.film_thickness
+    near, far = (m * ((4 * a + gap) ** 2 + 6.4 * a**2) for gap in (x0, 2 * a * 0.1 ** (1 / 3)))
+    momentum = m * (4 * a + x0) ** 2 * one.speed * math.tan(one.angle) / (4 * a)
+    released = momentum**2 / 2 * (1 / near - 1 / far) / (m * one.speed**2 / 2)
+    assert shares["rigid_rotation"] == pytest.approx(released, rel=1e-8)
+    assert one.restitution > 1 and sum(shares.values()) == pytest.approx(one.restitution**2 - 1, abs=1e-14)
+    assert shares["rigid_rotation"] > -shares["normal_lubrication"] - shares["capillary"] > 1
+    # the slip that the tangential force brakes goes into heat: what is left over is the work against its lever
+    assert shares["slip"] == pytest.approx(-shares["tangential_lubrication"], rel=1e-2)
+
+
+def test_a_stick_has_no_budget():
+    """A stick has no e_n: the budget is empty and says so, JSON has null; without the ledger there is none."""
+    stick = collide("granulation", stokes=0.002, angle="75 deg")
+    assert stick.outcome == "stick" and len(stick.budget) == 0 and not stick.budget
+    assert "a stick never separates" in str(stick.budget)
+    assert collide("granulation", **GAINS, ledger=False).budget is None
+    shown = run("collide", "granulation", "--stokes", 0.002, "--angle", 75, "--why")
+    assert shown.exit_code == 0 and "a stick never separates" in shown.stdout
+    assert json.loads(run("collide", "granulation", "--stokes", 0.002, "--why", "--json").stdout)["budget"] is None
+
+
+def test_the_command_shows_every_term():
+    """The table has each term with its formula and the sum; JSON the pairs, which are those from Python."""
+    one = collide("granulation", **GAINS)
+    shown = run("collide", "granulation", "--stokes", 0.02, "--angle", 75, "--why").stdout
+    assert str(one.budget) in shown
+    assert max(map(len, shown.splitlines())) <= 100 and shown.isascii()
+    lines = str(one.budget).splitlines()
+    assert len(lines) == len(one.budget) + 2
+    assert "e_n > 1" in lines[-1] and f"{one.restitution**2 - 1:.4g}" in lines[-1]
+    pairs = json.loads(run("collide", "granulation", "--stokes", 0.02, "--angle", 75, "--why", "--json").stdout)
+    assert [tuple(pair) for pair in pairs["budget"]] == list(one.budget)
+    assert pickle.loads(pickle.dumps(one.budget)) == one.budget
+
+
+@pytest.mark.parametrize("engine", ["taylor", "rosenbrock"])
+@pytest.mark.parametrize(
+    ("name", "entries"),
+    [
+        ("granulation", {"impact.stokes": 0.02, "impact.angle": "75 deg"}),
+        ("granulation", {"impact.stokes": 0.14, "impact.angle": "40 deg"}),
+        ("granulation", {"impact.stokes": 0.2, "impact.angle": 0.0}),
+        ("pendulum", {}),
+        ("granulation", {"impact.stokes": 0.3, "impact.angle": "50 deg", "partner.wall": True}),
+    ],
+)
+@pytest.mark.slow
+def test_the_terms_over_time_end_as_the_budget(name, entries, engine):
+    """They begin at 0 or with a rebound, sum to u^2/v0^2 - 1 all along, and at the end each is the budget's."""
+    one = collide(Scene.load(name).with_entries(entries), trajectory=True, engine=engine, rtol=1e-10)
+    terms, shares = over_time(one, one.trajectory), dict(one.budget)
+    size = max(1.0, *map(abs, shares.values()))
+    first = {term: values[0] for term, values in terms.items() if term != "dry_contact" or one.events[0].time > 0}
+    assert list(first.values()) == pytest.approx([0.0] * len(first), abs=1e-12 * size)
+    velocity = one.trajectory["normal_velocity"].values / one.speed
+    assert sum(terms.values()) == pytest.approx(velocity**2 - 1, abs=1e-12 * size)
+    for term, values in terms.items():
+        expected = shares[term] + (shares["residual"] if term == "dry_contact" else 0.0)
+        assert values[-1] == pytest.approx(expected, abs=1e-8 * size), term
+    losses = [terms[term] for term in ("normal_lubrication", "tangential_lubrication") if term in terms]
+    assert all(np.all(np.diff(values) <= 1e-9 * size) for values in losses)  # a loss only grows
+
+
+def test_the_rebound_takes_what_the_solids_take_at_once():
+    """The term of the solids is 0 before the rebound and (1 - e_dry^2) u^2/v0^2 after it."""
+    one = collide("granulation", stokes=0.14, angle="40 deg", trajectory=True)
+    (at,) = [event.time for event in one.events if event.kind == "glass"]
+    solids, time = over_time(one, one.trajectory)["dry_contact"], one.trajectory["time"].values
+    assert solids[time < at] == pytest.approx(0.0, abs=1e-7)
+    speed = one.trajectory["normal_velocity"].values[time <= at].min() / one.speed
+    before = one.trajectory["normal_velocity"].values[np.flatnonzero(time < at)[-1] + 1] / one.speed
+    assert speed < before < 0
+    assert solids[time > at] == pytest.approx(-(1 - 0.99**2) * before**2, abs=1e-7)
+
+
+@pytest.mark.slow
+def test_a_declared_event_parts_them_where_it_does(tmp_path):
+    """A bridge that snaps when it is stretched faster than 9/ms: the gap is that of the event, and the sum holds."""
+    path = tmp_path / "snaps.py"
+    path.write_text(EVENTS)
+    scene = Scene.load("granulation", model=path)
+    plain = collide(scene, **GAINS, engine="cvodes")
+    assert plain.final_gap == pytest.approx(plain.scene.rupture_gap, rel=1e-9)
+    one = collide(scene.with_entries({"custom.critical_rate": "9e3 1/s"}), **GAINS, engine="cvodes")
+    assert one.events[-1].kind == "snap"
+    assert one.final_gap == pytest.approx(one.restitution * one.speed / 9e3, rel=1e-7)
+    assert one.final_gap < 0.9 * plain.final_gap
+    assert math.fsum(share for _, share in one.budget) == pytest.approx(one.restitution**2 - 1, abs=1e-13)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("name", "impact", "panels"),
+    [("granulation", GAINS, 4), ("pendulum", {}, 4), ("granulation", {"stokes": 0.2, "angle": 0.0}, 2)],
+)
+def test_the_picture_has_the_terms_and_the_momentum(name, impact, panels, tmp_path):
+    """A curve for each term that is not zero, and the sum; above them L, constant but for strings; nothing head-on."""
+    one = collide(name, **impact, trajectory=True)
+    figure = one.budget.plot(tmp_path / "why.png")
+    assert (tmp_path / "why.png").stat().st_size > 10_000
+    assert len(figure.axes) == panels
+    labels = {line.get_label() for line in figure.axes[-1].lines}
+    assert "rigid rotation" in labels or impact.get("angle") == 0.0
+    (total,) = [line for line in figure.axes[-1].lines if line.get_label().startswith("sum")]
+    assert total.get_ydata()[-1] == pytest.approx(one.restitution**2 - 1, abs=1e-8)
+    if impact.get("angle") != 0.0:
+        momentum = figure.axes[0].lines[0].get_ydata()
+        assert momentum[0] == 1.0
+        assert (abs(momentum - 1) < 1e-9).all() == (name == "granulation")
+
+
+def test_a_picture_needs_the_trajectory():
+    """Without the trajectory, or without its ledger, the error names what to ask for."""
+    for options in ({}, {"trajectory": True, "stokes": 0.002}):
+        one = collide("granulation", **{**GAINS, **options})
+        with pytest.raises(InputError, match="trajectory=True"):
+            one.budget.plot()
