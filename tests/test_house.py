@@ -16,7 +16,8 @@ ROOT = Path(__file__).resolve().parents[1]
 Graph = dict[str, set[str]]
 # From what stands on nothing to what nothing stands on. A room imports from rooms above it in this list, never below.
 ORDER = (
-    "derive.vocabulary", "derive.physics", "derive.equations", "derive.user", "derive.emit", "derive.checks",
+    "derive.vocabulary", "derive.physics", "derive.equations", "derive.user", "derive.laws", "derive.emit",
+    "derive.checks",
     "generated", "solvers.errors", "solvers.host", "solvers.results", "solvers.formatting", "solvers.scene",
     "solvers.model", "solvers.engines", "solvers.collision", "solvers.many",
     "solvers.proofs", "solvers.space", "solvers.changes", "solvers.boundaries", "solvers.sensitivity",

@@ -9,7 +9,8 @@ from functools import cache
 from importlib import import_module
 
 from ..equations.certificates.table import CERTIFICATES
-from ..physics.laws import LAWS, Law
+from ..laws import LAWS
+from ..physics.law import Law
 from ..vocabulary.quantities import gap
 from . import conservation, dissipation
 from . import laws as law_limits

@@ -4,11 +4,11 @@ from collections.abc import Mapping
 
 import sympy as sp
 
+from ..laws import LAWS, film, shear
 from ..physics import mechanics
+from ..physics import pendulum as strings
 from ..physics.forces import FILM, SHEAR, force_laws
-from ..physics.laws import LAWS, film, shear, strings
-from ..physics.laws.bridge import rupture_distance
-from ..physics.laws.glass import elastic_compliance, elastic_length
+from ..physics.lengths import elastic_compliance, elastic_length, rupture_distance
 from ..physics.scaling import dimension_matrix, group_definitions, nondimensional, start_values
 from ..vocabulary import quantities as q
 from ..vocabulary.dimensions import (

@@ -13,7 +13,7 @@ from ..emit.casadi.printer import EmissionError
 from ..emit.taylor.law_header import COMPARED, law_header, moves
 from ..emit.taylor.law_slopes import slope_program, slopes_header
 from ..emit.taylor.program import Operation, Program
-from ..physics.laws.base import Law, LawFunction
+from ..physics.law import Law, LawFunction
 from ..user.structures import UserModel
 from ..vocabulary.quantities import normal_velocity
 from .base import Check

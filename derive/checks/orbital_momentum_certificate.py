@@ -6,8 +6,8 @@ import sympy as sp
 
 from ..equations.certificates import orbital_momentum as orbital
 from ..equations.model import derive
-from ..physics.laws import LAWS
-from ..physics.laws.base import filled
+from ..laws import LAWS
+from ..physics.law import filled
 from ..physics.scaling import DISTANCE
 from ..physics.structure import BRIDGED
 from ..vocabulary.quantities import aspect, gap, normal_velocity, obliquity, orbital_momentum, spin

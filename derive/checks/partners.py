@@ -5,8 +5,8 @@ from dataclasses import replace
 import sympy as sp
 
 from ..equations.model import derive
-from ..physics.laws import LAWS
-from ..physics.laws.base import filled
+from ..laws import LAWS
+from ..physics.law import filled
 from ..physics.partners import bodies, rolling, wall
 from ..physics.structure import Partner, Structure
 from ..vocabulary import quantities as q

@@ -12,10 +12,10 @@ from ..equations.certificates.pendulum import PENDULUM, outward_at, pull_at, rig
 from ..equations.events import contact_gap
 from ..equations.intermediates import BRIDGE_FORCE, CENTRIFUGAL_FORCE, FILM_FORCE, STRING_PULL, rates
 from ..equations.model import Model, derive
+from ..laws import LAWS
 from ..physics.forces import FILM, SHEAR
-from ..physics.laws import LAWS
-from ..physics.laws.base import filled, slot_call, slot_calls
-from ..physics.laws.strings import offset_squared
+from ..physics.law import filled, slot_call, slot_calls
+from ..physics.pendulum import offset_squared
 from ..physics.scaling import DISTANCE
 from ..vocabulary import quantities as q
 from .base import MIDGAP, Check, Evidence, check, checks, checks_of, positive, readable, run, vanishing

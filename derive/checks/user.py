@@ -10,10 +10,10 @@ from pathlib import Path
 
 import sympy as sp
 
-from ..physics.laws import LAWS
-from ..physics.laws.base import Law, LawFunction
+from ..laws import LAWS
+from ..laws.modelfile import read
+from ..physics.law import Law, LawFunction
 from ..physics.scaling import ScalingError
-from ..user.modelfile import read
 from ..user.structures import UserModel
 from ..vocabulary.dimensions import DimensionError
 from ..vocabulary.quantities import contact_angle, volume

@@ -12,9 +12,8 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from ..vocabulary import quantities as q
-from .laws.attraction import van_der_waals_force
-from .laws.bridge import rupture_distance
-from .laws.glass import elastic_length
+from .attraction import van_der_waals_force
+from .lengths import elastic_length, rupture_distance
 
 DISTANCE = sp.Symbol("distance", positive=True)  # r/a, named in emitted code
 

@@ -23,10 +23,9 @@ from sympy import (
     tanh,
 )
 
-from ..physics.laws.arm import distance
-from ..physics.laws.bridge import h
-from ..physics.laws.glass import approach
-from ..physics.laws.strings import offset_squared
+from ..physics.pendulum import offset_squared
+from ..physics.references import Reference
+from ..physics.slots import approach, distance, h
 from ..vocabulary.quantities import (
     A_H,
     E,
@@ -61,4 +60,4 @@ from ..vocabulary.quantities import (
 from ..vocabulary.quantities import contact_angle as phi
 from ..vocabulary.quantities import normal_velocity as opening  # its name in older model files
 from ..vocabulary.quantities import volume as V
-from .declarations import event, law, let, quantity
+from .declarations import Formula, event, law, let, positive, quantity

@@ -10,14 +10,16 @@ as they are in SI, or dimensionless in the slot's own arguments; `declared` read
 """
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass, field
 
 import sympy as sp
 
-from ..physics.laws import LAWS
+from ..physics.law import Validity
+from ..physics.references import Reference
+from ..physics.slots import SLOTS, places
 from ..vocabulary.allowed_values import Bounds, BoundsError
 from ..vocabulary.dimensions import ENERGY, ONE, Dimension, DimensionError, UnitError, dimension_of, dimension_of_unit
 from ..vocabulary.quantities import DIMENSIONS, VOCABULARY, omega, u, x, xi
@@ -66,26 +68,50 @@ class Intermediate:
 
 
 @dataclass(frozen=True)
+class Formula:
+    """An expression of a law that has a text or publications of its own, as `Formula(..., source=...)`.
+
+    Arguments:
+        expression: in SI or dimensionless.
+        doc: what it is, if not what the slot says.
+        source: its origin, if not that of the law: text, or a publication.
+        references: its publications, if `source` is a text.
+    """
+
+    expression: sp.Expr
+    doc: str = ""
+    source: str | Reference = ""
+    references: tuple[Reference, ...] = ()
+
+
+@dataclass(frozen=True)
 class Proposed:
     """A law as declared in the file: functions by name, in SI or dimensionless."""
 
     slot: str
     name: str
-    functions: tuple[tuple[str, sp.Expr], ...]
+    functions: Mapping[str, Formula]
     meaning: str
     source: str
     accept: tuple[str, ...]
-    bibtex: str = ""
+    bibtex: str
+    references: tuple[Reference, ...]
+    validity: Validity | None
+    falls: bool
+    spread: bool
 
 
 @dataclass
 class Declarations:
-    """Everything that a file declares, in order."""
+    """Everything that a file declares, in order; `taken` are names of laws by slot that are the library's."""
+
+    taken: Mapping[str, Collection[str]] = field(default_factory=dict)
 
     quantities: dict[str, Declared] = field(default_factory=dict)
     intermediates: dict[str, Intermediate] = field(default_factory=dict)
     laws: dict[tuple[str, str], Proposed] = field(default_factory=dict)
     events: dict[str, own_events.Proposed] = field(default_factory=dict)
+    positive: list[sp.Expr] = field(default_factory=list)
 
 
 _here = ContextVar("declarations", default=Declarations())  # noqa: B039 -- of a model file that is run directly
@@ -96,9 +122,9 @@ def _declarations() -> Declarations:
 
 
 @contextmanager
-def collecting() -> Iterator[Declarations]:
-    """Collect the declarations made inside the block."""
-    token = _here.set(Declarations())
+def collecting(taken: Mapping[str, Collection[str]] | None = None) -> Iterator[Declarations]:
+    """Collect the declarations made inside the block; `taken` are names of laws by slot that none may have."""
+    token = _here.set(Declarations(taken or {}))
     try:
         yield _here.get()
     finally:
@@ -159,21 +185,36 @@ def let(name: str, expression: object, latex: str = "") -> sp.Symbol:
     written = f"{name}_" if isinstance(name, str) and name in taken().keys() - VOCABULARY.keys() else name
     _check_name("let", written, there)
     value = _expression(name, expression)
-    sign = next((known for known in ("positive", "nonnegative") if getattr(value, f"is_{known}")), "real")
+    claimed = value.xreplace({part: sp.Dummy(positive=True) for part in there.positive})
+    sign = next((known for known in ("positive", "nonnegative") if getattr(claimed, f"is_{known}")), "real")
     symbol = sp.Symbol(written, **{sign: True})
     upright = rf"\mathrm{{{name}}}".replace("_", r"\_")
     there.intermediates[written] = Intermediate(symbol, value, latex or upright)
     return symbol
 
 
+def positive(expression: object) -> sp.Expr:
+    """The expression, claimed to be positive wherever a law of the file is used: no guard is put where it vanishes.
+
+    It is dimensionless, in the arguments of the slot.
+    """
+    there = _declarations()
+    there.positive.append(_expression("positive", expression))
+    return there.positive[-1]
+
+
 def law(
     slot: str,
     name: str,
     *,
-    source: str = "",
+    source: str | Reference = "",
+    references: tuple[Reference, ...] = (),
     bibtex: str = "",
     meaning: str = "",
     accept: tuple[str, ...] = (),
+    validity: Mapping[str, tuple[object, object]] | None = None,
+    falls: bool = False,
+    spread: bool = False,
     **functions: object,
 ) -> None:
     """Declare a law.
@@ -181,35 +222,62 @@ def law(
     Arguments:
         slot: the slot that it fills.
         name: its name in scenes.
-        source: its origin, such as a publication.
+        source: its origin, text or a publication.
+        references: its publications, if `source` is a text.
         bibtex: the publication as a BibTeX entry, for `wetdoublet cite`.
         meaning: a description in one line.
         accept: names of checks that it is known to fail.
-        functions: the slot's functions as expressions: of the slot's dimension in SI, or dimensionless.
+        validity: (least, largest) of `volume`, `contact_angle` (rad) and `separation` (gap over R) for which its source
+            gives it, None for no bound; outside of it a warning is given.
+        falls: the slot's first function never increases with its first argument, as some certificates require; checked.
+        spread: of a film, its rim follows the bridge's volume: its functions take `aspect` and `V` beside the gap.
+        functions: the slot's functions as expressions or `Formula`: of the slot's dimension in SI, or dimensionless.
 
     Raises:
         ModelFileError: names the wrong argument and what is accepted.
     """
     there, label = _declarations(), f"law {slot} {name}"
-    if slot not in LAWS:
-        raise ModelFileError("law", slot, "a slot: " + ", ".join(LAWS), "is not a slot")
+    if slot not in SLOTS:
+        raise ModelFileError("law", slot, "a slot: " + ", ".join(SLOTS), "is not a slot")
     if not isinstance(name, str) or not _LAW_NAME.fullmatch(name):
         raise ModelFileError(f"law {slot}", name, "a name of small letters, digits and single dashes")
-    if name in LAWS[slot]:
+    if name in there.taken.get(slot, ()):
         raise ModelFileError(f"law {slot}", name, "a name of your own", "is a law of the library")
     if (slot, name) in there.laws:
         raise ModelFileError(f"law {slot}", name, "each name once", "is declared twice")
-    known = functions_of(slot)
+    known = {place.function: place for place in places().values() if place.slot == slot}
     for foreign in functions.keys() - known.keys():
         raise ModelFileError(label, foreign, "the functions " + ", ".join(known), "is no function of this slot")
-    for missing in (function for function, required in known.items() if required and function not in functions):
+    for missing in (function for function, place in known.items() if place.required and function not in functions):
         raise ModelFileError(f"{label}.{missing}", None, f"{missing} = an expression", "is missing")
-    _check_texts(label, source=source, bibtex=bibtex)
+    if spread and slot != "film":
+        raise ModelFileError(f"{label}.spread", spread, "no such argument", "is of a film")
+    formulas = {f: _formula(f"{label}.{f}", functions[f]) for f in known if f in functions}
+    if "suction" in formulas and formulas["suction"].expression != 0:
+        left = str(formulas["suction"].expression)
+        raise ModelFileError(f"{label}.suction", left, "0, or no suction", "is not what cavitation leaves")
+    source, references = _published(source, references)
+    _check_texts(label, source=source, bibtex=bibtex, meaning=meaning)
     if bibtex and not _BIBTEX.fullmatch(bibtex):
         raise ModelFileError(f"{label}.bibtex", bibtex, "an entry such as @article{key, author = {...}, ...}")
-    expressions = tuple((f, _expression(f"{label}.{f}", functions[f])) for f in known if f in functions)
     meaning, source = meaning or f"{name}, a user's law", source or "no source given"
-    there.laws[slot, name] = Proposed(slot, name, expressions, meaning, source, tuple(accept), bibtex)
+    valid = None if validity is None else Validity(source, **validity)
+    there.laws[slot, name] = Proposed(
+        slot, name, formulas, meaning, source, tuple(accept), bibtex, references, valid, falls, spread
+    )
+
+
+def _formula(label: str, value: object) -> Formula:
+    """A function of a law as it is declared, its expression and its texts judged."""
+    known = value if isinstance(value, Formula) else Formula(value)
+    source, references = _published(known.source, known.references)
+    _check_texts(label, doc=known.doc, source=source)
+    return Formula(_expression(label, known.expression), known.doc, source, references)
+
+
+def _published(source: str | Reference, references: tuple[Reference, ...]) -> tuple[str, tuple[Reference, ...]]:
+    """A source as text, and its publications."""
+    return (source.short, (source,)) if isinstance(source, Reference) else (source, references)
 
 
 def event(
@@ -317,16 +385,6 @@ def unfolded(expression: sp.Expr, there: Declarations) -> sp.Expr:
     return expression
 
 
-def functions_of(slot: str) -> dict[str, bool]:
-    """The functions of a slot's laws, and whether each is required: it is if all laws of the library have it."""
-    laws = LAWS[slot].values()
-    names = dict.fromkeys(function.name for law in laws for function in law.functions)
-    return {
-        name: name != "potential" and all(name in [f.name for f in law.functions if not f.for_proof] for law in laws)
-        for name in names
-    }
-
-
 def _check_texts(label: str, **texts: object) -> None:
     for what, text in texts.items():
         if not isinstance(text, str):
@@ -339,7 +397,9 @@ def _check_name(what: str, name: object, there: Declarations, in_functions: bool
         raise ModelFileError(what, name, "a name of small letters, digits and underscores")
     declared = {*there.quantities, *there.intermediates, *(known.group for known in there.quantities.values())}
     declared |= {word for known in there.events for word in (known, own_events.MARK + known)}
-    meaning = taken().get(name, "")
+    of_library = VOCABULARY.get(name)
+    local = what == "let" and of_library is not None and not own_events.may_use(of_library.symbol)  # in no law
+    meaning = "" if local else taken().get(name, "")
     if name in declared or (meaning and (in_functions or meaning != EMITTED)):
         problem = "is taken already" + (f": it is {meaning}" if meaning else "")
         raise ModelFileError(what, name, "a name that is not taken", problem)

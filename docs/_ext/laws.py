@@ -13,7 +13,8 @@ import sympy as sp
 from matplotlib.figure import Figure
 from wetdoublet.derive.emit.document.latex import latex
 from wetdoublet.derive.emit.document.theory import Equation, theory
-from wetdoublet.derive.physics.laws import LAWS, Law
+from wetdoublet.derive.laws import LAWS
+from wetdoublet.derive.physics.law import Law
 from wetdoublet.derive.vocabulary.quantities import VOCABULARY
 
 

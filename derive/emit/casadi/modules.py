@@ -8,10 +8,19 @@ import sympy as sp
 
 from ...equations.model import Model
 from ...physics.forces import FILM, SHEAR
-from ...physics.laws.base import Law, LawFunction, needed
+from ...physics.law import Law, LawFunction, needed
 from ...physics.scaling import first_rates, group_definitions, impact_groups, scale_definitions
-from ...vocabulary.quantities import VOCABULARY, obliquity, obliquity_pair, obliquity_space, obliquity_wall, rate_scale
-from ..provenance import Own, describe, digest, header, law_digest, model_digest
+from ...physics.slots import MIDGAP, place_of
+from ...vocabulary.quantities import (
+    VOCABULARY,
+    gap,
+    obliquity,
+    obliquity_pair,
+    obliquity_space,
+    obliquity_wall,
+    rate_scale,
+)
+from ..provenance import PROVENANCE, Own, describe, digest, header, law_digest, model_digest
 from .printer import Printer
 
 _WIDTH = 110
@@ -43,6 +52,40 @@ def law_module(law: Law) -> str:
     kinks = ["", f"KINKS = {counts}".replace("'", '"'), ""] if counts else []
     body = [*_validity(law), *(["", "FALLS = True", ""] if falls else []), *kinks, *body]
     return _module(header(law_digest(law)), doc, ["from typing import Any", "", *_casadi(printer)], body)
+
+
+def features(law: Law) -> tuple[str, ...]:
+    """What the rules of a scene and the engines must know of a law: functions that not every law has, and properties.
+
+    Returns:
+        Names of functions, and of these words: "spread", the rim follows the bridge's volume; "rim", it vanishes where
+        the film ends at initial contact; "balanced", the lever arm at which the film exerts no torque on the doublet.
+    """
+    words = [function.name for function in law.functions if not place_of(law.slot, function.name).required]
+    words += ["spread"] * law.spread
+    if law.slot == "shear":
+        words += ["rim"] * (law["edge"].result == 1)
+    if law.slot == "glass":
+        words += ["rim"] * (sp.simplify(law["pressure"].result.subs(gap, 1)) == 0)
+    if law.slot == "arm":
+        words += ["balanced"] * (sp.simplify(law["lever"].result - MIDGAP["arm"]["lever"].result) == 0)
+    return tuple(words)
+
+
+def laws_module(laws: Mapping[str, Mapping[str, Law]]) -> str:
+    """Text of the module with the names of the laws in each slot, and what rules and engines must know of them."""
+    lines = [f"# {PROVENANCE}", f'"""{_LAWS_DOC}"""', "", "LAWS: dict[str, dict[str, tuple[str, ...]]] = {"]
+    for slot, named in laws.items():
+        lines += [f'{_INDENT}"{slot}": {{']
+        lines += [f'{_INDENT * 2}"{name}": {_tuple(features(law))},' for name, law in named.items()]
+        lines += [f"{_INDENT}}},"]
+    return "\n".join([*lines, "}", ""])
+
+
+_LAWS_DOC = """Emitted laws: `<slot>_<name>`, functions of dimensionless arguments. `LAWS` has their names and features.
+
+A feature is a function that not every law of the slot has, or a property.
+"""
 
 
 def _kinks(function: LawFunction, arguments: str, printer: Printer) -> list[str]:

@@ -1,10 +1,9 @@
 """The publications of laws as a Python module, read by `wetdoublet cite`."""
 
-from ...physics.laws import LAWS
-from ...physics.laws.bridge import COMMON
-from ...physics.laws.glass import ELASTIC
-from ...physics.laws.references import PAPER, WALTON, Reference
+from ...laws import LAWS
+from ...physics.lengths import COMMON, ELASTIC
 from ...physics.partners import PUBLISHED
+from ...physics.references import PAPER, WALTON, Reference
 from ..provenance import PROVENANCE
 
 _DOC = "Where the equations and the laws are published."

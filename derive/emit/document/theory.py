@@ -7,15 +7,14 @@ import sympy as sp
 
 from ...equations.automaton import CRITERIA
 from ...equations.events import rebound
+from ...laws import LAWS
 from ...physics import mechanics
 from ...physics.contact_friction import equal_spheres
 from ...physics.forces import FILM, SHEAR, force_laws
-from ...physics.laws import LAWS, Law, fill
-from ...physics.laws.base import slot_calls
-from ...physics.laws.bridge import rupture_distance
-from ...physics.laws.glass import elastic_compliance, elastic_length
-from ...physics.laws.strings import r as string_distance
-from ...physics.laws.strings import swing_squared
+from ...physics.law import Law, fill, slot_calls
+from ...physics.lengths import elastic_compliance, elastic_length, rupture_distance
+from ...physics.pendulum import r as string_distance
+from ...physics.pendulum import swing_squared
 from ...physics.scaling import LUBRICATION_PRESSURE, group_definitions, initial_rate, start_values
 from ...vocabulary import quantities as q
 from .latex import latex

@@ -12,8 +12,8 @@ import sympy as sp
 
 from ...equations.friction import IMPULSE
 from ...equations.model import Model
-from ...physics.laws import LAWS
-from ...physics.laws.base import Law, filled, slot_calls
+from ...laws import LAWS
+from ...physics.law import Law, filled, slot_calls
 from ..casadi.printer import EmissionError
 from ..provenance import header, model_digest
 from .adjoint import Adjoint, contraction

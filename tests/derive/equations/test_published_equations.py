@@ -5,11 +5,12 @@ import math
 import pytest
 import sympy as sp
 from wetdoublet.derive.equations.model import Model
+from wetdoublet.derive.laws import LAWS, film, glass, shear
+from wetdoublet.derive.physics import pendulum as strings
 from wetdoublet.derive.physics import scaling
 from wetdoublet.derive.physics.forces import FILM, SHEAR, force_laws
-from wetdoublet.derive.physics.laws import LAWS, fill, film, glass, shear, strings
-from wetdoublet.derive.physics.laws.bridge import rupture_distance
-from wetdoublet.derive.physics.laws.glass import elastic_compliance, elastic_length
+from wetdoublet.derive.physics.law import fill
+from wetdoublet.derive.physics.lengths import elastic_compliance, elastic_length, rupture_distance
 from wetdoublet.derive.physics.mechanics import (
     F_c,
     F_n,

@@ -9,10 +9,11 @@ from wetdoublet.derive.checks.words import conserved, in_words
 from wetdoublet.derive.emit.compare import same
 from wetdoublet.derive.emit.document.document import document
 from wetdoublet.derive.equations.model import derive
-from wetdoublet.derive.physics.laws import LAWS, fill
+from wetdoublet.derive.laws import LAWS
+from wetdoublet.derive.laws.modelfile import read
+from wetdoublet.derive.physics.law import fill
 from wetdoublet.derive.physics.structure import Structure, structures
 from wetdoublet.derive.user.declarations import ModelFileError
-from wetdoublet.derive.user.modelfile import read
 from wetdoublet.derive.user.template import TEMPLATE
 from wetdoublet.derive.vocabulary.allowed_values import Bounds, BoundsError
 from wetdoublet.derive.vocabulary.dimensions import (

@@ -70,6 +70,7 @@ class Law:
         source: its origin, as text.
         validity: range in which it is valid, if known.
         references: its publications.
+        spread: of a film, its rim follows the volume of the bridge, so that it acts at any gap.
     """
 
     slot: str
@@ -79,6 +80,7 @@ class Law:
     functions: tuple[LawFunction, ...]
     validity: Validity | None = None
     references: tuple[Reference, ...] = ()
+    spread: bool = False
 
     @property
     def module(self) -> str:

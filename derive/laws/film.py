@@ -4,9 +4,29 @@ from functools import cache
 
 import sympy as sp
 
-from ...vocabulary.quantities import R, a, aspect, gap, mu, u, volume, x, x0
-from .base import Law, LawFunction
-from .references import BARNOCKY, KANTAK, PITOIS, RAGER
+from ..physics.references import RAGER
+from ..physics.slots import FILM_FORCE
+from ..user import Formula, R, Reference, V, a, aspect, gap, law, let, mu, u, x, x0
+
+KANTAK = Reference(
+    "kantak2006elastohydrodynamic",
+    ("Kantak, A. A.", "Davis, R. H."),
+    "Elastohydrodynamic theory for wet oblique collisions",
+    "Powder Technology", "Powder Technol.", "168", "42–52", 2006,
+)  # fmt: skip
+BARNOCKY = Reference(
+    "barnocky1988collision",
+    ("Barnocky, G.", "Davis, R. H."),
+    "Elastohydrodynamic collision and rebound of spheres: Experimental verification",
+    "Physics of Fluids", "Phys. Fluids", "31", "1324–1329", 1988,
+)  # fmt: skip
+PITOIS = Reference(
+    "pitois2000bridge",
+    ("Pitois, O.", "Moucheront, P.", "Chateau, X."),
+    "Liquid bridge between two moving spheres: an experimental study of viscosity effects",
+    "Journal of Colloid and Interface Science", "J. Colloid Interface Sci.", "231", "26–31", 2000,
+    "10.1006/jcis.2000.7096",
+)  # fmt: skip
 
 _h = sp.Symbol("h", positive=True)
 _rim = sp.Symbol("rim", positive=True)
@@ -58,7 +78,7 @@ def sustained_force() -> sp.Expr:
 def rim_of_constant_volume() -> sp.Expr:
     """H = sqrt(x^2 + V_b/(pi a)): film thickness at the rim of the disc that holds the bridge volume V_b = V R^3."""
     filled = sp.factor(_over_disc(_h, _rim))  # pi a (H^2 - x^2)
-    return next(root for root in sp.solve(sp.Eq(filled, volume * R**3), _rim) if root.is_positive)
+    return next(root for root in sp.solve(sp.Eq(filled, V * R**3), _rim) if root.is_positive)
 
 
 @cache
@@ -84,75 +104,65 @@ def _resistance(force: sp.Expr) -> sp.Expr:
     return sp.factor((force / viscous_scale).xreplace({x: gap * x0, _rim: _rim * x0}))
 
 
-def _taken(force: sp.Expr, name: str) -> LawFunction:
+def _taken(force: sp.Expr) -> sp.Expr:
     """Integral of a film's resistance from the gap to the rim: the velocity, times St, that it takes on the way."""
-    taken = sp.expand(sp.integrate(sp.expand(_resistance(force)), (gap, gap, 1)))
-    return LawFunction(name, (gap,), taken, _TAKEN[name], for_proof=True)
+    return sp.expand(sp.integrate(sp.expand(_resistance(force)), (gap, gap, 1)))
 
 
-_TAKEN = {
-    "stopping": "Velocity, over v0/St, that the film takes from a doublet opening from this gap to x0.",
-    "braking": "Velocity, over v0/St, that the film takes from an approach from x0 to this gap.",
-}
-
-
-def _braking_of_constant_volume() -> LawFunction:
-    """`braking` of the film of constant volume; d rim/d gap = gap/rim, since rim^2 - gap^2 is constant."""
+def _taken_at_constant_volume() -> sp.Expr:
+    """The same of the film of constant volume; d rim/d gap = gap/rim, since rim^2 - gap^2 is constant."""
     taken = sp.log(gap) - 2 * sp.log(gap + _rim) + sp.log(_rim)
     slope = taken.diff(gap) + taken.diff(_rim) * gap / _rim
     if sp.simplify(slope - _resistance(constant_volume_force())) != 0:
         raise ArithmeticError("not an antiderivative of the resistance of a film of constant volume")
-    whole = taken.subs({gap: 1, _rim: _scaled_rim().subs(gap, 1)}, simultaneous=True) - taken
-    arguments, definitions = (gap, aspect, volume), ((_rim, _scaled_rim()),)
-    return LawFunction("braking", arguments, whole, _TAKEN["braking"], definitions, for_proof=True)
+    return taken.subs({gap: 1, _rim: _scaled_rim().subs(gap, 1)}, simultaneous=True) - taken
 
 
-_ANYWHERE = "Normal film force over 6 pi mu a^2 u/x0."
-_INSIDE = "Normal film force over 6 pi mu a^2 u/x0, for a gap inside the film (gap < 1)."
-_CLOSING = "Normal film force over 6 pi mu a^2 u/x0 while closing, for a gap inside the film (gap < 1)."
-
-
-def _function(force: sp.Expr, doc: str = _INSIDE, name: str = "resistance", falls: bool = True) -> LawFunction:
-    return LawFunction(name, (gap,), _resistance(force), doc, falls=falls)
-
-
-def _uncavitated(force: sp.Expr) -> tuple[LawFunction, ...]:
-    """The functions of a film with the same force on approach and rebound."""
-    return _function(force), _taken(force, "stopping"), _taken(force, "braking")
-
-
-FILMS = (
-    Law(
-        "film", "finite", "Reynolds film of finite thickness, the same on approach and rebound (no cavitation)",
-        f"{KANTAK.short}; derived: pressure integrated over the disc h < x0", _uncavitated(normal_force()),
-        references=(KANTAK,),
+law(
+    "film",
+    "finite",
+    meaning="Reynolds film of finite thickness, the same on approach and rebound (no cavitation)",
+    source=f"{KANTAK.short}; derived: pressure integrated over the disc h < x0",
+    references=(KANTAK,),
+    resistance=_resistance(normal_force()),
+    stopping=_taken(normal_force()),
+    braking=_taken(normal_force()),
+    falls=True,
+)
+law(
+    "film",
+    "infinite",
+    meaning="no film correction: the pressure of an unbounded film, which ends where the surfaces leave it, x = x0",
+    source=f"{RAGER.short}; derived: the limit x0 -> infinity of `finite`",
+    references=(RAGER,),
+    resistance=_resistance(unbounded_force()),
+    stopping=_taken(unbounded_force()),
+    braking=_taken(unbounded_force()),
+    falls=True,
+)
+law(
+    "film",
+    "cavitating",
+    meaning="`finite` on approach; on rebound the liquid sustains no suction and cavitates, which leaves no force",
+    source=f"{BARNOCKY.short}; derived: the pressure cut off at ambient",
+    references=(BARNOCKY,),
+    resistance=Formula(
+        _resistance(normal_force()), f"{FILM_FORCE} while closing, for a gap inside the film (gap < 1)."
     ),
-    Law(
-        "film", "infinite",
-        "no film correction: the pressure of an unbounded film, which ends where the surfaces leave it, x = x0",
-        f"{RAGER.short}; derived: the limit x0 -> infinity of `finite`", _uncavitated(unbounded_force()),
-        references=(RAGER,),
-    ),
-    Law(
-        "film", "cavitating",
-        "`finite` on approach; on rebound the liquid sustains no suction and cavitates, which leaves no force",
-        f"{BARNOCKY.short}; derived: the pressure cut off at ambient",
-        (
-            _function(normal_force(), _CLOSING),
-            _function(sustained_force(), "What of the resistance is left while opening.", "suction", falls=False),
-            _taken(normal_force(), "braking"),
-        ),
-        references=(BARNOCKY,),
-    ),
-    Law(
-        "film", "constant-volume",
-        "the rim follows the bridge's liquid, H = sqrt(x^2 + V_b/(pi a)) in place of x0, at any gap",
-        f"{PITOIS.short}; derived: a disc of that volume",
-        (
-            LawFunction("resistance", (gap, aspect, volume), _resistance(constant_volume_force()), _ANYWHERE,
-                        ((_rim, _scaled_rim()),), falls=True),
-            _braking_of_constant_volume(),
-        ),
-        references=(PITOIS,),
-    ),
-)  # fmt: skip
+    suction=_resistance(sustained_force()),
+    braking=_taken(normal_force()),
+    falls=True,
+)
+
+let("rim", _scaled_rim())
+law(
+    "film",
+    "constant-volume",
+    meaning="the rim follows the bridge's liquid, H = sqrt(x^2 + V_b/(pi a)) in place of x0, at any gap",
+    source=f"{PITOIS.short}; derived: a disc of that volume",
+    references=(PITOIS,),
+    resistance=Formula(_resistance(constant_volume_force()), f"{FILM_FORCE}."),
+    braking=_taken_at_constant_volume(),
+    spread=True,
+    falls=True,
+)

@@ -1,0 +1,30 @@
+"""Van der Waals attraction of nearly touching spheres."""
+
+import sympy as sp
+
+from ..physics.attraction import van_der_waals_force, van_der_waals_potential
+from ..physics.references import DERJAGUIN
+from ..user import Reference, gap, law, x, x0
+
+HAMAKER = Reference(
+    "hamaker1937attraction",
+    ("Hamaker, H. C.",),
+    "The London-van der Waals attraction between spherical particles",
+    "Physica", "Physica", "4", "1058–1072", 1937, "10.1016/S0031-8914(37)80203-7",
+)  # fmt: skip
+
+
+def _in_gaps(expression: sp.Expr) -> sp.Expr:
+    return expression.subs(x, gap * x0)
+
+
+law(
+    "attraction",
+    "van-der-waals",
+    meaning="van der Waals attraction of nearly touching spheres, neither retarded nor cut off",
+    source=f"{HAMAKER.short}; {DERJAGUIN.short}",
+    references=(HAMAKER, DERJAGUIN),
+    force=_in_gaps(van_der_waals_force() / van_der_waals_force().subs(x, x0)),
+    potential=_in_gaps(van_der_waals_potential() / (van_der_waals_force() * x**2 / x0)),
+    falls=True,
+)

@@ -1,0 +1,26 @@
+"""Bridge law of Soulie et al.: the form of Mikami's, fitted for polydisperse spheres."""
+
+from ..physics.lengths import rupture_over_radius
+from ..physics.references import LIAN
+from ..user import Formula, Reference, V, law, log
+from .mikami import exponential
+
+SOULIE = Reference(
+    "soulie2006influence",
+    ("Soulié, F.", "Cherblanc, F.", "El Youssoufi, M. S.", "Saix, C."),
+    "Influence of liquid bridges on the mechanical behaviour of polydisperse granular materials",
+    "International Journal for Numerical and Analytical Methods in Geomechanics",
+    "Int. J. Numer. Anal. Meth. Geomech.", "30", "213–228", 2006, "10.1002/nag.476",
+)  # fmt: skip
+
+law(
+    "bridge",
+    "soulie",
+    meaning="mikami's form refitted for polydisperse spheres",
+    source=SOULIE,
+    force=exponential(log(V), -0.148, -0.0082, 0.0018),
+    rupture_distance=Formula(
+        rupture_over_radius(), source=f"{LIAN.short}, which Soulie et al. (2006) use", references=(LIAN,)
+    ),
+    falls=True,
+)
