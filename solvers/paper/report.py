@@ -44,7 +44,8 @@ PRESSURE = "liquid.glass_transition_pressure"
 _SHARED: dict[str, dict[str, Any]] = {
     "preset": {}, "log film": {"model.tangential": "film"}, "glass film-corrected": {"model.glass": "film-corrected"},
 }  # fmt: skip
-BRIDGE_VARIANTS = _SHARED | {"mikami-log10": {"bridge.law": "mikami-log10"}}
+_OTHER_FIT = {"bridge.law": "mikami-log10"}
+BRIDGE_VARIANTS = _SHARED | {_OTHER_FIT["bridge.law"]: _OTHER_FIT}
 STRING_VARIANTS = _SHARED | {
     **{f"l = {length} m": {"pendulum.length": f"{length} m"} for length in ("0.4", "0.7", "1")},
     "small-angle strings": {"pendulum.law": "small-angle"},
