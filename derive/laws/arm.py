@@ -4,9 +4,7 @@ from ..physics.slots import MIDGAP, distance
 from ..user import law
 
 law(
-    "arm",
-    "midgap",
+    "arm", "midgap", source="torque balance of the film about the centre of mass",
     meaning="the tangential force acts at mid-gap, arm = r/2: conserves angular momentum identically",
-    source="torque balance of the film about the centre of mass",
     lever=MIDGAP["arm"]["lever"](distance),
-)
+)  # fmt: skip

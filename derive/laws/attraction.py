@@ -7,8 +7,7 @@ from ..physics.references import DERJAGUIN
 from ..user import Reference, gap, law, x, x0
 
 HAMAKER = Reference(
-    "hamaker1937attraction",
-    ("Hamaker, H. C.",),
+    "hamaker1937attraction", ("Hamaker, H. C.",),
     "The London-van der Waals attraction between spherical particles",
     "Physica", "Physica", "4", "1058–1072", 1937, "10.1016/S0031-8914(37)80203-7",
 )  # fmt: skip
@@ -19,12 +18,8 @@ def _in_gaps(expression: sp.Expr) -> sp.Expr:
 
 
 law(
-    "attraction",
-    "van-der-waals",
+    "attraction", "van-der-waals", source=(HAMAKER, DERJAGUIN), falls=True,
     meaning="van der Waals attraction of nearly touching spheres, neither retarded nor cut off",
-    source=f"{HAMAKER.short}; {DERJAGUIN.short}",
-    references=(HAMAKER, DERJAGUIN),
     force=_in_gaps(van_der_waals_force() / van_der_waals_force().subs(x, x0)),
     potential=_in_gaps(van_der_waals_potential() / (van_der_waals_force() * x**2 / x0)),
-    falls=True,
-)
+)  # fmt: skip

@@ -21,15 +21,9 @@ def _criterion(name: str, axis: sp.Expr, meaning: str) -> None:
     scaled = sp.simplify(axis * x0**2 / (3 * mu * a)).subs({x: gap * x0, u: -approach}, simultaneous=True)
     pressure, fast = sp.factor(sp.simplify(scaled)), sp.Symbol("approach", positive=True)
     (farthest,) = (root for root in sp.solve(pressure.subs(approach, fast) - glass_number, gap) if root.is_positive)
-    law(
-        "glass",
-        name,
-        meaning=meaning,
-        source=f"{CRADLE.short}; derived from the film pressure",
-        references=(CRADLE,),
-        pressure=pressure,
-        reach=sp.simplify(farthest).subs(fast, approach),
-    )
+    reach = sp.simplify(farthest).subs(fast, approach)
+    remark = "; derived from the film pressure"
+    law("glass", name, meaning=meaning, source=CRADLE, remark=remark, pressure=pressure, reach=reach)
 
 
 _UNBOUNDED = sp.limit(axis_pressure(), x0, sp.oo)  # 3 mu a |u|/x^2

@@ -5,8 +5,7 @@ import sympy as sp
 from ..user import Formula, Reference, V, exp, h, law, let, log, phi
 
 MIKAMI = Reference(
-    "mikami1998numerical",
-    ("Mikami, T.", "Kamiya, H.", "Horio, M."),
+    "mikami1998numerical", ("Mikami, T.", "Kamiya, H.", "Horio, M."),
     "Numerical simulation of cohesive powder behavior in a fluidized bed",
     "Chemical Engineering Science", "Chem. Eng. Sci.", "53", "1927–1940", 1998, "10.1016/S0009-2509(97)00325-4",
 )  # fmt: skip
@@ -27,11 +26,7 @@ def fit(logarithm: sp.Expr) -> sp.Expr:
 
 
 law(
-    "bridge",
-    "mikami",
+    "bridge", "mikami", source=MIKAMI, falls=True,
     meaning="regression of Young-Laplace solutions",
-    source=MIKAMI,
-    force=fit(log(V)),
-    rupture_distance=RUPTURE,
-    falls=True,
-)
+    force=fit(log(V)), rupture_distance=RUPTURE,
+)  # fmt: skip

@@ -4,12 +4,7 @@ from ..user import V, law, log
 from .mikami import MIKAMI, RUPTURE, fit
 
 law(
-    "bridge",
-    "mikami-log10",
+    "bridge", "mikami-log10", source=MIKAMI, remark=", read with log10", falls=True,
     meaning="mikami with decimal logarithms in B and C (closer to Young-Laplace for phi > 0)",
-    source=f"{MIKAMI.short}, read with log10",
-    references=(MIKAMI,),
-    force=fit(log(V) / log(10)),
-    rupture_distance=RUPTURE,
-    falls=True,
-)
+    force=fit(log(V) / log(10)), rupture_distance=RUPTURE,
+)  # fmt: skip

@@ -12,8 +12,7 @@ import sympy as sp
 from ..user import Reference, a, aspect, gap, law, mu, omega, x, x0, xi
 
 ONEILL = Reference(
-    "oneill1970asymmetrical",
-    ("O'Neill, M. E.", "Majumdar, R."),
+    "oneill1970asymmetrical", ("O'Neill, M. E.", "Majumdar, R."),
     "Asymmetrical slow viscous fluid motions caused by the translation or rotation of two spheres. Part I: The "
     "determination of exact solutions for any values of the ratio of radii and separation parameters",
     "Zeitschrift für angewandte Mathematik und Physik", "ZAMP", "21", "164–179", 1970,
@@ -43,20 +42,13 @@ def log_factor(outer: sp.Expr) -> sp.Expr:
     return sp.simplify(scaled.subs(x0, aspect * a))
 
 
-def _sliding(name: str, outer: sp.Expr, meaning: str, source: str, references: tuple[Reference, ...] = ()) -> None:
-    law(
-        "shear",
-        name,
-        meaning=meaning,
-        source=source,
-        references=references,
-        log_factor=log_factor(outer),
-        edge=sp.simplify((outer / x0).subs(x0, aspect * a)),
-        falls=True,
-    )
+def _sliding(name: str, outer: sp.Expr, meaning: str, source: str | Reference, remark: str = "") -> None:
+    edge = sp.simplify((outer / x0).subs(x0, aspect * a))
+    factor = log_factor(outer)
+    law("shear", name, meaning=meaning, source=source, remark=remark, log_factor=factor, edge=edge, falls=True)
 
 
 _IMMERSED = "leading logarithm of nearly touching, fully immersed spheres: cut off at the sphere radius 2a"
 _FILM = "leading logarithm cut off at the rim of the film, x0"
-_sliding("immersed", 2 * a, _IMMERSED, f"{ONEILL.short}, without its constant term", (ONEILL,))
+_sliding("immersed", 2 * a, _IMMERSED, ONEILL, ", without its constant term")
 _sliding("film", x0, _FILM, "Couette shear integrated over the wetted disc")

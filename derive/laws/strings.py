@@ -6,8 +6,7 @@ from ..physics.pendulum import height, rise
 from ..user import Reference, law, offset_squared, positive, string_ratio
 
 DOUBLETS = Reference(
-    "donahue2012doublets",
-    ("Donahue, C. M.", "Brewer, W. M.", "Davis, R. H.", "Hrenya, C. M."),
+    "donahue2012doublets", ("Donahue, C. M.", "Brewer, W. M.", "Davis, R. H.", "Hrenya, C. M."),
     "Agglomeration and de-agglomeration of rotating wet doublets",
     "Journal of Fluid Mechanics", "J. Fluid Mech.", "708", "128–148", 2012,
 )  # fmt: skip
@@ -16,15 +15,11 @@ positive(string_ratio**2 - offset_squared)  # a string that is taut is not horiz
 
 
 def _strings(name: str, small_angle: bool, meaning: str) -> None:
+    stiffness = sp.simplify(2 * height(small_angle).diff(offset_squared))
+    remark = ": vertical tension balances the weight"
     law(
-        "strings",
-        name,
-        meaning=meaning,
-        source=f"{DOUBLETS.short}: vertical tension balances the weight",
-        references=(DOUBLETS,),
-        rise=rise(small_angle),
-        stiffness=sp.simplify(2 * height(small_angle).diff(offset_squared)),
-    )
+        "strings", name, meaning=meaning, source=DOUBLETS, remark=remark, rise=rise(small_angle), stiffness=stiffness
+    )  # fmt: skip
 
 
 _strings("exact", False, "strings of length l, exact geometry")

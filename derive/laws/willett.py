@@ -5,13 +5,12 @@ import sympy as sp
 from ..user import Formula, Rational, Reference, V, cos, exp, h, law, let, log, phi, pi, sqrt
 
 WILLETT = Reference(
-    "willett2000capillary",
-    ("Willett, C. D.", "Adams, M. J.", "Johnson, S. A.", "Seville, J. P. K."),
+    "willett2000capillary", ("Willett, C. D.", "Adams, M. J.", "Johnson, S. A.", "Seville, J. P. K."),
     "Capillary bridges between two spherical bodies",
     "Langmuir", "Langmuir", "16", "9396–9405", 2000, "10.1021/la000657y",
 )  # fmt: skip
-RUPTURE = Formula((1 + phi / 2) * (V ** Rational(1, 3) + V ** Rational(2, 3) / 10), source=WILLETT)
-LARGEST_ANGLE = 5 * pi / 18
+_RUPTURE = Formula((1 + phi / 2) * (V ** Rational(1, 3) + V ** Rational(2, 3) / 10), source=WILLETT)
+_ANGLES = (None, 5 * pi / 18)
 
 # Coefficients of phi^0, phi^1, phi^2 in each coefficient of the polynomials f1..f4 in ln V
 _FIT = {
@@ -32,23 +31,15 @@ def _polynomial(rows: str) -> sp.Expr:
 
 f1, f2, f3, f4 = (let(name, _polynomial(rows)) for name, rows in _FIT.items())
 law(
-    "bridge",
-    "willett",
+    "bridge", "willett", source=WILLETT, validity={"volume": (None, Rational("0.1")), "contact_angle": _ANGLES},
     meaning="fit to Young-Laplace solutions over h/(2 sqrt V), full form",
-    source=WILLETT,
-    validity={"volume": (None, Rational("0.1")), "contact_angle": (None, LARGEST_ANGLE)},
-    force=2 * exp(f1 - f2 * exp(f3 * log_scaled + f4 * log_scaled**2)),
-    rupture_distance=RUPTURE,
-)
+    force=2 * exp(f1 - f2 * exp(f3 * log_scaled + f4 * log_scaled**2)), rupture_distance=_RUPTURE,
+)  # fmt: skip
 
 scaled = let("scaled_gap", h / sqrt(V))
 law(
-    "bridge",
-    "willett-simple",
+    "bridge", "willett-simple", source=WILLETT, falls=True,
+    validity={"volume": (None, Rational("0.001")), "contact_angle": _ANGLES},
     meaning="closed-form approximation of the full fit, for small bridges",
-    source=WILLETT,
-    validity={"volume": (None, Rational("0.001")), "contact_angle": (None, LARGEST_ANGLE)},
-    force=2 * cos(phi) / (1 + 1.05 * scaled + 2.5 * scaled**2),
-    rupture_distance=RUPTURE,
-    falls=True,
-)
+    force=2 * cos(phi) / (1 + 1.05 * scaled + 2.5 * scaled**2), rupture_distance=_RUPTURE,
+)  # fmt: skip

@@ -13,11 +13,11 @@ import re
 from collections.abc import Collection, Iterator, Mapping
 from contextlib import contextmanager
 from contextvars import ContextVar
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import sympy as sp
 
-from ..physics.law import Validity
+from ..physics.law import RANGES, Law, Range
 from ..physics.references import Reference
 from ..physics.slots import SLOTS, places
 from ..vocabulary.allowed_values import Bounds, BoundsError
@@ -67,6 +67,17 @@ class Intermediate:
     latex: str
 
 
+Source = str | Reference | tuple[Reference, ...]
+
+
+def published(source: Source, remark: str = "") -> tuple[str, tuple[Reference, ...]]:
+    """A source in words, and its publications."""
+    if isinstance(source, str):
+        return source + remark, ()
+    publications = source if isinstance(source, tuple) else (source,)
+    return "; ".join(each.short for each in publications) + remark, publications
+
+
 @dataclass(frozen=True)
 class Formula:
     """An expression of a law that has a text or publications of its own, as `Formula(..., source=...)`.
@@ -74,31 +85,25 @@ class Formula:
     Arguments:
         expression: in SI or dimensionless.
         doc: what it is, if not what the slot says.
-        source: its origin, if not that of the law: text, or a publication.
-        references: its publications, if `source` is a text.
+        source: its origin, if not that of the law: text, or publications.
+        remark: what is said after them.
     """
 
     expression: sp.Expr
     doc: str = ""
-    source: str | Reference = ""
-    references: tuple[Reference, ...] = ()
+    source: Source = ""
+    remark: str = ""
 
 
 @dataclass(frozen=True)
 class Proposed:
-    """A law as declared in the file: functions by name, in SI or dimensionless."""
+    """A law as declared in the file, without its functions, and these by name, in SI or dimensionless."""
 
-    slot: str
-    name: str
+    law: Law
     functions: Mapping[str, Formula]
-    meaning: str
-    source: str
     accept: tuple[str, ...]
     bibtex: str
-    references: tuple[Reference, ...]
-    validity: Validity | None
     falls: bool
-    spread: bool
 
 
 @dataclass
@@ -207,12 +212,12 @@ def law(
     slot: str,
     name: str,
     *,
-    source: str | Reference = "",
-    references: tuple[Reference, ...] = (),
+    source: Source = "",
+    remark: str = "",
     bibtex: str = "",
     meaning: str = "",
     accept: tuple[str, ...] = (),
-    validity: Mapping[str, tuple[object, object]] | None = None,
+    validity: Mapping[str, Range] | None = None,
     falls: bool = False,
     spread: bool = False,
     **functions: object,
@@ -222,8 +227,8 @@ def law(
     Arguments:
         slot: the slot that it fills.
         name: its name in scenes.
-        source: its origin, text or a publication.
-        references: its publications, if `source` is a text.
+        source: its origin, text or publications.
+        remark: what is said after them.
         bibtex: the publication as a BibTeX entry, for `wetdoublet cite`.
         meaning: a description in one line.
         accept: names of checks that it is known to fail.
@@ -256,28 +261,23 @@ def law(
     if "suction" in formulas and formulas["suction"].expression != 0:
         left = str(formulas["suction"].expression)
         raise ModelFileError(f"{label}.suction", left, "0, or no suction", "is not what cavitation leaves")
-    source, references = _published(source, references)
-    _check_texts(label, source=source, bibtex=bibtex, meaning=meaning)
+    origin, references = published(source, remark)
+    _check_texts(label, source=origin, bibtex=bibtex, meaning=meaning)
     if bibtex and not _BIBTEX.fullmatch(bibtex):
         raise ModelFileError(f"{label}.bibtex", bibtex, "an entry such as @article{key, author = {...}, ...}")
-    meaning, source = meaning or f"{name}, a user's law", source or "no source given"
-    valid = None if validity is None else Validity(source, **validity)
-    there.laws[slot, name] = Proposed(
-        slot, name, formulas, meaning, source, tuple(accept), bibtex, references, valid, falls, spread
-    )
+    meaning, origin = meaning or f"{name}, a user's law", origin or "no source given"
+    for unknown in (validity or {}).keys() - {*RANGES}:
+        raise ModelFileError(f"{label}.validity", unknown, ", ".join(RANGES), "has no range")
+    valid = tuple((name, validity[name]) for name in RANGES if validity and name in validity)
+    declared = Law(slot, name, meaning, origin, (), valid, references, spread)
+    there.laws[slot, name] = Proposed(declared, formulas, tuple(accept), bibtex, falls)
 
 
 def _formula(label: str, value: object) -> Formula:
     """A function of a law as it is declared, its expression and its texts judged."""
     known = value if isinstance(value, Formula) else Formula(value)
-    source, references = _published(known.source, known.references)
-    _check_texts(label, doc=known.doc, source=source)
-    return Formula(_expression(label, known.expression), known.doc, source, references)
-
-
-def _published(source: str | Reference, references: tuple[Reference, ...]) -> tuple[str, tuple[Reference, ...]]:
-    """A source as text, and its publications."""
-    return (source.short, (source,)) if isinstance(source, Reference) else (source, references)
+    _check_texts(label, doc=known.doc, source=published(known.source, known.remark)[0])
+    return replace(known, expression=_expression(label, known.expression))
 
 
 def event(

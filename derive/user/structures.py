@@ -14,7 +14,7 @@ from ..physics.slots import MOTION, Place, place_of
 from ..vocabulary.dimensions import ONE, Dimension, DimensionError, dimension_of
 from ..vocabulary.quantities import DIMENSIONS, VOCABULARY, a, m, mu, normal_velocity, rate_scale, u, v0, x, x0
 from . import own_events
-from .declarations import Declarations, Declared, Proposed, unfolded
+from .declarations import Declarations, Declared, Proposed, published, unfolded
 from .kinks import freed, smooth
 from .own_events import OwnEvent
 
@@ -108,25 +108,24 @@ def express(name: str, meaning: str, declared: Declarations) -> UserModel:
     """The model of declarations; DimensionError or ScalingError names law, function, and the wrong term or quantity."""
     groups = _groups(declared)
     laws = []
-    extra = _Extra(groups, tuple(one.mark for one in declared.events.values()))
     for proposed in declared.laws.values():
         functions = tuple(_function(name, proposed, declared, groups) for name in proposed.functions)
-        about = (proposed.validity, proposed.references, proposed.spread)
-        laws.append(Law(proposed.slot, proposed.name, proposed.meaning, proposed.source, functions, *about))
-        extra.add(laws[-1])
-    laws = [extra.widened(law) for law in laws]
+        laws.append(replace(proposed.law, functions=functions))
+    marks = (one.mark for one in declared.events.values())
+    extra = _extra(laws, (normal_velocity, *marks, *GROUPS, *(group.symbol for group in groups.values())))
+    laws = [_widened(law, extra) for law in laws]
     printed = tuple(_in_si(law, groups) for law in laws)
     still = {*GROUPS, *(group.symbol for group in groups.values())}
     written = tuple(laws)
     laws = [replace(law, functions=tuple(smooth(f, still, declared.positive) for f in law.functions)) for law in laws]
-    called = {symbol for symbols in extra.found.values() for symbol in symbols}
+    called = {symbol for symbols in extra.values() for symbol in symbols}
     events = tuple(_event(one, declared, groups, called) for one in declared.events.values())
     used = called.union(*(one.symbols for one in events))
     kept = tuple(group for group in groups.values() if group.symbol in used)
     unused = [one.name for one in declared.quantities.values() if one.name not in {g.quantity.name for g in kept}]
     if unused:
         raise ScalingError(f"{', '.join(unused)}: declared, but no law or event depends on it")
-    return UserModel(name, meaning, declared, tuple(laws), written, printed, kept, extra.found, events)
+    return UserModel(name, meaning, declared, tuple(laws), written, printed, kept, extra, events)
 
 
 def _event(
@@ -149,27 +148,21 @@ def _as_groups(groups: Mapping[str, Group]) -> dict[sp.Symbol, sp.Expr]:
     return {g.quantity.symbol: g.symbol * g.over for g in groups.values() if g.quantity.dimension != ONE}
 
 
-class _Extra:
+def _extra(laws: Iterable[Law], order: Iterable[sp.Symbol]) -> dict[str, tuple[sp.Symbol, ...]]:
     """The additional arguments of a slot's functions, over all its laws."""
-
-    def __init__(self, groups: Mapping[str, Group], marks: tuple[sp.Symbol, ...]) -> None:
-        self.order = (normal_velocity, *marks, *GROUPS, *(group.symbol for group in groups.values()))
-        self.found: dict[str, tuple[sp.Symbol, ...]] = {}
-
-    def add(self, law: Law) -> None:
-        for function in law.functions:
-            key = f"{law.slot}.{function.name}"
-            arguments = set(place_of(law.slot, function.name, law.spread).arguments)
-            more = {*self.found.get(key, ()), *(s for s in function.arguments if s not in arguments)}
-            if more:
-                self.found[key] = tuple(s for s in self.order if s in more)
-
-    def widened(self, law: Law) -> Law:
-        functions = []
+    added: dict[str, set[sp.Symbol]] = {}
+    for law in laws:
         for f in law.functions:
-            more = self.found.get(f"{law.slot}.{f.name}", ())
-            functions.append(replace(f, arguments=(*(s for s in f.arguments if s not in more), *more)))
-        return replace(law, functions=tuple(functions))
+            more = {*f.arguments} - {*place_of(law.slot, f.name, law.spread).arguments}
+            added.setdefault(f"{law.slot}.{f.name}", set()).update(more)
+    return {key: tuple(s for s in order if s in more) for key, more in added.items() if more}
+
+
+def _widened(law: Law, extra: Mapping[str, tuple[sp.Symbol, ...]]) -> Law:
+    """The law with the additional arguments of its slot."""
+    more = {f.name: extra.get(f"{law.slot}.{f.name}", ()) for f in law.functions}
+    arguments = {f.name: (*(s for s in f.arguments if s not in more[f.name]), *more[f.name]) for f in law.functions}
+    return replace(law, functions=tuple(replace(f, arguments=arguments[f.name]) for f in law.functions))
 
 
 def _groups(declared: Declarations) -> dict[str, Group]:
@@ -193,9 +186,9 @@ def _groups(declared: Declarations) -> dict[str, Group]:
 def _scale(one: Declared, declared: Declarations) -> sp.Expr:
     """A monomial of a scene's quantities with the dimension of `one`; those of the related scale are preferred."""
     functions = [
-        (formula.expression, place_of(law.slot, name, law.spread).scale)
-        for law in declared.laws.values()
-        for name, formula in law.functions.items()
+        (formula.expression, place_of(known.law.slot, name, known.law.spread).scale)
+        for known in declared.laws.values()
+        for name, formula in known.functions.items()
     ]
     functions += [(each, sp.Integer(1)) for event in declared.events.values() for each in event.expressions]
     near: list[sp.Symbol] = []
@@ -221,8 +214,8 @@ def _by_vocabulary(symbols: Iterable[sp.Symbol]) -> list[sp.Symbol]:
 
 def _function(name: str, proposed: Proposed, declared: Declarations, groups: Mapping[str, Group]) -> LawFunction:
     """A function in the slot's arguments, states and groups; dimensionless parts keep their names."""
-    label, place = f"law {proposed.slot} {proposed.name}, {name}", place_of(proposed.slot, name, proposed.spread)
-    formula = proposed.functions[name]
+    law, formula = proposed.law, proposed.functions[name]
+    label, place = f"law {law.slot} {law.name}, {name}", place_of(law.slot, name, law.spread)
     expression = formula.expression
     of: dict[sp.Basic, Dimension] = {**DIMENSIONS, **dict.fromkeys(place.arguments, ONE)}
     of |= {one.symbol: one.dimension for one in declared.quantities.values()}
@@ -260,9 +253,10 @@ def _function(name: str, proposed: Proposed, declared: Declarations, groups: Map
         raise ScalingError(f"{label}: depends on {', '.join(wrong)}; {what} may depend on {possible}")
     extra = [s for s in (normal_velocity, *marks, *GROUPS, *(g.symbol for g in groups.values())) if s in used]
     arguments = (*place.arguments, *(s for s in extra if s not in place.arguments))
-    doc = (formula.doc or place.doc) + (f"\n\nSource: {formula.source}." if formula.source else "")
+    source, references = published(formula.source, formula.remark)
+    doc = (formula.doc or place.doc) + (f"\n\nSource: {source}." if source else "")
     falls = proposed.falls and name == next(iter(proposed.functions))
-    return LawFunction(name, arguments, result, doc, tuple(parts), place.for_proof, falls, formula.references)
+    return LawFunction(name, arguments, result, doc, tuple(parts), place.for_proof, falls, references)
 
 
 def _reached(expression: sp.Expr, declared: Declarations) -> set[sp.Basic]:

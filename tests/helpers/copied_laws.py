@@ -16,4 +16,4 @@ def copied(*files: str) -> str:
     text = "\n".join((FOLDER / f"{file}.py").read_text() for file in files)
     text = re.sub(r"^from \.\.", "from wetdoublet.derive.", text, flags=re.MULTILINE)
     text = re.sub(r"^from \.", "from wetdoublet.derive.laws.", text, flags=re.MULTILINE)
-    return re.sub(rf'^(law\(\n    "\w+",\n    |_\w+\()"({_NAMES})",', r'\1"\2-copy",', text, flags=re.MULTILINE)
+    return re.sub(rf'^(law\(\s*"\w+", |_\w+\()"({_NAMES})",', r'\1"\2-copy",', text, flags=re.MULTILINE)

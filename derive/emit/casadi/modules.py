@@ -3,12 +3,13 @@
 import re
 import textwrap
 from collections.abc import Iterable, Mapping, Sequence
+from pprint import pformat
 
 import sympy as sp
 
 from ...equations.model import Model
 from ...physics.forces import FILM, SHEAR
-from ...physics.law import Law, LawFunction, needed
+from ...physics.law import RANGES, Law, LawFunction, needed
 from ...physics.scaling import first_rates, group_definitions, impact_groups, scale_definitions
 from ...physics.slots import MIDGAP, place_of
 from ...vocabulary.quantities import (
@@ -74,12 +75,9 @@ def features(law: Law) -> tuple[str, ...]:
 
 def laws_module(laws: Mapping[str, Mapping[str, Law]]) -> str:
     """Text of the module with the names of the laws in each slot, and what rules and engines must know of them."""
-    lines = [f"# {PROVENANCE}", f'"""{_LAWS_DOC}"""', "", "LAWS: dict[str, dict[str, tuple[str, ...]]] = {"]
-    for slot, named in laws.items():
-        lines += [f'{_INDENT}"{slot}": {{']
-        lines += [f'{_INDENT * 2}"{name}": {_tuple(features(law))},' for name, law in named.items()]
-        lines += [f"{_INDENT}}},"]
-    return "\n".join([*lines, "}", ""])
+    table = {slot: {name: features(law) for name, law in named.items()} for slot, named in laws.items()}
+    lines = [f"# {PROVENANCE}", f'"""{_LAWS_DOC}"""', "", "LAWS: dict[str, dict[str, tuple[str, ...]]] = ("]
+    return "\n".join([*lines, pformat(table, sort_dicts=False, width=_WIDTH).replace("'", '"'), ")", ""])
 
 
 _LAWS_DOC = """Emitted laws: `<slot>_<name>`, functions of dimensionless arguments. `LAWS` has their names and features.
@@ -100,14 +98,14 @@ def _kinks(function: LawFunction, arguments: str, printer: Printer) -> list[str]
 
 def _validity(law: Law) -> list[str]:
     """The constant VALIDITY of a law: quantity to (least, largest), None for no known bound."""
-    known = law.validity
-    if known is None:
+    known = dict(law.validity)
+    if not known:
         return []
     lines = ["", "VALIDITY: dict[str, tuple[float | None, float | None]] = {"]
-    for quantity in ("volume", "contact_angle", "separation"):
-        bounds = ", ".join("None" if bound is None else repr(float(bound)) for bound in getattr(known, quantity))
+    for quantity in RANGES:
+        bounds = ", ".join("None" if x is None else repr(float(x)) for x in known.get(quantity, (None, None)))
         lines.append(f'{_INDENT}"{quantity}": ({bounds}),')
-    return [*lines, "}", f'VALIDITY_SOURCE = "{known.source}"', ""]
+    return [*lines, "}", f'VALIDITY_SOURCE = "{law.source}"', ""]
 
 
 def _casadi(printer: Printer) -> list[str]:

@@ -86,11 +86,13 @@ def _film(laws: Mapping[str, Law]) -> Iterator[Equation]:
     inside = {FILM: 1, SHEAR: 1}
     # written with the factor 1 - x/x0 instead of x0 - x
     law = laws["film"]
-    resistance, rim = law["resistance"], _rim(law)
-    whole = force_laws(spread=rim is not None)[mechanics.F_n].subs(inside)
+    resistance = law["resistance"]
+    rim = dict(resistance.definitions).get(_RIM) if law.spread else None
+    whole = force_laws(law.spread)[mechanics.F_n].subs(inside)
     (call,) = slot_calls(whole)
     arguments = dict(zip(resistance.arguments, call.args, strict=True))
-    named = resistance.result.subs({**arguments, _RIM: _RIM / q.x0}, simultaneous=True)
+    result = resistance.result if rim is not None else resistance(*resistance.arguments)
+    named = result.subs({**arguments, _RIM: _RIM / q.x0}, simultaneous=True)
     end = q.x0 if rim is None else _RIM
     normal = sp.factor(sp.simplify(whole.xreplace({call: named})))
     normal = normal.subs((q.x - end) ** 2, (end - q.x) ** 2).subs(end - q.x, end * (1 - q.x / end))
@@ -100,18 +102,12 @@ def _film(laws: Mapping[str, Law]) -> Iterator[Equation]:
     edge = sp.simplify(q.x0 * laws["shear"]["edge"](q.x0 / q.a))
     sustains = all(function.name != "suction" for function in law.functions)
     where = _inside(q.x0) + ("; the same on the way in and out" if sustains else "; 0 on the way out")
-    where = where if rim is None else "at any gap, the same on the way in and out"
+    where = "at any gap, the same on the way in and out" if law.spread else where
     yield Equation("Lubrication", latex(mechanics.F_n), normal, where)
     if rim is not None:
         squared = sp.expand((rim**2).subs(arguments, simultaneous=True) * q.x0**2)
         yield Equation("Lubrication", latex(_RIM), sp.sqrt(squared), "rim of the disc that holds the bridge's volume")
     yield Equation("Lubrication", latex(mechanics.F_t), shear, _inside(edge))
-
-
-def _rim(law: Law) -> sp.Expr | None:
-    """The position of the rim over x0, if the law does not have it at x0."""
-    definitions = law["resistance"].definitions
-    return definitions[0][1] if definitions else None
 
 
 def _attraction(laws: Mapping[str, Law]) -> Iterator[Equation]:
