@@ -15,6 +15,7 @@ from ..user.own_events import OwnEvent
 from ..user.structures import UserModel
 from ..vocabulary.quantities import VOCABULARY
 from .casadi.modules import features, groups_module, law_module, structure_module
+from .casadi.references import of_law
 from .provenance import PROVENANCE, Own, digest, law_digest, model_digest
 from .write import sha256
 
@@ -45,6 +46,7 @@ def package(
         laws.append({
             "slot": law.slot, "name": law.name, "file": path, "digest": law_digest(law), "meaning": law.meaning,
             "features": features(law), "source": law.source,
+            "references": {use: [asdict(each) for each in publications] for use, publications in of_law(law).items()},
             "bibtex": model.declarations.laws[law.slot, law.name].bibtex,
         })  # fmt: skip
     changed = {key.split(".")[0] for key in model.extra}

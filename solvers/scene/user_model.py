@@ -184,7 +184,7 @@ class Package:
 
     def features(self, slot: str, name: str) -> tuple[str, ...]:
         """Functions that not every law of the slot has, and properties, of a law of the model or of the library."""
-        own = (law["features"] for law in self.manifest["laws"] if (law["slot"], law["name"]) == (slot, name))
+        own = (law.get("features", ()) for law in self.manifest["laws"] if (law["slot"], law["name"]) == (slot, name))
         return tuple(next(own, LAWS[slot].get(name, ())))
 
     def extra(self, slot: str, function: str) -> tuple[str, ...]:

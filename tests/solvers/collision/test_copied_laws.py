@@ -4,6 +4,7 @@ from pathlib import Path
 
 import pytest
 from wetdoublet.solvers import Scene, collide
+from wetdoublet.solvers.export.citations import citations
 from wetdoublet.solvers.host.compiler import compiler
 
 from ...helpers.copied_laws import copied
@@ -18,11 +19,26 @@ CHOSEN = [  # with the law's own rupture distance; with a film whose rim follows
 IMPACTS = [(0.5, "45 deg", "bounce"), (0.04, "75 deg", "stick-rotate-separate"), (0.03, "30 deg", "stick")]
 
 
+def copy_of(name: str, law: str) -> str:
+    """The choice of a scene that takes the copy."""
+    return law if name == "bridge.rupture" else f"{law}-copy"
+
+
 @pytest.fixture(scope="module")
 def model(tmp_path_factory: pytest.TempPathFactory) -> Path:
     path = tmp_path_factory.mktemp("model") / "copies.py"
     path.write_text(copied("film", "lambert", "glass", "soulie"))
     return path
+
+
+def test_a_copy_is_cited_as_the_law(model: Path) -> None:
+    """Its publications, and that of its rupture distance."""
+    library, own = Scene.load("granulation"), Scene.load("granulation", model=str(model))
+    first = citations(library.with_entries(CHOSEN[0]))
+    second = citations(own.with_entries({name: copy_of(name, law) for name, law in CHOSEN[0].items()}))
+    uses = [(each.key, tuple(use.replace("-copy", "") for use in each.uses)) for each in second]
+    assert uses == [(each.key, each.uses) for each in first]
+    assert any("rupture distance" in use for each in second for use in each.uses)
 
 
 @pytest.mark.parametrize("chosen", CHOSEN)
@@ -31,7 +47,7 @@ def test_a_copy_collides_as_the_law(model: Path, chosen: dict[str, str], engine:
     """Every number of the results, of each outcome; of a stick only its outcome is defined."""
     if compiler() is None:
         pytest.skip("no C compiler")
-    copies = {name: law if name == "bridge.rupture" else f"{law}-copy" for name, law in chosen.items()}
+    copies = {name: copy_of(name, law) for name, law in chosen.items()}
     library, own = Scene.load("granulation"), Scene.load("granulation", model=str(model))
     for stokes, angle, outcome in IMPACTS:
         impact = {"stokes": stokes, "angle": angle, "engine": engine}
