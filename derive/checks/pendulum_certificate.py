@@ -12,9 +12,8 @@ from ..equations.certificates.pendulum import PENDULUM, outward_at, pull_at, rig
 from ..equations.events import contact_gap
 from ..equations.intermediates import BRIDGE_FORCE, CENTRIFUGAL_FORCE, FILM_FORCE, STRING_PULL, rates
 from ..equations.model import Model, derive
-from ..laws import LAWS
+from ..laws import LAWS, Law, filled, slot_call, slot_calls
 from ..physics.forces import FILM, SHEAR
-from ..physics.law import Law, filled, slot_call, slot_calls
 from ..physics.pendulum import offset_squared
 from ..physics.scaling import DISTANCE
 from ..vocabulary import quantities as q

@@ -10,9 +10,8 @@ from pathlib import Path
 
 import sympy as sp
 
-from ..laws import LAWS
+from ..laws import LAWS, Law, LawFunction
 from ..laws.modelfile import read
-from ..physics.law import Law, LawFunction
 from ..physics.scaling import ScalingError
 from ..user.structures import UserModel
 from ..vocabulary.dimensions import DimensionError

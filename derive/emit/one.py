@@ -7,9 +7,8 @@ from pathlib import Path
 import sympy as sp
 
 from ..equations.model import derive
-from ..laws import LAWS
+from ..laws import LAWS, Law
 from ..laws.modelfile import read
-from ..physics.law import Law
 from ..physics.structure import Structure, known
 from ..user.structures import UserModel
 from ..vocabulary.quantities import normal_velocity

@@ -8,7 +8,7 @@ of users.
 from importlib import import_module
 from pkgutil import iter_modules
 
-from ..physics.law import Law
+from ..physics.law import Law, LawFunction, fill, filled, is_slot_call, slot_call, slot_calls
 from ..physics.slots import SLOTS
 from ..user.declarations import collecting
 from ..user.structures import express
@@ -29,3 +29,4 @@ def _library() -> dict[str, dict[str, Law]]:
 
 
 LAWS = _library()
+__all__ = ["LAWS", "Law", "LawFunction", "fill", "filled", "is_slot_call", "slot_call", "slot_calls"]

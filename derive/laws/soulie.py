@@ -1,8 +1,8 @@
 """Bridge law of Soulie et al.: the form of Mikami's, fitted for polydisperse spheres."""
 
-from ..physics.lengths import rupture_over_radius
 from ..physics.references import LIAN
-from ..user import Formula, Reference, V, law, log
+from ..physics.scaling import rupture_distance
+from ..user import Formula, R, Reference, V, law, log
 from .mikami import exponential
 
 SOULIE = Reference(
@@ -16,5 +16,5 @@ law(
     "bridge", "soulie", source=SOULIE, falls=True,
     meaning="mikami's form refitted for polydisperse spheres",
     force=exponential(log(V), -0.148, -0.0082, 0.0018),
-    rupture_distance=Formula(rupture_over_radius(), source=LIAN, remark=", which Soulie et al. (2006) use"),
+    rupture_distance=Formula(rupture_distance() / R, source=LIAN, remark=", which Soulie et al. (2006) use"),
 )  # fmt: skip

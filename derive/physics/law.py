@@ -33,13 +33,6 @@ class LawFunction:
     references: tuple[Reference, ...] = ()
     kinks: tuple[tuple[sp.Symbol, sp.Symbol], ...] = ()
 
-    def __post_init__(self) -> None:
-        known = set(self.arguments)
-        for symbol, expression in (*self.definitions, (sp.Symbol(self.name), self.result)):
-            if unknown := sorted(map(str, expression.free_symbols - known)):
-                raise ValueError(f"{self.name}: {symbol} uses {unknown}, which no argument or definition gives")
-            known.add(symbol)
-
     def __call__(self, *values: sp.Expr) -> sp.Expr:
         """The closed expression at `values`, all intermediates substituted."""
         expression = self.result

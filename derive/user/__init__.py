@@ -2,26 +2,7 @@
 
 # ruff: noqa: F401 -- the names of people's model files
 import sympy as sp
-from sympy import (
-    Abs,
-    Max,
-    Min,
-    Piecewise,
-    Rational,
-    acos,
-    asin,
-    atan,
-    cos,
-    cosh,
-    exp,
-    log,
-    pi,
-    sin,
-    sinh,
-    sqrt,
-    tan,
-    tanh,
-)
+from sympy import Abs, Max, Min, Piecewise, Rational, acos, asin, atan, cos, cosh, exp, log, sin, sinh, sqrt, tan, tanh
 
 from ..physics.pendulum import offset_squared
 from ..physics.references import Reference
@@ -61,3 +42,5 @@ from ..vocabulary.quantities import contact_angle as phi
 from ..vocabulary.quantities import normal_velocity as opening  # its name in older model files
 from ..vocabulary.quantities import volume as V
 from .declarations import Formula, event, law, let, positive, quantity
+
+pi = sp.pi

@@ -36,13 +36,6 @@ class Group:
         return self.quantity.symbol / self.over
 
 
-class InSI(LawFunction):
-    """A law's function for print: in its slot's arguments, with groups replaced by SI quantities."""
-
-    def __post_init__(self) -> None:
-        """No validation: values may be in SI."""
-
-
 @dataclass(frozen=True, eq=False)
 class UserModel:
     """A derived model file: laws in the library's form, groups, and additional arguments of each slot's functions.
@@ -300,5 +293,5 @@ def _in_si(law: Law, groups: Mapping[str, Group]) -> Law:
             return expression.subs(rules, simultaneous=True)
 
         parts = tuple((symbol, put(value)) for symbol, value in f.definitions)
-        functions.append(InSI(f.name, arguments, put(f.result), f.doc, parts))
+        functions.append(LawFunction(f.name, arguments, put(f.result), f.doc, parts))
     return replace(law, functions=tuple(functions))

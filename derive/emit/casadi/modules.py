@@ -56,11 +56,10 @@ def law_module(law: Law) -> str:
 
 
 def features(law: Law) -> tuple[str, ...]:
-    """What the rules of a scene and the engines must know of a law: functions that not every law has, and properties.
+    """What rules and engines must know of a law: names of functions that not every law of the slot has, and properties.
 
-    Returns:
-        Names of functions, and of these words: "spread", the rim follows the bridge's volume; "rim", it vanishes where
-        the film ends at initial contact; "balanced", the lever arm at which the film exerts no torque on the doublet.
+    "spread": the rim follows the bridge's volume; "rim": it vanishes where the film ends at initial contact;
+    "balanced": the lever arm at which the film exerts no torque on the doublet.
     """
     words = [function.name for function in law.functions if not place_of(law.slot, function.name).required]
     words += ["spread"] * law.spread

@@ -1,10 +1,9 @@
 """The publications of laws as a Python module, read by `wetdoublet cite`."""
 
-from ...laws import LAWS
-from ...physics.law import Law
-from ...physics.lengths import COMMON, ELASTIC
+from ...laws import LAWS, Law
 from ...physics.partners import PUBLISHED
 from ...physics.references import PAPER, WALTON, Reference
+from ...physics.scaling import COMMON, ELASTIC
 from ..provenance import PROVENANCE
 
 _DOC = "Where the equations and the laws are published."

@@ -7,15 +7,12 @@ import sympy as sp
 
 from ...equations.automaton import CRITERIA
 from ...equations.events import rebound
-from ...laws import LAWS
-from ...physics import mechanics
+from ...laws import LAWS, Law, fill, slot_calls
+from ...physics import mechanics, scaling
 from ...physics.contact_friction import equal_spheres
 from ...physics.forces import FILM, SHEAR, force_laws
-from ...physics.law import Law, fill, slot_calls
-from ...physics.lengths import elastic_compliance, elastic_length, rupture_distance
 from ...physics.pendulum import r as string_distance
 from ...physics.pendulum import swing_squared
-from ...physics.scaling import LUBRICATION_PRESSURE, group_definitions, initial_rate, start_values
 from ...vocabulary import quantities as q
 from .latex import latex
 
@@ -152,25 +149,25 @@ def _strings(laws: Mapping[str, Law]) -> Iterator[Equation]:
 
 
 def _course(laws: Mapping[str, Law]) -> Iterator[Equation]:
-    group, start = "Start, rebound, rupture", start_values()
+    group, start = "Start, rebound, rupture", scaling.start_values()
     # the criterion is scaled with v0: substitute gap and velocity in SI
-    pressure = sp.factor(sp.simplify(LUBRICATION_PRESSURE * laws["glass"]["pressure"](q.gap, -q.normal_velocity)))
-    pressure = sp.factor(pressure.subs({q.gap: q.x / q.x0, q.normal_velocity: q.u / q.v0}, simultaneous=True))
-    length = sp.simplify(elastic_length() * (_COMPLIANCE / elastic_compliance()) ** _TWO_FIFTHS)
+    pressure = scaling.LUBRICATION_PRESSURE * laws["glass"]["pressure"](q.gap, -q.normal_velocity)
+    pressure = sp.factor(sp.factor(sp.simplify(pressure)).subs({q.gap: q.x / q.x0, q.normal_velocity: q.u / q.v0}))
+    length = sp.simplify(scaling.elastic_length() * (_COMPLIANCE / scaling.elastic_compliance()) ** _TWO_FIFTHS)
     cubed = sp.powsimp(sp.expand_power_base(length**5, force=True), force=True)
     yield Equation(group, f"{latex(q.x)}(0)", start[q.x], "initial contact")
     yield Equation(group, f"{latex(q.u)}(0)", start[q.u], "no angle turned yet")
     yield Equation(group, rf"{latex(q.xi)}(0)", start[q.xi], "spin before the collision, 0 if none is given")
-    yield Equation(group, latex(q.omega0), initial_rate())
+    yield Equation(group, latex(q.omega0), scaling.initial_rate())
     printed = {"glass": pressure, "elastic": sp.Pow(sp.sqrt(cubed), _TWO_FIFTHS, evaluate=False)}  # as in the paper
     for number, each in zip(_ROMAN, CRITERIA, strict=False):
-        limit = printed.get(each.word, q.x0 * group_definitions()[q.VOCABULARY[each.limit].symbol])
+        limit = printed.get(each.word, q.x0 * scaling.group_definitions()[q.VOCABULARY[each.limit].symbol])
         yield Equation(group, latex(q.x if each.contact else q.p_gt), limit, f"({number}) {each.name}", r"\leq")
         if limit.has(_COMPLIANCE):
-            yield Equation(group, latex(_COMPLIANCE), elastic_compliance())
+            yield Equation(group, latex(_COMPLIANCE), scaling.elastic_compliance())
     after = rebound((q.normal_velocity,))[q.normal_velocity].subs(q.normal_velocity, q.u)
     yield Equation(group, latex(q.u), after, "if any of these is met", r"\to")
-    yield Equation(group, "x_f", rupture_distance(bridge=True), f"rupture (${latex(q.x0)}$ without a bridge)")
+    yield Equation(group, "x_f", scaling.rupture_distance(), f"rupture (${latex(q.x0)}$ without a bridge)")
 
 
 def _friction(laws: Mapping[str, Law]) -> Iterator[Equation]:
@@ -188,7 +185,7 @@ def _friction(laws: Mapping[str, Law]) -> Iterator[Equation]:
 
 
 def _groups() -> Iterator[Equation]:
-    definitions = group_definitions()
-    rotating = sp.simplify(definitions[q.centrifugal] / initial_rate() ** 2) * q.omega0**2
+    definitions = scaling.group_definitions()
+    rotating = sp.simplify(definitions[q.centrifugal] / scaling.initial_rate() ** 2) * q.omega0**2
     for group in (q.stokes, q.capillary, q.centrifugal):
         yield Equation("Groups", latex(group), rotating if group == q.centrifugal else definitions[group])
