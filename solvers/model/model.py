@@ -69,10 +69,6 @@ def select_model(scene: Scene, oblique: bool, full: bool = False, fold: bool = F
         laws.append(("strings", scene.pendulum.law))
     if scene.attraction is not None:
         laws.append(("attraction", scene.law_of("attraction")))
-    if scene.package is None:
-        return ModelKey("_".join(parts), tuple(laws))
-    unnamed = scene.package.unnamed  # slots that no entry of a scene fills
-    laws = [(slot, scene.package.laws(slot)[0] if slot in unnamed else name) for slot, name in laws]
     return ModelKey("_".join(parts), tuple(laws), scene.package)
 
 
