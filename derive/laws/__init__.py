@@ -1,8 +1,7 @@
 """The library's laws, declared as a user's are: one published law or family of laws a file.
 
 `LAWS[slot][name]` has every selectable law. Equations call a law through its slot, so eight bridge laws are eight small
-modules and not eight copies of the equations. A file in this folder is found by being there; `modelfile` reads those
-of users.
+modules and not eight copies of the equations. Files in this folder are found; `modelfile` reads those of users.
 """
 
 from importlib import import_module

@@ -15,11 +15,9 @@ positive(string_ratio**2 - offset_squared)  # a string that is taut is not horiz
 
 
 def _strings(name: str, small_angle: bool, meaning: str) -> None:
-    stiffness = sp.simplify(2 * height(small_angle).diff(offset_squared))
-    remark = ": vertical tension balances the weight"
-    law(
-        "strings", name, meaning=meaning, source=DOUBLETS, remark=remark, rise=rise(small_angle), stiffness=stiffness
-    )  # fmt: skip
+    height_gained, remark = rise(small_angle), ": vertical tension balances the weight"
+    slope = sp.simplify(2 * height(small_angle).diff(offset_squared))
+    law("strings", name, meaning=meaning, source=DOUBLETS, remark=remark, rise=height_gained, stiffness=slope)
 
 
 _strings("exact", False, "strings of length l, exact geometry")

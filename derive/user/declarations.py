@@ -14,6 +14,7 @@ from collections.abc import Collection, Iterator, Mapping
 from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass, field, replace
+from typing import Any
 
 import sympy as sp
 
@@ -70,11 +71,12 @@ class Intermediate:
 Source = str | Reference | tuple[Reference, ...]
 
 
-def published(source: Source, remark: str = "") -> tuple[str, tuple[Reference, ...]]:
+def published(source: Source, remark: str = "") -> tuple[Any, tuple[Reference, ...]]:
     """A source in words, and its publications."""
-    if isinstance(source, str):
-        return source + remark, ()
-    publications = source if isinstance(source, tuple) else (source,)
+    named = source if isinstance(source, tuple) else (source,)
+    publications = tuple(each for each in named if isinstance(each, Reference))
+    if publications != named:
+        return source + remark if isinstance(source, str) else source, ()  # what is no text is refused as one
     return "; ".join(each.short for each in publications) + remark, publications
 
 
@@ -261,13 +263,16 @@ def law(
     if "suction" in formulas and formulas["suction"].expression != 0:
         left = str(formulas["suction"].expression)
         raise ModelFileError(f"{label}.suction", left, "0, or no suction", "is not what cavitation leaves")
-    origin, references = published(source, remark)
-    _check_texts(label, source=origin, bibtex=bibtex, meaning=meaning)
+    origin, references = published(source, str(remark))
+    _check_texts(label, source=origin, remark=remark, bibtex=bibtex, meaning=meaning)
     if bibtex and not _BIBTEX.fullmatch(bibtex):
         raise ModelFileError(f"{label}.bibtex", bibtex, "an entry such as @article{key, author = {...}, ...}")
     meaning, origin = meaning or f"{name}, a user's law", origin or "no source given"
-    for unknown in (validity or {}).keys() - {*RANGES}:
-        raise ModelFileError(f"{label}.validity", unknown, ", ".join(RANGES), "has no range")
+    for quantity, ends in (validity or {}).items():
+        if quantity not in RANGES:
+            raise ModelFileError(f"{label}.validity", quantity, ", ".join(RANGES), "has no range")
+        if len(ends) != 2 or not all(end is None or sp.sympify(end).is_number for end in ends):
+            raise ModelFileError(f"{label}.validity", ends, "(least, largest), a number each, or None")
     valid = tuple((name, validity[name]) for name in RANGES if validity and name in validity)
     declared = Law(slot, name, meaning, origin, (), valid, references, spread)
     there.laws[slot, name] = Proposed(declared, formulas, tuple(accept), bibtex, falls)

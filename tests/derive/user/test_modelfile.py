@@ -218,6 +218,8 @@ def test_template_says_what_it_is_without_stress():
         ("law('bridge', 'mine', pull=1)", "accepted: the functions force"),
         ("law('bridge', 'mine')", "law bridge mine.force"),
         ("law('film', 'mine', resistance=1/gap, suction=0.5/gap)", "law film mine.suction"),
+        ("law('bridge', 'mine', force=1, source=5)", "law bridge mine.source"),
+        ("law('bridge', 'mine', force=1, validity={'volume': (0, 'h')})", "(least, largest), a number each, or None"),
         ("law('bridge', 'mine', force=1, spread=True)", "law bridge mine.spread"),
         ("law('bridge', 'mine', force=1, validity={'angle': (0, 1)})", "accepted: volume, contact_angle, separation"),
         ("law('bridge', 'mine', force='x')", "a sympy expression"),
