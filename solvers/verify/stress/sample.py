@@ -87,7 +87,7 @@ def models(count: int, seed: int) -> Iterator[Model]:
         films = [law for law, features in LAWS["film"].items() if bridge or "spread" not in features]
         film = films[0] if point[5] < 0.55 else films[1 + int((point[5] - 0.55) / 0.45 * (len(films) - 1))]
         rim = "spread" not in LAWS["film"][film]
-        strings = "" if point[1] < 0.75 else hung[point[1] >= 0.9]
+        strings = "" if point[1] < 0.75 else hung[int(point[1] >= 0.9)]
         yield {
             "bridge": bridge,
             "strings": strings,
@@ -96,8 +96,8 @@ def models(count: int, seed: int) -> Iterator[Model]:
             "friction": "" if point[8] < 0.5 else "solid" if point[8] < 0.8 else "all",
             "attraction": "yes" if point[9] < 0.25 else "",
             "film": film,
-            "tangential": shears[point[3] >= 0.7 and rim],
-            "glass": glasses[point[4] >= 0.7 and rim],
+            "tangential": shears[int(point[3] >= 0.7 and rim)],
+            "glass": glasses[int(point[4] >= 0.7 and rim)],
             "rupture": "own" if "rupture_distance" in LAWS["bridge"].get(bridge, ()) and point[10] < 0.2 else "common",
             "head-on": "yes" if k % 8 == 3 else "",
         }
