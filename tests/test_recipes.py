@@ -64,14 +64,12 @@ EVENTS = [  # two rows: a gap, and what the kernel has no series of; their words
     (AUTOMATON, '    Event("release"', SET_ROW),
     ("derive/equations/events.py", '    "slip": lambda', '    "stretching": lambda _: q.normal_velocity / q.gap,\n{}'),
 ]
-LAW = [  # an entry of BRIDGES, and its name among the scene's
-    (
-        "derive/physics/laws/bridge.py",
-        "    _willett(),\n",
-        '{}    _law("halved", "half as much", LAMBERT, sp.cos(phi)),\n',
-    ),
-    ("solvers/scene/schema.py", '"soulie", "constant"', '{}, "halved"'),
-]
+HALVED = """\"\"\"A bridge that pulls half as much, up to half a radius.\"\"\"
+
+from ..user import Rational, cos, law, phi
+
+law("bridge", "halved", source="nobody", force=cos(phi), rupture_distance=Rational(1, 2))
+"""
 RESULT = [  # its row, and its expression
     ("solvers/results.py", "_COLLISION = (\n", '{}    Definition("lost_speed", "1", "", derivative="casadi"),\n'),
     (
@@ -140,6 +138,7 @@ class Tree:
             assert found, f"{path} has no {old}"
             file.write_text(before + new.replace("{}", old) + after)
         (self.package / "solvers/commands/hello.py").write_text(HELLO)
+        (self.package / "derive/laws/halved.py").write_text(HALVED)
         self.environment = os.environ | {"PYTHONPATH": str(work), "XDG_CACHE_HOME": str(work / "cache")}
         self.python("-c", EMIT)
 
@@ -163,7 +162,7 @@ class Tree:
 
 @pytest.fixture(scope="module")
 def tree(tmp_path_factory: pytest.TempPathFactory) -> Tree:
-    return Tree(tmp_path_factory.mktemp("recipes"), [*ENTRY, *GROUP, *CRITERION, *LAW, *RESULT, *COMMAND])
+    return Tree(tmp_path_factory.mktemp("recipes"), [*ENTRY, *GROUP, *CRITERION, *RESULT, *COMMAND])
 
 
 @pytest.fixture(scope="module")
@@ -264,12 +263,14 @@ def test_a_new_entry_and_a_new_result_have_derivatives(tree: Tree) -> None:
 
 
 def test_a_new_bridge_law(tree: Tree) -> None:
-    """Half the constant force is the constant force of half the surface tension."""
-    entries = {"bridge.law": "constant", "bridge.surface_tension": "0.0125 N/m"}
+    """A file: half the constant force, up to the common rupture distance of V = 1/8, is that of half the tension."""
+    entries = {"bridge.law": "constant", "bridge.surface_tension": "0.0125 N/m", "bridge.volume": 0.125}
     constant = collide(Scene.load("granulation").with_entries(entries), stokes=0.5, angle=0.0, engine="cvodes")
-    halved = tree.told("collide", "granulation", *options({"bridge.law": "halved"}, 0.5, "cvodes"))
-    assert halved["outcome"] == constant.outcome
-    assert halved["restitution"] == pytest.approx(constant.restitution, rel=1e-12)
+    halved = {"bridge.law": "halved", "bridge.rupture": "own"}
+    told = tree.told("collide", "granulation", *options(halved, 0.5, "cvodes"))
+    assert told["outcome"] == constant.outcome
+    assert told["restitution"] == pytest.approx(constant.restitution, rel=1e-12)
+    assert told["contact_time"] == pytest.approx(constant.contact_time, rel=1e-12)
 
 
 def test_a_new_command(tree: Tree) -> None:

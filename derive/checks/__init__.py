@@ -9,7 +9,7 @@ from functools import cache
 from importlib import import_module
 
 from ..equations.certificates.table import CERTIFICATES
-from ..physics.laws import LAWS, Law
+from ..laws import LAWS, Law
 from ..vocabulary.quantities import gap
 from . import conservation, dissipation
 from . import laws as law_limits

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import sympy as sp
 
 from ..equations.model import derive
-from ..physics.laws import LAWS, Law
+from ..laws import LAWS, Law
 from ..physics.structure import Structure, structures
 from ..vocabulary.quantities import gap
 from . import dissipation

@@ -7,9 +7,8 @@ import sympy as sp
 from ..equations.certificates.attraction import admits
 from ..equations.events import contact_gap
 from ..equations.model import derive
+from ..laws import LAWS, Law, filled
 from ..physics.forces import SHEAR
-from ..physics.laws import LAWS, Law
-from ..physics.laws.base import filled
 from ..physics.scaling import DISTANCE
 from ..physics.structure import Structure, structures
 from ..vocabulary import quantities as q

@@ -10,8 +10,7 @@ from typing import ParamSpec, TypeVar
 import sympy as sp
 
 from ..equations.model import Model
-from ..physics.laws import LAWS, slot_call
-from ..physics.laws.base import slot_calls
+from ..laws import LAWS, slot_call, slot_calls
 from ..vocabulary import quantities as q
 
 P = ParamSpec("P")

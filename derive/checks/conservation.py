@@ -6,9 +6,9 @@ from functools import cache
 import sympy as sp
 
 from ..equations.model import Model, derive
+from ..laws import LAWS, Law, filled
+from ..physics import pendulum as strings
 from ..physics.forces import force_laws
-from ..physics.laws import LAWS, Law, strings
-from ..physics.laws.base import filled
 from ..physics.mechanics import S_n, S_t, doublet_inertia, equations_of_motion, string_forces
 from ..physics.structure import Structure, structures
 from ..vocabulary import quantities as q

@@ -4,12 +4,10 @@ from collections.abc import Mapping
 
 import sympy as sp
 
-from ..physics import mechanics
+from ..laws import LAWS, film, shear
+from ..physics import mechanics, scaling
+from ..physics import pendulum as strings
 from ..physics.forces import FILM, SHEAR, force_laws
-from ..physics.laws import LAWS, film, shear, strings
-from ..physics.laws.bridge import rupture_distance
-from ..physics.laws.glass import elastic_compliance, elastic_length
-from ..physics.scaling import dimension_matrix, group_definitions, nondimensional, start_values
 from ..vocabulary import quantities as q
 from ..vocabulary.dimensions import (
     ENERGY,
@@ -58,10 +56,9 @@ def si_equations() -> dict[str, Equations]:
         pendulum |= {f"U_s, {name}": (potential, ENERGY)}
         pendulum |= {f"S_n, {name}": (normal, FORCE), f"S_t, {name}": (sideways, FORCE)}
     lengths: Equations = {
-        "elastic compliance": (elastic_compliance(), ONE / PRESSURE),
-        "elastic length": (elastic_length(), LENGTH),
-        "rupture distance with a bridge": (rupture_distance(bridge=True), LENGTH),
-        "rupture distance without": (rupture_distance(bridge=False), LENGTH),
+        "elastic compliance": (scaling.elastic_compliance(), ONE / PRESSURE),
+        "elastic length": (scaling.elastic_length(), LENGTH),
+        "rupture distance": (scaling.rupture_distance(), LENGTH),
     }
     return {
         "mechanics": moving,
@@ -71,8 +68,8 @@ def si_equations() -> dict[str, Equations]:
         "forces as the laws fill them": {
             s.name: (e, LENGTH if s == mechanics.arm else FORCE) for s, e in force_laws().items()
         },
-        "start": {symbol.name: (value, q.DIMENSIONS[symbol]) for symbol, value in start_values().items()},
-        "groups": {symbol.name: (definition, ONE) for symbol, definition in group_definitions().items()},
+        "start": {symbol.name: (value, q.DIMENSIONS[symbol]) for symbol, value in scaling.start_values().items()},
+        "groups": {symbol.name: (definition, ONE) for symbol, definition in scaling.group_definitions().items()},
     }
 
 
@@ -112,7 +109,7 @@ def _dimensional(symbols: set[sp.Basic]) -> list[sp.Symbol]:
 @check("centrifugal number", "Ce = (pi/8) (x0/a) tan^2(theta0) St Ca")
 def centrifugal_number() -> Evidence:
     """Ce is a function of the other groups if the angle is counted among them."""
-    by_groups = nondimensional(group_definitions()[q.centrifugal].subs(sp.tan(q.theta0), q.obliquity))
+    by_groups = scaling.nondimensional(scaling.group_definitions()[q.centrifugal].subs(sp.tan(q.theta0), q.obliquity))
     yield by_groups - sp.pi / 8 * q.aspect * q.obliquity**2 * q.stokes * q.capillary
     yield f"Ce = {by_groups}"
 
@@ -127,10 +124,10 @@ def normalisation_of_the_paper() -> Evidence:
 @check("number of groups", "groups = dimensional quantities - rank of their dimension matrix (density included)")
 def number_of_groups() -> Evidence:
     """Buckingham: as many independent groups as quantities minus the rank of their dimension matrix."""
-    groups = group_definitions().values()
+    groups = scaling.group_definitions().values()
     used = set().union(*(group.free_symbols for group in groups))
     quantities = _dimensional(used - {q.t, q.x, q.u, q.omega, q.xi, q.omega0})
-    dimensions = dimension_matrix(quantities)
+    dimensions = scaling.dimension_matrix(quantities)
     # exponent of a quantity in a group: d ln(group)/d ln(quantity)
     powers = sp.Matrix([[sp.simplify(group.diff(s) * s / group) for s in quantities] for group in groups])
     independent, rank = powers.rank(), dimensions.rank()
@@ -144,10 +141,10 @@ def groups_span_the_nullspace() -> Check:
     """St, Ca and Ce are combinations of the dimensionless monomials of their quantities (nullspace)."""
     left, shown = [], []
     for group, label in ((q.stokes, "St"), (q.capillary, "Ca"), (q.centrifugal, "Ce")):
-        definition = group_definitions()[group]
+        definition = scaling.group_definitions()[group]
         used = _dimensional(definition.free_symbols)
         powers = sp.Matrix([sp.simplify(definition.diff(s) * s / definition) for s in used])
-        basis = dimension_matrix(used).nullspace()
+        basis = scaling.dimension_matrix(used).nullspace()
         left.append(sp.Integer(sp.Matrix.hstack(*basis, powers).rank() - len(basis)))
         shown.append(f"{label} = {readable(definition)}")
     return vanishing("St, Ca, Ce", "each in the span of the nullspace of its dimension matrix", left, "; ".join(shown))
@@ -161,4 +158,4 @@ def groups_are_the_papers() -> Evidence:
         q.capillary: 3 * q.mu * q.a * q.v0 / (q.sigma * q.x0),
         q.centrifugal: q.m * (q.v0 * sp.tan(q.theta0) / (4 * q.a)) ** 2 / q.sigma,
     }
-    yield from [group_definitions()[group] - value for group, value in expected.items()]
+    yield from [scaling.group_definitions()[group] - value for group, value in expected.items()]

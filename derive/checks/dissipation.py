@@ -14,8 +14,7 @@ from ..equations.intermediates import BRIDGE_FORCE, ORBITAL_RATE
 from ..equations.invariants import Invariant, invariants
 from ..equations.model import derive
 from ..physics.forces import force_laws
-from ..physics.laws import Law
-from ..physics.laws.base import filled
+from ..physics.law import Law, filled
 from ..physics.mechanics import F_t, S_t, arm, equations_of_motion, sphere_inertia
 from ..physics.scaling import DISTANCE, nondimensional
 from ..physics.structure import FREE, Structure, structures

@@ -13,7 +13,7 @@ from ..emit.casadi.printer import EmissionError
 from ..emit.taylor.law_header import COMPARED, law_header, moves
 from ..emit.taylor.law_slopes import slope_program, slopes_header
 from ..emit.taylor.program import Operation, Program
-from ..physics.laws.base import Law, LawFunction
+from ..physics.law import Law, LawFunction
 from ..user.structures import UserModel
 from ..vocabulary.quantities import normal_velocity
 from .base import Check
@@ -44,7 +44,7 @@ def emission(model: UserModel, law: Law, written: Law, label: str, samples: Samp
         exec(compile(_IMPORT.sub(_of_sympy, law_module(law)), law.module, "exec"), module)  # our own text
         count = 0
         for function, exact in zip(law.functions, written.functions, strict=True):
-            if not function.arguments:
+            if not function.arguments or function.for_proof:  # nothing follows these along a trajectory
                 continue
             if (law.slot, function.name) == ("film", "resistance") and (wrong := _at_rest(exact, samples)):
                 return Check(name, statement, False, wrong)

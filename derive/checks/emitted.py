@@ -6,9 +6,8 @@ import sympy as sp
 
 from ..equations.events import CONTACT_GAPS
 from ..equations.model import Model, derive
+from ..laws import LAWS, filled
 from ..physics.forces import FILM, SHEAR, force_laws
-from ..physics.laws import LAWS
-from ..physics.laws.base import filled
 from ..physics.mechanics import F_t, equations_of_motion, sphere_inertia
 from ..physics.scaling import group_definitions, nondimensional
 from ..physics.structure import FREE, Structure, structures

@@ -9,7 +9,7 @@ from ..equations.intermediates import MOMENTUM
 from ..equations.model import Model, derive
 from ..physics.contact_friction import beside_wall, equal_spheres, unequal_spheres
 from ..physics.forces import SHEAR
-from ..physics.laws.base import filled
+from ..physics.law import filled
 from ..physics.mechanics import arm
 from ..physics.partners.bodies import CENTRES
 from ..physics.partners.pair import LEVER, ORBITAL_RATE, PARTNER_RADIUS, RADIUS

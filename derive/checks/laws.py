@@ -7,11 +7,11 @@ import sympy as sp
 
 from ..equations.intermediates import SHEAR_FORCE
 from ..equations.model import Model, derive
+from ..laws import LAWS, Law, fill, filled, film, slot_calls
+from ..physics import attraction
 from ..physics.forces import force_laws
-from ..physics.laws import LAWS, Law, attraction, fill, film
-from ..physics.laws.base import filled, slot_calls
-from ..physics.laws.strings import offset_squared
 from ..physics.mechanics import F_c, F_n, F_t, S_n, S_t
+from ..physics.pendulum import offset_squared
 from ..physics.scaling import DISTANCE, generalised_centrifugal, group_definitions, initial_rate
 from ..physics.structure import Structure, structures
 from ..vocabulary import quantities as q

@@ -6,7 +6,7 @@ from operator import methodcaller
 import sympy as sp
 
 from ..equations.model import derive
-from ..physics.laws.base import filled
+from ..physics.law import filled
 from ..physics.structure import Structure, structures
 from ..vocabulary import quantities as q
 from .base import MIDGAP, SIZES, Evidence, check, special_case

@@ -6,12 +6,11 @@ import sympy as sp
 
 from ..equations.certificates import orbital_momentum as orbital
 from ..equations.model import derive
-from ..physics.laws import LAWS
-from ..physics.laws.base import filled
+from ..laws import filled
 from ..physics.scaling import DISTANCE
 from ..physics.structure import BRIDGED
 from ..vocabulary.quantities import aspect, gap, normal_velocity, obliquity, orbital_momentum, spin
-from .base import Check, Evidence, check, checks, no_negative, vanishing
+from .base import MIDGAP, Check, Evidence, check, checks, no_negative, vanishing
 
 _FAR, _NEAR = sp.symbols("far near", positive=True)  # centre distances over a
 # square roots of momentum and spin, in which all expressions are rational
@@ -22,12 +21,11 @@ _CLOSER, _BEYOND = sp.symbols("closer beyond", nonnegative=True)
 
 @check("F_t exchanges momenta", "dJ = -(32/5)(d/(2 lever)) a^2 dxi")
 def exchange() -> Evidence:
-    """The emitted rates of J and xi have the ratio `exchanged`, for every arm."""
+    """The emitted rates of J and xi have the ratio `exchanged`."""
     rates = derive(BRIDGED).by_state("right_hand_side")
     here = 4 + aspect * gap
-    for law in LAWS["arm"].values():
-        to_orbit, to_spin = (filled(rates[state], {"arm": law}) for state in (orbital_momentum, spin))
-        yield to_orbit + orbital.exchanged(here, law["lever"](here)) * to_spin
+    to_orbit, to_spin = (filled(rates[state], MIDGAP) for state in (orbital_momentum, spin))
+    yield to_orbit + orbital.exchanged(here, MIDGAP["arm"]["lever"](here)) * to_spin
 
 
 @check("slip energy", "zero where omega = xi at d; exchange where omega = xi changes nothing")
@@ -48,7 +46,7 @@ def _midgap() -> sp.Expr:
 def _change(energy: sp.Expr) -> sp.Expr:
     """Change of the margin per dxi by the exchange at the distance `near`."""
     margin = _P**4 / 2 * (1 / _NEAR**2 - 1 / _FAR**2) + energy
-    rate = orbital.exchanged(_NEAR, LAWS["arm"]["midgap"]["lever"](_NEAR))
+    rate = orbital.exchanged(_NEAR, MIDGAP["arm"]["lever"](_NEAR))
     return margin.diff(_Q) / (2 * _Q) - rate * margin.diff(_P) / (2 * _P)
 
 
@@ -66,7 +64,7 @@ def midgap_ends() -> Check:
     within = orbital.transferable_within_edge(_FAR, _EDGE, _P**2, _Q**2)
     left = [_change(within) - _change(_midgap()), within.subs(_P, _EDGE * _Q)]
     # on the way to the edge J grows while xi > J/e^2, and each step transfers xi - J/d^2
-    to_spin = 1 / orbital.exchanged(_NEAR, LAWS["arm"]["midgap"]["lever"](_NEAR))
+    to_spin = 1 / orbital.exchanged(_NEAR, MIDGAP["arm"]["lever"](_NEAR))
     slope = within.diff(_P) / (2 * _P) - to_spin * within.diff(_Q) / (2 * _Q)
     ahead = {_FAR: _EDGE + _BEYOND, _P: _EDGE * _Q / (1 + _CLOSER)}
     top, bottom = sp.fraction(sp.cancel(sp.together(-slope.subs(ahead))))
@@ -90,7 +88,7 @@ def transferable_bounds() -> tuple[Check, ...]:
     energy = (momentum - rigid) ** 2 * (1 / _FAR**2 + 1 / inertia) / 2
     left = [energy - orbital.midgap_slip_energy(_FAR, momentum, turning)]  # for every sign: no square roots
     margin = momentum**2 / 2 * (1 / _NEAR**2 - 1 / _FAR**2) + orbital.midgap_slip_energy(_FAR, momentum, turning)
-    rate = orbital.exchanged(_NEAR, LAWS["arm"]["midgap"]["lever"](_NEAR))
+    rate = orbital.exchanged(_NEAR, MIDGAP["arm"]["lever"](_NEAR))
     change = margin.diff(turning) - rate * margin.diff(momentum)
     ratio = _settled(change / (momentum / _NEAR**2 - turning))
     whole, excess = sp.symbols("whole excess", nonnegative=True)

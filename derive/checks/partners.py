@@ -5,8 +5,7 @@ from dataclasses import replace
 import sympy as sp
 
 from ..equations.model import derive
-from ..physics.laws import LAWS
-from ..physics.laws.base import filled
+from ..laws import filled
 from ..physics.partners import bodies, rolling, wall
 from ..physics.structure import Partner, Structure
 from ..vocabulary import quantities as q
@@ -108,11 +107,10 @@ def equal_is_the_doublet() -> Evidence:
     """A pair of ratio 1 keeps its spins equal, and is then the doublet of equal spheres."""
     pair, equal = derive(_PAIR), derive(Structure(True, True, False, attraction=True))
     together = {q.radius_ratio: 1, q.mass_ratio: 1, q.partner_spin: q.spin, q.initial_partner_spin: q.initial_spin}
-    for arm in LAWS["arm"].values():
-        rates = {s: filled(rate, {"arm": arm}).subs(together) for s, rate in pair.by_state("right_hand_side").items()}
-        expected = {s: filled(rate, {"arm": arm}) for s, rate in equal.by_state("right_hand_side").items()}
-        yield from [rates[s] - rate for s, rate in expected.items()]
-        yield rates[q.partner_spin] - rates[q.spin]
+    rates = {s: filled(rate, MIDGAP).subs(together) for s, rate in pair.by_state("right_hand_side").items()}
+    expected = {s: filled(rate, MIDGAP) for s, rate in equal.by_state("right_hand_side").items()}
+    yield from [rates[s] - rate for s, rate in expected.items()]
+    yield rates[q.partner_spin] - rates[q.spin]
     names = ("energies", "angular_momentum", "effective_potential", "inward_force", "turning_rate", "outputs")
     yield from special_case(equal, names, pair, lambda each: each.subs(together))
 

@@ -12,10 +12,9 @@ from ..equations.certificates.pendulum import PENDULUM, outward_at, pull_at, rig
 from ..equations.events import contact_gap
 from ..equations.intermediates import BRIDGE_FORCE, CENTRIFUGAL_FORCE, FILM_FORCE, STRING_PULL, rates
 from ..equations.model import Model, derive
+from ..laws import LAWS, Law, filled, slot_call, slot_calls
 from ..physics.forces import FILM, SHEAR
-from ..physics.laws import LAWS
-from ..physics.laws.base import filled, slot_call, slot_calls
-from ..physics.laws.strings import offset_squared
+from ..physics.pendulum import offset_squared
 from ..physics.scaling import DISTANCE
 from ..vocabulary import quantities as q
 from .base import MIDGAP, Check, Evidence, check, checks, checks_of, positive, readable, run, vanishing
@@ -101,19 +100,20 @@ def film_stops() -> Evidence:
     yield film - slot_call("film", "resistance", q.gap)
 
 
+def reach_of(law: Law) -> Check:
+    """`reach` is the largest gap at which a glass criterion is met for a given speed, and grows with the speed."""
+    speed = sp.Symbol("approach", positive=True)
+    pressure, at = law["pressure"], law["reach"](speed, q.glass_number)
+    signs = [sp.simplify(each).is_positive is True for each in (-pressure(q.gap, speed).diff(q.gap), at.diff(speed))]
+    ok = sp.simplify(pressure(at, speed) - q.glass_number) == 0 and all(signs)
+    statement = "pressure(reach(u), u) = p_gt; larger for a larger u"
+    return Check(f"reach of the glass criterion, {law.name}", statement, ok, str(at))
+
+
 @checks
 def criterion_reach() -> tuple[Check, ...]:
-    """`reach` is the largest gap at which the glass criterion is met for a given speed, and grows with the speed."""
-    checks, speed = [], sp.Symbol("approach", positive=True)
-    for name, law in LAWS["glass"].items():
-        pressure, at = law["pressure"], law["reach"](speed, q.glass_number)
-        signs = [
-            sp.simplify(each).is_positive is True for each in (-pressure(q.gap, speed).diff(q.gap), at.diff(speed))
-        ]
-        ok = sp.simplify(pressure(at, speed) - q.glass_number) == 0 and all(signs)
-        statement = "pressure(reach(u), u) = p_gt; larger for a larger u"
-        checks.append(Check(f"reach of the glass criterion, {name}", statement, ok, str(at)))
-    return tuple(checks)
+    """`reach_of` the library's criteria."""
+    return tuple(map(reach_of, LAWS["glass"].values()))
 
 
 @cache
@@ -291,15 +291,17 @@ def impulse_as_emitted() -> Evidence:
 # ---- the bound of the closing speed from initial contact on
 
 
+def taken_by(law: Law, name: str) -> Check:
+    """A film's `stopping` or `braking` is the integral of its resistance between a gap and x0."""
+    taken, resistance = (law[each](*law[each].arguments) for each in (name, "resistance"))
+    left = [taken.diff(q.gap) + resistance, taken.subs(q.gap, 1)]
+    return vanishing(f"{name}: {law.name}", "dB/dx = -resistance, B(x0) = 0", left)
+
+
 @checks
 def braking_is_the_films() -> tuple[Check, ...]:
-    """What a film takes from an approach is the integral of its resistance from x0."""
-    checks = []
-    for law in LAWS["film"].values():
-        taken, resistance = (law[name](*law[name].arguments) for name in ("braking", "resistance"))
-        left = [taken.diff(q.gap) + resistance, taken.subs(q.gap, 1)]
-        checks.append(vanishing(f"braking: {law.name}", "dB/dx = -resistance, B(x0) = 0", left))
-    return tuple(checks)
+    """`taken_by` the library's films."""
+    return tuple(taken_by(law, "braking") for law in LAWS["film"].values())
 
 
 @check("approach: closing speed", "dw/dy <= P/w - g/St, and the bound of w rises as fast")

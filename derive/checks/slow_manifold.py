@@ -6,7 +6,7 @@ from ..equations.certificates.slow_manifold import admits, coefficients
 from ..equations.intermediates import MOMENTUM
 from ..equations.model import Model, derive
 from ..physics.forces import FILM, SHEAR
-from ..physics.laws.base import slot_call
+from ..physics.law import slot_call
 from ..physics.scaling import DISTANCE
 from ..physics.structure import structures
 from ..vocabulary.quantities import aspect, gap, normal_velocity, orbital_momentum

@@ -7,7 +7,7 @@ import sympy as sp
 
 from ..equations.invariants import NoInvariantError, conserved_components, quadratic_invariants
 from ..equations.model import derive
-from ..physics.laws.base import filled
+from ..physics.law import filled
 from ..physics.partners import space, vectors
 from ..physics.partners.pair import INERTIA_RATIO, PARTNER_INERTIA, SPIN_INERTIA
 from ..physics.scaling import DISTANCE

@@ -6,9 +6,8 @@ import sympy as sp
 
 from ..equations.certificates import spin_down
 from ..equations.model import Model, derive
+from ..laws import LAWS, filled, is_slot_call, slot_call
 from ..physics.forces import FILM, SHEAR
-from ..physics.laws import LAWS, slot_call
-from ..physics.laws.base import filled, is_slot_call
 from ..physics.partners.pair import PARTNER_RADIUS, RADIUS
 from ..physics.partners.rolling import R_1, R_2, torque_matrix
 from ..physics.scaling import DISTANCE

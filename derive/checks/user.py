@@ -10,15 +10,16 @@ from pathlib import Path
 
 import sympy as sp
 
-from ..physics.laws import LAWS
-from ..physics.laws.base import Law, LawFunction
+from ..laws import LAWS, Law, LawFunction
+from ..laws.modelfile import read
 from ..physics.scaling import ScalingError
-from ..user.modelfile import read
 from ..user.structures import UserModel
 from ..vocabulary.dimensions import DimensionError
 from ..vocabulary.quantities import contact_angle, volume
+from .attraction_certificate import force_falls
 from .base import Check
 from .emission import emission
+from .pendulum_certificate import reach_of, taken_by
 from .words import torque
 
 # Values of the arguments at which laws are tried; any other argument is a group, tried over four decades
@@ -70,6 +71,9 @@ def _law_checks(model: UserModel, law: Law, emitted: Law) -> Iterator[Check]:
         rate = torque(model, law)
         figure = "identity" if rate == 0 else f'dL/dt over its scale = {rate}; known: accept=("angular momentum",)'
         yield Check(f"angular momentum: {label}", "dL/dt = 0 without strings, for every other law", rate == 0, figure)
+    yield from force_falls([law], last=1 if law.slot in ("film", "shear") else sp.oo)
+    for function in (each for each in law.functions if each.for_proof):
+        yield reach_of(law) if law.slot == "glass" else taken_by(law, function.name)
     for function in law.functions:
         if f"{law.slot}.{function.name}" in _SIGNED:
             yield _sign(model, law, function, label)

@@ -7,8 +7,7 @@ import sympy as sp
 
 from ..equations.invariants import invariants
 from ..equations.model import derive
-from ..physics.laws import LAWS
-from ..physics.laws.base import Law, filled
+from ..laws import LAWS, Law, filled
 from ..physics.structure import BRIDGED
 from ..user.own_events import OwnEvent
 from ..user.structures import UserModel

@@ -7,10 +7,9 @@ from pathlib import Path
 import sympy as sp
 
 from ..equations.model import derive
-from ..physics.laws import LAWS
-from ..physics.laws.base import Law
+from ..laws import LAWS, Law
+from ..laws.modelfile import read
 from ..physics.structure import Structure, known
-from ..user.modelfile import read
 from ..user.structures import UserModel
 from ..vocabulary.quantities import normal_velocity
 from .casadi import modules

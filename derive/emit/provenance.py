@@ -7,7 +7,7 @@ from functools import cache
 import sympy as sp
 
 from ..equations.model import Model
-from ..physics.laws.base import Law
+from ..physics.law import Law
 from ..vocabulary.quantities import VOCABULARY
 
 PROVENANCE = "Emitted by wetdoublet from its derivation. Do not edit: change derive/ and run `wetdoublet generate`."

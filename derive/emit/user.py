@@ -14,7 +14,8 @@ from ..physics.structure import Structure, structures
 from ..user.own_events import OwnEvent
 from ..user.structures import UserModel
 from ..vocabulary.quantities import VOCABULARY
-from .casadi.modules import groups_module, law_module, structure_module
+from .casadi.modules import features, groups_module, law_module, structure_module
+from .casadi.references import of_law
 from .provenance import PROVENANCE, Own, digest, law_digest, model_digest
 from .write import sha256
 
@@ -42,9 +43,12 @@ def package(
     for law in model.laws:
         path = f"laws/{law.module}.py"
         files[path] = law_module(law)
-        entry = {"slot": law.slot, "name": law.name, "file": path, "digest": law_digest(law), "meaning": law.meaning}
-        bibtex = model.declarations.laws[law.slot, law.name].bibtex
-        laws.append({**entry, "source": law.source, "bibtex": bibtex})
+        laws.append({
+            "slot": law.slot, "name": law.name, "file": path, "digest": law_digest(law), "meaning": law.meaning,
+            "features": features(law), "source": law.source,
+            "references": {use: [asdict(each) for each in publications] for use, publications in of_law(law).items()},
+            "bibtex": model.declarations.laws[law.slot, law.name].bibtex,
+        })  # fmt: skip
     changed = {key.split(".")[0] for key in model.extra}
     digests: dict[str, str] = {}
     for structure in structures():

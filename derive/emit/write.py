@@ -10,7 +10,7 @@ from pathlib import Path, PurePosixPath
 from types import MappingProxyType
 
 from ..equations.model import Model, derive
-from ..physics.laws import LAWS
+from ..laws import LAWS
 from ..physics.structure import Structure, committed, structures
 from .casadi import modules
 from .casadi.assemble import ASSEMBLE
@@ -49,7 +49,7 @@ def emitted(chosen: tuple[Structure, ...] | None = None) -> Mapping[str, str]:
     """
     files = {
         "__init__.py": _package("Emitted CasADi modules: one per structure, laws in `laws`, groups in `scaling`."),
-        "laws/__init__.py": _package("Emitted laws: `<slot>_<name>`, functions of dimensionless arguments."),
+        "laws/__init__.py": modules.laws_module(LAWS),
         "assemble.py": f"# {PROVENANCE}\n{ASSEMBLE}",
         "scaling.py": modules.scaling_module(),
         "automaton.py": automaton_module(),

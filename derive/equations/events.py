@@ -4,7 +4,7 @@ from collections.abc import Callable
 
 import sympy as sp
 
-from ..physics.laws import slot_call
+from ..physics.law import slot_call
 from ..physics.partners import rotation
 from ..physics.structure import Structure
 from ..vocabulary import quantities as q

@@ -3,7 +3,7 @@
 import sympy as sp
 
 from ..physics.contact_friction import rubbing
-from ..physics.laws.base import Definition
+from ..physics.law import Definition
 from ..physics.partners import space, wall
 from ..physics.partners.bodies import CENTRES
 from ..physics.partners.pair import LEVER

@@ -7,12 +7,11 @@ from functools import cache
 import sympy as sp
 
 from ..physics.forces import TANGENTIAL, force_laws, scaled_strings
-from ..physics.laws import slot_call
-from ..physics.laws.base import Definition
-from ..physics.laws.strings import offset_squared
+from ..physics.law import Definition, slot_call
 from ..physics.mechanics import F_c, F_n, F_t, F_w, S_n, S_t, arm, doublet_inertia, equations_of_motion
 from ..physics.partners import rotation, space
 from ..physics.partners.pair import PARTNER_INERTIA, SPIN_INERTIA
+from ..physics.pendulum import offset_squared
 from ..physics.scaling import DISTANCE, INERTIA, nondimensional
 from ..physics.structure import Structure
 from ..vocabulary import quantities as q

@@ -16,7 +16,7 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 from sympy.polys.matrices import DomainMatrix
 
-from ..physics.laws.base import Definition, Law, filled
+from ..physics.law import Definition, Law, filled
 from ..physics.mechanics import equations_of_motion
 from ..physics.scaling import nondimensional
 from ..vocabulary.quantities import VOCABULARY, a, beta, gap, m, normal, orbital_momenta, rate_scale

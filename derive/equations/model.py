@@ -11,9 +11,9 @@ from functools import cache
 import sympy as sp
 
 from ..physics.forces import FILM, SHEAR
-from ..physics.laws import LAWS
-from ..physics.laws.base import Definition, filled, needed
+from ..physics.law import Definition, filled, needed
 from ..physics.partners import rotation
+from ..physics.slots import MIDGAP
 from ..physics.structure import Structure
 from ..vocabulary import quantities as q
 from . import friction
@@ -62,7 +62,7 @@ def without_partner_spin(model: Model) -> Model:
     first = {state: model["start"][state.name] for state in model.states}
     definitions: list[Definition] = []
     for symbol, value in model.definitions:
-        definitions.append((symbol, filled(value, {"arm": LAWS["arm"]["midgap"]})))
+        definitions.append((symbol, filled(value, MIDGAP)))
         if symbol == MOMENTUM:
             (spin,) = sp.solve(sp.Eq(value, MOMENTUM), q.partner_spin)
             definitions[-1:] = [(MOMENTUM, value.subs(first, simultaneous=True)), (q.partner_spin, spin)]
@@ -140,7 +140,7 @@ def _conserved(structure: Structure) -> tuple[tuple[Invariant, sp.Expr], ...]:
     if structure.partner == "space":
         result = conserved_components(full)
     else:
-        result = (conserved_momentum(full, {"arm": LAWS["arm"]["midgap"]}),)
+        result = (conserved_momentum(full, MIDGAP),)
     return tuple((invariant, invariant.at(start(structure))) for invariant in result)
 
 

@@ -5,11 +5,11 @@ from itertools import combinations
 import sympy as sp
 
 from ..physics.forces import TANGENTIAL
-from ..physics.laws import slot_call
-from ..physics.laws.strings import offset_squared
+from ..physics.law import slot_call
 from ..physics.mechanics import doublet_inertia, equations_of_motion
 from ..physics.partners import rotation
 from ..physics.partners.base import relative_change
+from ..physics.pendulum import offset_squared
 from ..physics.scaling import DISTANCE, nondimensional
 from ..physics.structure import Structure
 from ..vocabulary import quantities as q

@@ -9,10 +9,10 @@ from functools import cache
 import sympy as sp
 
 from ..vocabulary import quantities as q
-from .laws import slot_call
-from .laws.strings import offset_squared, swing_squared
-from .laws.strings import r as string_distance
+from .law import slot_call
 from .mechanics import F_c, F_n, F_t, F_w, S_n, S_t, arm
+from .pendulum import offset_squared, swing_squared
+from .pendulum import r as string_distance
 from .scaling import DISTANCE, INERTIA, VAN_DER_WAALS, nondimensional
 
 # Flags for where film and shear act, named as in emitted code

@@ -12,11 +12,31 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from ..vocabulary import quantities as q
-from .laws.attraction import van_der_waals_force
-from .laws.bridge import rupture_distance
-from .laws.glass import elastic_length
+from .attraction import van_der_waals_force
+from .references import LIAN, RAGER, SERAYSSOL
 
 DISTANCE = sp.Symbol("distance", positive=True)  # r/a, named in emitted code
+COMMON = (LIAN,)  # publication of the rupture distance, unless a law has its own
+ELASTIC = (RAGER, SERAYSSOL)  # publications of the elastic length
+
+
+def rupture_distance() -> sp.Expr:
+    """x_f = R V^(1/3) (1 + phi/2) of a bridge (Lian, Thornton & Adams 1993)."""
+    return q.R * q.volume ** sp.Rational(1, 3) * (1 + q.contact_angle / 2)
+
+
+def elastic_compliance() -> sp.Expr:
+    """theta_e = 2 (1 - nu^2)/(pi E) of two equal spheres (1/Pa): the sum of (1 - nu_i^2)/(pi E_i)."""
+    one = (1 - q.nu**2) / (sp.pi * q.E)
+    return one + one
+
+
+def elastic_length() -> sp.Expr:
+    """x_r = (3 pi theta_e mu a^(3/2) v0/sqrt 2)^(2/5): gap at which elastic deformation stops the approach.
+
+    From Davis, Rager & Good 2002, after Davis, Serayssol & Hinch 1986.
+    """
+    return (3 * sp.pi * elastic_compliance() * q.mu * q.a ** sp.Rational(3, 2) * q.v0 / sp.sqrt(2)) ** sp.Rational(2, 5)
 
 
 def dimension_matrix(symbols: Sequence[sp.Symbol]) -> sp.Matrix:
@@ -51,7 +71,7 @@ def group_definitions() -> dict[sp.Symbol, sp.Expr]:
         q.string_ratio: q.l_s / q.a,
         q.elastic_gap: elastic_length() / q.x0,
         q.rough_gap: q.x_b / q.x0,
-        q.rupture_gap: rupture_distance(bridge=True) / q.x0,
+        q.rupture_gap: rupture_distance() / q.x0,
     }
 
 

@@ -2,31 +2,11 @@
 
 # ruff: noqa: F401 -- the names of people's model files
 import sympy as sp
-from sympy import (
-    Abs,
-    Max,
-    Min,
-    Piecewise,
-    Rational,
-    acos,
-    asin,
-    atan,
-    cos,
-    cosh,
-    exp,
-    log,
-    pi,
-    sin,
-    sinh,
-    sqrt,
-    tan,
-    tanh,
-)
+from sympy import Abs, Max, Min, Piecewise, Rational, acos, asin, atan, cos, cosh, exp, log, sin, sinh, sqrt, tan, tanh
 
-from ..physics.laws.arm import distance
-from ..physics.laws.bridge import h
-from ..physics.laws.glass import approach
-from ..physics.laws.strings import offset_squared
+from ..physics.pendulum import offset_squared
+from ..physics.references import Reference
+from ..physics.slots import approach, distance, h
 from ..vocabulary.quantities import (
     A_H,
     E,
@@ -61,4 +41,6 @@ from ..vocabulary.quantities import (
 from ..vocabulary.quantities import contact_angle as phi
 from ..vocabulary.quantities import normal_velocity as opening  # its name in older model files
 from ..vocabulary.quantities import volume as V
-from .declarations import event, law, let, quantity
+from .declarations import Formula, event, law, let, positive, quantity
+
+pi = sp.pi

@@ -10,14 +10,17 @@ as they are in SI, or dimensionless in the slot's own arguments; `declared` read
 """
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from contextlib import contextmanager
 from contextvars import ContextVar
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
+from typing import Any
 
 import sympy as sp
 
-from ..physics.laws import LAWS
+from ..physics.law import RANGES, Law, Range
+from ..physics.references import Reference
+from ..physics.slots import SLOTS, places
 from ..vocabulary.allowed_values import Bounds, BoundsError
 from ..vocabulary.dimensions import ENERGY, ONE, Dimension, DimensionError, UnitError, dimension_of, dimension_of_unit
 from ..vocabulary.quantities import DIMENSIONS, VOCABULARY, omega, u, x, xi
@@ -65,27 +68,57 @@ class Intermediate:
     latex: str
 
 
+Source = str | Reference | tuple[Reference, ...]
+
+
+def published(source: Source, remark: str = "") -> tuple[Any, tuple[Reference, ...]]:
+    """A source in words, and its publications."""
+    named = source if isinstance(source, tuple) else (source,)
+    publications = tuple(each for each in named if isinstance(each, Reference))
+    if publications != named:
+        return source + remark if isinstance(source, str) else source, ()  # what is no text is refused as one
+    return "; ".join(each.short for each in publications) + remark, publications
+
+
+@dataclass(frozen=True)
+class Formula:
+    """An expression of a law that has a text or publications of its own, as `Formula(..., source=...)`.
+
+    Arguments:
+        expression: in SI or dimensionless.
+        doc: what it is, if not what the slot says.
+        source: its origin, if not that of the law: text, or publications.
+        remark: what is said after them.
+    """
+
+    expression: sp.Expr
+    doc: str = ""
+    source: Source = ""
+    remark: str = ""
+
+
 @dataclass(frozen=True)
 class Proposed:
-    """A law as declared in the file: functions by name, in SI or dimensionless."""
+    """A law as declared in the file, without its functions, and these by name, in SI or dimensionless."""
 
-    slot: str
-    name: str
-    functions: tuple[tuple[str, sp.Expr], ...]
-    meaning: str
-    source: str
+    law: Law
+    functions: Mapping[str, Formula]
     accept: tuple[str, ...]
-    bibtex: str = ""
+    bibtex: str
+    falls: bool
 
 
 @dataclass
 class Declarations:
-    """Everything that a file declares, in order."""
+    """Everything that a file declares, in order; `taken` are names of laws by slot that are the library's."""
+
+    taken: Mapping[str, Collection[str]] = field(default_factory=dict)
 
     quantities: dict[str, Declared] = field(default_factory=dict)
     intermediates: dict[str, Intermediate] = field(default_factory=dict)
     laws: dict[tuple[str, str], Proposed] = field(default_factory=dict)
     events: dict[str, own_events.Proposed] = field(default_factory=dict)
+    positive: list[sp.Expr] = field(default_factory=list)
 
 
 _here = ContextVar("declarations", default=Declarations())  # noqa: B039 -- of a model file that is run directly
@@ -96,9 +129,9 @@ def _declarations() -> Declarations:
 
 
 @contextmanager
-def collecting() -> Iterator[Declarations]:
-    """Collect the declarations made inside the block."""
-    token = _here.set(Declarations())
+def collecting(taken: Mapping[str, Collection[str]] | None = None) -> Iterator[Declarations]:
+    """Collect the declarations made inside the block; `taken` are names of laws by slot that none may have."""
+    token = _here.set(Declarations(taken or {}))
     try:
         yield _here.get()
     finally:
@@ -159,21 +192,36 @@ def let(name: str, expression: object, latex: str = "") -> sp.Symbol:
     written = f"{name}_" if isinstance(name, str) and name in taken().keys() - VOCABULARY.keys() else name
     _check_name("let", written, there)
     value = _expression(name, expression)
-    sign = next((known for known in ("positive", "nonnegative") if getattr(value, f"is_{known}")), "real")
+    claimed = value.xreplace({part: sp.Dummy(positive=True) for part in there.positive})
+    sign = next((known for known in ("positive", "nonnegative") if getattr(claimed, f"is_{known}")), "real")
     symbol = sp.Symbol(written, **{sign: True})
     upright = rf"\mathrm{{{name}}}".replace("_", r"\_")
     there.intermediates[written] = Intermediate(symbol, value, latex or upright)
     return symbol
 
 
+def positive(expression: object) -> sp.Expr:
+    """The expression, claimed to be positive wherever a law of the file is used: no guard is put where it vanishes.
+
+    It is dimensionless, in the arguments of the slot.
+    """
+    there = _declarations()
+    there.positive.append(_expression("positive", expression))
+    return there.positive[-1]
+
+
 def law(
     slot: str,
     name: str,
     *,
-    source: str = "",
+    source: Source = "",
+    remark: str = "",
     bibtex: str = "",
     meaning: str = "",
     accept: tuple[str, ...] = (),
+    validity: Mapping[str, Range] | None = None,
+    falls: bool = False,
+    spread: bool = False,
     **functions: object,
 ) -> None:
     """Declare a law.
@@ -181,35 +229,60 @@ def law(
     Arguments:
         slot: the slot that it fills.
         name: its name in scenes.
-        source: its origin, such as a publication.
+        source: its origin, text or publications.
+        remark: what is said after them.
         bibtex: the publication as a BibTeX entry, for `wetdoublet cite`.
         meaning: a description in one line.
         accept: names of checks that it is known to fail.
-        functions: the slot's functions as expressions: of the slot's dimension in SI, or dimensionless.
+        validity: (least, largest) of `volume`, `contact_angle` (rad) and `separation` (gap over R) for which its source
+            gives it, None for no bound; outside of it a warning is given.
+        falls: the slot's first function never increases with its first argument, as some certificates require; checked.
+        spread: of a film, its rim follows the bridge's volume: its functions take `aspect` and `V` beside the gap.
+        functions: the slot's functions as expressions or `Formula`: of the slot's dimension in SI, or dimensionless.
 
     Raises:
         ModelFileError: names the wrong argument and what is accepted.
     """
     there, label = _declarations(), f"law {slot} {name}"
-    if slot not in LAWS:
-        raise ModelFileError("law", slot, "a slot: " + ", ".join(LAWS), "is not a slot")
+    if slot not in SLOTS:
+        raise ModelFileError("law", slot, "a slot: " + ", ".join(SLOTS), "is not a slot")
     if not isinstance(name, str) or not _LAW_NAME.fullmatch(name):
         raise ModelFileError(f"law {slot}", name, "a name of small letters, digits and single dashes")
-    if name in LAWS[slot]:
+    if name in there.taken.get(slot, ()):
         raise ModelFileError(f"law {slot}", name, "a name of your own", "is a law of the library")
     if (slot, name) in there.laws:
         raise ModelFileError(f"law {slot}", name, "each name once", "is declared twice")
-    known = functions_of(slot)
+    known = {place.function: place for place in places().values() if place.slot == slot}
     for foreign in functions.keys() - known.keys():
         raise ModelFileError(label, foreign, "the functions " + ", ".join(known), "is no function of this slot")
-    for missing in (function for function, required in known.items() if required and function not in functions):
+    for missing in (function for function, place in known.items() if place.required and function not in functions):
         raise ModelFileError(f"{label}.{missing}", None, f"{missing} = an expression", "is missing")
-    _check_texts(label, source=source, bibtex=bibtex)
+    if spread and slot != "film":
+        raise ModelFileError(f"{label}.spread", spread, "no such argument", "is of a film")
+    formulas = {f: _formula(f"{label}.{f}", functions[f]) for f in known if f in functions}
+    if "suction" in formulas and formulas["suction"].expression != 0:
+        left = str(formulas["suction"].expression)
+        raise ModelFileError(f"{label}.suction", left, "0, or no suction", "is not what cavitation leaves")
+    origin, references = published(source, str(remark))
+    _check_texts(label, source=origin, remark=remark, bibtex=bibtex, meaning=meaning)
     if bibtex and not _BIBTEX.fullmatch(bibtex):
         raise ModelFileError(f"{label}.bibtex", bibtex, "an entry such as @article{key, author = {...}, ...}")
-    expressions = tuple((f, _expression(f"{label}.{f}", functions[f])) for f in known if f in functions)
-    meaning, source = meaning or f"{name}, a user's law", source or "no source given"
-    there.laws[slot, name] = Proposed(slot, name, expressions, meaning, source, tuple(accept), bibtex)
+    meaning, origin = meaning or f"{name}, a user's law", origin or "no source given"
+    for quantity, ends in (validity or {}).items():
+        if quantity not in RANGES:
+            raise ModelFileError(f"{label}.validity", quantity, ", ".join(RANGES), "has no range")
+        if len(ends) != 2 or not all(end is None or sp.sympify(end).is_number for end in ends):
+            raise ModelFileError(f"{label}.validity", ends, "(least, largest), a number each, or None")
+    valid = tuple((name, validity[name]) for name in RANGES if validity and name in validity)
+    declared = Law(slot, name, meaning, origin, (), valid, references, spread)
+    there.laws[slot, name] = Proposed(declared, formulas, tuple(accept), bibtex, falls)
+
+
+def _formula(label: str, value: object) -> Formula:
+    """A function of a law as it is declared, its expression and its texts judged."""
+    known = value if isinstance(value, Formula) else Formula(value)
+    _check_texts(label, doc=known.doc, source=published(known.source, known.remark)[0])
+    return replace(known, expression=_expression(label, known.expression))
 
 
 def event(
@@ -317,16 +390,6 @@ def unfolded(expression: sp.Expr, there: Declarations) -> sp.Expr:
     return expression
 
 
-def functions_of(slot: str) -> dict[str, bool]:
-    """The functions of a slot's laws, and whether each is required: it is if all laws of the library have it."""
-    laws = LAWS[slot].values()
-    names = dict.fromkeys(function.name for law in laws for function in law.functions)
-    return {
-        name: name != "potential" and all(name in [f.name for f in law.functions if not f.for_proof] for law in laws)
-        for name in names
-    }
-
-
 def _check_texts(label: str, **texts: object) -> None:
     for what, text in texts.items():
         if not isinstance(text, str):
@@ -339,7 +402,9 @@ def _check_name(what: str, name: object, there: Declarations, in_functions: bool
         raise ModelFileError(what, name, "a name of small letters, digits and underscores")
     declared = {*there.quantities, *there.intermediates, *(known.group for known in there.quantities.values())}
     declared |= {word for known in there.events for word in (known, own_events.MARK + known)}
-    meaning = taken().get(name, "")
+    of_library = VOCABULARY.get(name)
+    local = what == "let" and of_library is not None and not own_events.may_use(of_library.symbol)  # in no law
+    meaning = "" if local else taken().get(name, "")
     if name in declared or (meaning and (in_functions or meaning != EMITTED)):
         problem = "is taken already" + (f": it is {meaning}" if meaning else "")
         raise ModelFileError(what, name, "a name that is not taken", problem)

@@ -13,7 +13,7 @@ import sympy as sp
 from sympy.core.relational import Relational
 from sympy.logic.boolalg import BooleanFunction
 
-from ..physics.laws.base import LawFunction, needed
+from ..physics.law import LawFunction, needed
 from ..physics.scaling import ScalingError
 from ..vocabulary.quantities import normal_velocity
 
@@ -26,16 +26,19 @@ class KinkError(ScalingError):
     """A condition that is no guard; the message names it and says what is."""
 
 
-def smooth(function: LawFunction, still: Collection[sp.Symbol]) -> LawFunction:
+def smooth(function: LawFunction, still: Collection[sp.Symbol], positive: Collection[sp.Expr] = ()) -> LawFunction:
     """A law's function with a guard for every kink; the function itself if it has none.
 
     Arguments:
         still: arguments that are constant along a trajectory.
+        positive: expressions that are never zero along one.
 
     Raises:
         KinkError: a condition that is no comparison of numbers.
     """
-    smoothing = _Smoothing({argument for argument in function.arguments if argument not in still})
+    if function.for_proof:  # called with values, not along a trajectory
+        return function
+    smoothing = _Smoothing({argument for argument in function.arguments if argument not in still}, positive)
     for symbol, value in function.definitions:
         smoothing.definitions.append((symbol, smoothing(value)))
         smoothing.written[symbol] = value.xreplace(smoothing.written)
@@ -79,8 +82,8 @@ def rounded(expression: sp.Expr) -> sp.Expr:
 class _Smoothing:
     """Expressions with kinks -> smooth ones; their guards and sides are added to `definitions`."""
 
-    def __init__(self, moving: Collection[sp.Symbol]) -> None:
-        self.moving = set(moving)
+    def __init__(self, moving: Collection[sp.Symbol], positive: Collection[sp.Expr] = ()) -> None:
+        self.moving, self.positive = set(moving), set(positive)
         self.definitions: list[tuple[sp.Symbol, sp.Expr]] = [(_SQUARE, WIDTH**2)]
         self.written: dict[sp.Basic, sp.Basic] = {}  # named parts as they were written
         self.kinks: list[tuple[sp.Symbol, sp.Symbol]] = []
@@ -115,7 +118,7 @@ class _Smoothing:
 
     def _vanishes(self, base: sp.Expr) -> bool:
         """True if an expression may pass zero along a trajectory."""
-        return not base.xreplace(self.written).is_positive and self._moves(base)
+        return base not in self.positive and not base.xreplace(self.written).is_positive and self._moves(base)
 
     def _side(self, inner: sp.Expr) -> sp.Expr:
         """1 where an expression is positive and -1 where it is negative."""

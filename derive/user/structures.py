@@ -8,13 +8,13 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from ..equations.model import GROUPS, Model
-from ..physics.laws.base import Definition, Law, LawFunction, is_slot_call
+from ..physics.law import Definition, Law, LawFunction, is_slot_call
 from ..physics.scaling import ScalingError, cancelled, dimension_matrix, dimensional, group_definitions, to_groups
-from ..physics.slots import MOTION, Place, places
+from ..physics.slots import MOTION, Place, place_of
 from ..vocabulary.dimensions import ONE, Dimension, DimensionError, dimension_of
 from ..vocabulary.quantities import DIMENSIONS, VOCABULARY, a, m, mu, normal_velocity, rate_scale, u, v0, x, x0
 from . import own_events
-from .declarations import Declarations, Declared, Proposed, unfolded
+from .declarations import Declarations, Declared, Proposed, published, unfolded
 from .kinks import freed, smooth
 from .own_events import OwnEvent
 
@@ -34,13 +34,6 @@ class Group:
     @property
     def definition(self) -> sp.Expr:
         return self.quantity.symbol / self.over
-
-
-class InSI(LawFunction):
-    """A law's function for print: in its slot's arguments, with groups replaced by SI quantities."""
-
-    def __post_init__(self) -> None:
-        """No validation: values may be in SI."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -106,30 +99,26 @@ def _stopped(function: str, key: str, expression: sp.Expr) -> sp.Expr:
 
 def express(name: str, meaning: str, declared: Declarations) -> UserModel:
     """The model of declarations; DimensionError or ScalingError names law, function, and the wrong term or quantity."""
-    all_places = places()
-    groups = _groups(declared, all_places)
+    groups = _groups(declared)
     laws = []
-    extra = _Extra(groups, tuple(one.mark for one in declared.events.values()))
     for proposed in declared.laws.values():
-        functions = [
-            _function(all_places[f"{proposed.slot}.{name}"], expression, proposed, declared, groups)
-            for name, expression in proposed.functions
-        ]
-        laws.append(Law(proposed.slot, proposed.name, proposed.meaning, proposed.source, tuple(functions)))
-        extra.add(laws[-1], all_places)
-    laws = [extra.widened(law) for law in laws]
-    printed = tuple(_in_si(law, groups, all_places) for law in laws)
+        functions = tuple(_function(name, proposed, declared, groups) for name in proposed.functions)
+        laws.append(replace(proposed.law, functions=functions))
+    marks = (one.mark for one in declared.events.values())
+    extra = _extra(laws, (normal_velocity, *marks, *GROUPS, *(group.symbol for group in groups.values())))
+    laws = [_widened(law, extra) for law in laws]
+    printed = tuple(_in_si(law, groups) for law in laws)
     still = {*GROUPS, *(group.symbol for group in groups.values())}
     written = tuple(laws)
-    laws = [replace(law, functions=tuple(smooth(each, still) for each in law.functions)) for law in laws]
-    called = {symbol for symbols in extra.found.values() for symbol in symbols}
+    laws = [replace(law, functions=tuple(smooth(f, still, declared.positive) for f in law.functions)) for law in laws]
+    called = {symbol for symbols in extra.values() for symbol in symbols}
     events = tuple(_event(one, declared, groups, called) for one in declared.events.values())
     used = called.union(*(one.symbols for one in events))
     kept = tuple(group for group in groups.values() if group.symbol in used)
     unused = [one.name for one in declared.quantities.values() if one.name not in {g.quantity.name for g in kept}]
     if unused:
         raise ScalingError(f"{', '.join(unused)}: declared, but no law or event depends on it")
-    return UserModel(name, meaning, declared, tuple(laws), written, printed, kept, extra.found, events)
+    return UserModel(name, meaning, declared, tuple(laws), written, printed, kept, extra, events)
 
 
 def _event(
@@ -152,37 +141,31 @@ def _as_groups(groups: Mapping[str, Group]) -> dict[sp.Symbol, sp.Expr]:
     return {g.quantity.symbol: g.symbol * g.over for g in groups.values() if g.quantity.dimension != ONE}
 
 
-class _Extra:
+def _extra(laws: Iterable[Law], order: Iterable[sp.Symbol]) -> dict[str, tuple[sp.Symbol, ...]]:
     """The additional arguments of a slot's functions, over all its laws."""
-
-    def __init__(self, groups: Mapping[str, Group], marks: tuple[sp.Symbol, ...]) -> None:
-        self.order = (normal_velocity, *marks, *GROUPS, *(group.symbol for group in groups.values()))
-        self.found: dict[str, tuple[sp.Symbol, ...]] = {}
-
-    def add(self, law: Law, all_places: Mapping[str, Place]) -> None:
-        for function in law.functions:
-            key = f"{law.slot}.{function.name}"
-            arguments = set(all_places[key].arguments)
-            more = {*self.found.get(key, ()), *(s for s in function.arguments if s not in arguments)}
-            if more:
-                self.found[key] = tuple(s for s in self.order if s in more)
-
-    def widened(self, law: Law) -> Law:
-        functions = []
+    added: dict[str, set[sp.Symbol]] = {}
+    for law in laws:
         for f in law.functions:
-            more = self.found.get(f"{law.slot}.{f.name}", ())
-            functions.append(replace(f, arguments=(*(s for s in f.arguments if s not in more), *more)))
-        return replace(law, functions=tuple(functions))
+            more = {*f.arguments} - {*place_of(law.slot, f.name, law.spread).arguments}
+            added.setdefault(f"{law.slot}.{f.name}", set()).update(more)
+    return {key: tuple(s for s in order if s in more) for key, more in added.items() if more}
 
 
-def _groups(declared: Declarations, all_places: Mapping[str, Place]) -> dict[str, Group]:
+def _widened(law: Law, extra: Mapping[str, tuple[sp.Symbol, ...]]) -> Law:
+    """The law with the additional arguments of its slot."""
+    more = {f.name: extra.get(f"{law.slot}.{f.name}", ()) for f in law.functions}
+    arguments = {f.name: (*(s for s in f.arguments if s not in more[f.name]), *more[f.name]) for f in law.functions}
+    return replace(law, functions=tuple(replace(f, arguments=arguments[f.name]) for f in law.functions))
+
+
+def _groups(declared: Declarations) -> dict[str, Group]:
     """The group of each quantity, by the quantity's name."""
     result = {}
     for one in declared.quantities.values():
         if one.dimension == ONE:
             result[one.name] = Group(one.symbol, one, sp.Integer(1))
             continue
-        over = one.over if one.over is not None else _scale(one, declared, all_places)
+        over = one.over if one.over is not None else _scale(one, declared)
         dimension = dimension_of(
             over, DIMENSIONS | {each.symbol: each.dimension for each in declared.quantities.values()}
         )
@@ -193,12 +176,12 @@ def _groups(declared: Declarations, all_places: Mapping[str, Place]) -> dict[str
     return result
 
 
-def _scale(one: Declared, declared: Declarations, all_places: Mapping[str, Place]) -> sp.Expr:
+def _scale(one: Declared, declared: Declarations) -> sp.Expr:
     """A monomial of a scene's quantities with the dimension of `one`; those of the related scale are preferred."""
     functions = [
-        (expression, all_places[f"{law.slot}.{name}"].scale)
-        for law in declared.laws.values()
-        for name, expression in law.functions
+        (formula.expression, place_of(known.law.slot, name, known.law.spread).scale)
+        for known in declared.laws.values()
+        for name, formula in known.functions.items()
     ]
     functions += [(each, sp.Integer(1)) for event in declared.events.values() for each in event.expressions]
     near: list[sp.Symbol] = []
@@ -222,11 +205,11 @@ def _by_vocabulary(symbols: Iterable[sp.Symbol]) -> list[sp.Symbol]:
     return [quantity.symbol for quantity in VOCABULARY.values() if quantity.symbol.name in {s.name for s in symbols}]
 
 
-def _function(
-    place: Place, expression: sp.Expr, proposed: Proposed, declared: Declarations, groups: Mapping[str, Group]
-) -> LawFunction:
+def _function(name: str, proposed: Proposed, declared: Declarations, groups: Mapping[str, Group]) -> LawFunction:
     """A function in the slot's arguments, states and groups; dimensionless parts keep their names."""
-    label = f"law {proposed.slot} {proposed.name}, {place.function}"
+    law, formula = proposed.law, proposed.functions[name]
+    label, place = f"law {law.slot} {law.name}, {name}", place_of(law.slot, name, law.spread)
+    expression = formula.expression
     of: dict[sp.Basic, Dimension] = {**DIMENSIONS, **dict.fromkeys(place.arguments, ONE)}
     of |= {one.symbol: one.dimension for one in declared.quantities.values()}
     marks = tuple(one.mark for one in declared.events.values())
@@ -234,11 +217,10 @@ def _function(
     parts: list[Definition] = []
     inline: dict[sp.Basic, sp.Basic] = {}
     try:
-        for part in declared.intermediates.values():
+        reached = _reached(expression, declared)
+        for part in (each for each in declared.intermediates.values() if each.symbol in reached):
             dimension = dimension_of(part.expression, of) or ONE
             of[part.symbol] = dimension
-            if part.symbol not in _reached(expression, declared):
-                continue
             value = part.expression.xreplace(inline)
             if dimension == ONE:
                 parts.append((part.symbol, _settled(label, place, value, groups)))
@@ -256,15 +238,18 @@ def _function(
     result = _settled(label, place, value, groups)
     named = {symbol for symbol, _ in parts}
     used = set().union(*(e.free_symbols for e in (result, *(value for _, value in parts)))) - named
-    allowed = {*place.arguments, *MOTION.get(place.slot, ()), *marks, *GROUPS, *(g.symbol for g in groups.values())}
-    if wrong := sorted(s.name for s in used - allowed):
-        possible = ", ".join(s.name for s in (*place.arguments, *MOTION.get(place.slot, ())))
-        raise ScalingError(
-            f"{label}: depends on {', '.join(wrong)}; a {place.slot} law may depend on {possible} and groups"
-        )
+    motion = () if place.closed else MOTION.get(place.slot, ())
+    more = set() if place.closed else {*motion, *marks, *GROUPS, *(group.symbol for group in groups.values())}
+    if wrong := sorted(s.name for s in used - {*place.arguments, *more}):
+        possible = ", ".join(s.name for s in (*place.arguments, *motion)) + (" only" if place.closed else " and groups")
+        what = name if place.closed else f"a {place.slot} law"
+        raise ScalingError(f"{label}: depends on {', '.join(wrong)}; {what} may depend on {possible}")
     extra = [s for s in (normal_velocity, *marks, *GROUPS, *(g.symbol for g in groups.values())) if s in used]
     arguments = (*place.arguments, *(s for s in extra if s not in place.arguments))
-    return LawFunction(place.function, arguments, result, place.doc, tuple(parts))
+    source, references = published(formula.source, formula.remark)
+    doc = (formula.doc or place.doc) + (f"\n\nSource: {source}." if source else "")
+    falls = proposed.falls and name == next(iter(proposed.functions))
+    return LawFunction(name, arguments, result, doc, tuple(parts), place.for_proof, falls, references)
 
 
 def _reached(expression: sp.Expr, declared: Declarations) -> set[sp.Basic]:
@@ -295,18 +280,18 @@ def _settled(label: str, place: Place, expression: sp.Expr, groups: Mapping[str,
     return cancelled(label, by_term, expression)
 
 
-def _in_si(law: Law, groups: Mapping[str, Group], all_places: Mapping[str, Place]) -> Law:
+def _in_si(law: Law, groups: Mapping[str, Group]) -> Law:
     """The law with its groups as quantities, in the slot's own arguments only."""
     back: dict[sp.Basic, sp.Basic] = {g.symbol: g.definition for g in groups.values()}
     back |= dict(group_definitions())
     functions = []
     for f in law.functions:
-        arguments = all_places[f"{law.slot}.{f.name}"].arguments
+        arguments = place_of(law.slot, f.name, law.spread).arguments
         rules = {s: value for s, value in {**back, normal_velocity: u / v0}.items() if s not in arguments}
 
         def put(expression: sp.Expr, rules: Mapping[sp.Basic, sp.Basic] = rules) -> sp.Expr:
             return expression.subs(rules, simultaneous=True)
 
         parts = tuple((symbol, put(value)) for symbol, value in f.definitions)
-        functions.append(InSI(f.name, arguments, put(f.result), f.doc, parts))
+        functions.append(LawFunction(f.name, arguments, put(f.result), f.doc, parts))
     return replace(law, functions=tuple(functions))

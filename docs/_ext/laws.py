@@ -13,7 +13,8 @@ import sympy as sp
 from matplotlib.figure import Figure
 from wetdoublet.derive.emit.document.latex import latex
 from wetdoublet.derive.emit.document.theory import Equation, theory
-from wetdoublet.derive.physics.laws import LAWS, Law
+from wetdoublet.derive.laws import LAWS
+from wetdoublet.derive.physics.law import Law
 from wetdoublet.derive.vocabulary.quantities import VOCABULARY
 
 
@@ -92,7 +93,7 @@ def _quantities(own: dict[Law, list[Equation]]) -> list[Any]:
 
 
 def _range(law: Law) -> str:
-    if law.validity is None:
+    if not law.validity:
         return "the source states none, and none is claimed."
     limits = []
     for name, symbol, unit, scale in (
@@ -100,9 +101,9 @@ def _range(law: Law) -> str:
         ("contact_angle", r"$\phi$", " deg", 180 / np.pi),
         ("separation", "$x/R$", "", 1.0),
     ):
-        for bound, value in zip(("at least", "at most"), getattr(law.validity, name), strict=True):
+        for bound, value in zip(("at least", "at most"), dict(law.validity).get(name, (None, None)), strict=True):
             limits += [f"{symbol} {bound} {float(value) * scale:g}{unit}"] if value is not None else []
-    return f"{', '.join(limits)} ({law.validity.source}). Outside, the law is computed all the same, with a warning."
+    return f"{', '.join(limits)} ({law.source}). Outside, the law is computed all the same, with a warning."
 
 
 def _rupture(law: Law) -> str:

@@ -6,6 +6,7 @@ from textwrap import wrap
 
 from ...generated.automaton import BOUNCE, CRITERIA, KINDS, STICK, EventKind
 from ..scene.scene import Scene
+from ..scene.tables import Model
 from ..scene.user_model import OwnEvent
 from .outcome import Event, Outcome
 
@@ -327,7 +328,7 @@ def _model(scene: Scene) -> list[str]:
     """Lines that name the laws used, wrapped to the width of the table."""
     used = {"arm": scene.model.arm, "tangential": scene.model.tangential}
     used |= {"glass": scene.model.glass} if scene.liquid.glass_transition_pressure is not None else {}
-    used |= {"film": scene.model.film} if scene.model.film != "finite" else {}
+    used |= {"film": scene.model.film} if scene.model.film != Model.film else {}
     if scene.bridge is not None:
         used["bridge"] = scene.bridge.law
         used |= {"rupture": scene.bridge.rupture} if scene.bridge.rupture != "common" else {}

@@ -42,13 +42,22 @@ def citations(scene: Scene) -> tuple[Citation, ...]:
     Without an impact angle the collision is taken to be oblique.
     """
     uses_of: dict[str, list[str]] = {}
+    cited, known = _known(scene)
     for use, name in _uses(scene):
-        for key in CITED.get(name, ()):
+        for key in cited.get(name, ()):
             uses_of.setdefault(key, []).append(use)
-    listed = [
-        Citation(key, tuple(uses), _entry(key, REFERENCES[key]), REFERENCES[key]) for key, uses in uses_of.items()
-    ]
+    listed = [Citation(key, tuple(uses), _entry(key, known[key]), known[key]) for key, uses in uses_of.items()]
     return (*listed, *_own(scene))
+
+
+def _known(scene: Scene) -> tuple[dict[str, tuple[str, ...]], dict[str, Reference]]:
+    """The tables of publications, with those of the laws of a user's model."""
+    cited, known = dict(CITED), dict(REFERENCES)
+    for law in [] if scene.package is None else scene.package.manifest["laws"]:
+        for use, published in law.get("references", {}).items():
+            cited[use] = tuple(each["key"] for each in published)
+            known |= {each["key"]: Reference(*(each[name] for name in Reference._fields)) for each in published}
+    return cited, known
 
 
 def as_bibtex(entries: tuple[Citation, ...]) -> str:
@@ -92,11 +101,11 @@ def _entry(key: str, one: Reference) -> str:
 
 
 def _own(scene: Scene) -> Iterator[Citation]:
-    """The laws of a user's model that are used: their BibTeX, or an entry that holds their source as text."""
+    """The laws of a user's model that are used and name no publication: BibTeX, or an entry with the source's text."""
     used = dict(select_model(scene, _oblique(scene), full=True, fold=True).laws)
     for law in [] if scene.package is None else scene.package.manifest["laws"]:
         use, key = f"{law['slot']} law {law['name']}", f"{law['slot']}-{law['name']}"
-        if used.get(law["slot"]) != law["name"]:
+        if used.get(law["slot"]) != law["name"] or any(law.get("references", {}).values()):
             continue
         if law.get("bibtex"):
             yield Citation("", (use,), law["bibtex"].strip())

@@ -31,7 +31,7 @@ def user_model(package: Package | None) -> UserModel | None:
     """A user's model as an object of the derivation, read from the model file in its folder."""
     if package is None:
         return None
-    from ...derive.user.modelfile import read
+    from ...derive.laws.modelfile import read
 
     return read(Path(f"{package.name}.py"), package.source, package.name)
 

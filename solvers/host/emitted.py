@@ -54,7 +54,7 @@ def module(name: str) -> ModuleType:
     path = name.replace(".", "/") + ".py"
     if not committed(path):
         return executed(f"{_PACKAGE}.{name}", text(name).encode())
-    for each in (path, "assemble.py", "scaling.py", "automaton.py"):
+    for each in (path, "assemble.py", "scaling.py", "automaton.py", "laws/__init__.py"):
         _verified(each)
     for home in _IMPORTED.findall((_FOLDER / path).read_text(encoding="utf-8")):
         _verified(f"{home}.py")

@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
-if TYPE_CHECKING:
-    from ..scene.user_model import Package
+from ..scene.user_model import Package, features
 
 
 @dataclass(frozen=True)
@@ -19,3 +17,9 @@ class ModelKey:
 
     def law(self, slot: str) -> str | None:
         return dict(self.laws).get(slot)
+
+    @property
+    def drifts(self) -> bool:
+        """The lever arm exerts a torque on the doublet, whose angular momentum is not conserved."""
+        arm = self.law("arm")
+        return arm is not None and "balanced" not in features(self.package, "arm", arm)

@@ -43,10 +43,10 @@ def select_model(scene: Scene, oblique: bool, full: bool = False, fold: bool = F
     partner = "" if equal or not oblique else "wall" if scene.wall else "pair"  # head-on, only a and m matter
     partner = "space" if space else partner
     friction = oblique and scene.particles.friction is not None
-    free = oblique and partner in ("", "space") and scene.pendulum is None and scene.model.arm == "midgap"
+    free = oblique and partner in ("", "space") and scene.pendulum is None and scene.law_has("arm", "balanced")
     turned = scene.package is not None and any(each.spins for each in scene.package.events)  # by a declared event
     reduced = free and not full and not friction and not turned
-    spread = scene.model.film == "constant-volume"
+    spread = scene.law_has("film", "spread")
     words = {
         "bridge": scene.bridge is not None,
         "strings": scene.pendulum is not None,
@@ -68,11 +68,7 @@ def select_model(scene: Scene, oblique: bool, full: bool = False, fold: bool = F
     if scene.pendulum is not None:
         laws.append(("strings", scene.pendulum.law))
     if scene.attraction is not None:
-        laws.append(("attraction", "van-der-waals"))
-    if scene.package is None:
-        return ModelKey("_".join(parts), tuple(laws))
-    unnamed = scene.package.unnamed  # slots that no entry of a scene fills
-    laws = [(slot, scene.package.laws(slot)[0] if slot in unnamed else name) for slot, name in laws]
+        laws.append(("attraction", scene.law_of("attraction")))
     return ModelKey("_".join(parts), tuple(laws), scene.package)
 
 

@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 
 from ...generated.automaton import BOUNCE, OUTCOMES
+from ...generated.laws import LAWS
 from ..errors import ModelWarning
 from ..scene.contact import GAPS, NEVER_MET
 from ..scene.groups import formulas, law_module, si_values
@@ -126,9 +127,10 @@ def _bent(scene: Scene, values: Values) -> Any:
 
 def _wall_coupling(scene: Scene, values: Values) -> Any:
     """Torque of sliding along a wall by the leading logarithm over the published one, at the smallest gap."""
-    outer = {"immersed": 2 * values["reduced_radius"], "film": values["film_thickness"]}.get(scene.model.tangential)
-    if not scene.wall or outer is None:
+    if not scene.wall or scene.model.tangential not in LAWS["shear"]:
         return math.nan
+    edge = law_module(scene, "shear", scene.model.tangential).edge
+    outer = edge(values["film_thickness"] / values["reduced_radius"]) * values["film_thickness"]
     gap = values["smallest_gap"]  # NaN for a stick, whose spin is not defined
     on = _library(values)
     with np.errstate(all="ignore"):
@@ -146,7 +148,7 @@ def _unlike(scene: Scene, values: Values) -> Any:
 
 
 def _cavitating(scene: Scene, values: Values) -> Any:
-    if scene.model.film != "cavitating":
+    if not scene.law_has("film", "suction"):
         return math.nan
     return _library(values).where(values["angle"] > 0, _unlike(scene, values), math.nan)
 

@@ -13,7 +13,6 @@ from .contact import AT_ANY_SPEED, ENTRIES, gap_at_any_speed, never_touching
 from .quantities import Ways, initial_gap, partner_mass, partner_radius, quantities, sphere
 from .schema import (
     ALTERNATIVES,
-    BRIDGE_LAWS,
     FIELDS,
     FROM_COATING,
     MEETING,
@@ -268,19 +267,20 @@ FARTHEST = 1e4  # largest ratio of radii or masses; beyond it the equations lose
 def _check_laws(scene: System) -> None:
     """Raise InputError for laws that contradict each other or the scene's tables."""
     model, bridge, entries = scene.model, scene.bridge, dict(scene.given)
-    if model.film == "constant-volume":
+    if scene.law_has("film", "spread"):
         if bridge is None:
-            accepted = "a [bridge], whose volume it is, or one of finite, infinite, cavitating"
+            accepted = (
+                f"a [bridge], whose volume it is, or one of {', '.join(scene.laws_with('film', 'spread', False))}"
+            )
             raise InputError("model.film", model.film, accepted, "needs a bridge")
-        for entry, value, fixed in (
-            ("model.glass", model.glass, "film-corrected"),
-            ("model.tangential", model.tangential, "film"),
-        ):
-            if value == fixed:
+        for entry, slot in (("model.glass", "glass"), ("model.tangential", "shear")):
+            if scene.law_has(slot, "rim"):
                 accepted = f"another {entry}, or another model.film"
-                raise InputError(entry, value, accepted, "has its rim at x0, which a film of constant volume has not")
-    if bridge is not None and bridge.rupture == "own" and bridge.law not in OWN_RUPTURE:
-        accepted = f"common, or own with bridge.law one of {', '.join(OWN_RUPTURE)}"
+                raise InputError(
+                    entry, scene.law_of(slot), accepted, "has its rim at x0, which a film of constant volume has not"
+                )
+    if bridge is not None and bridge.rupture == "own" and not scene.law_has("bridge", "rupture_distance"):
+        accepted = f"common, or own with bridge.law one of {', '.join(scene.laws_with('bridge', 'rupture_distance'))}"
         problem = f"is not known for the law {bridge.law}"
         raise InputError("bridge.rupture", bridge.rupture, accepted, problem)
     no_contact = never_touching(scene.material)
@@ -292,10 +292,6 @@ def _check_laws(scene: System) -> None:
         accepted = f"a positive {' or '.join(reversed(ENTRIES.values()))}, or liquid.glass_transition_pressure"
         problem = "lets the gap close without end: no criterion reverses the spheres"
         raise InputError("particles.roughness", entries["particles.roughness"], accepted, problem)
-
-
-OWN_RUPTURE = tuple(law for law in BRIDGE_LAWS if law not in ("rabinovich", "lambert", "constant"))
-"""Bridge laws whose authors give a rupture distance with them."""
 
 
 def check_speed(scene: System) -> None:

@@ -9,13 +9,14 @@ from typing import Any
 import numpy as np
 
 from ...generated import scaling
+from ...generated.laws import LAWS
 from ..errors import InputError
 from ..host import emitted
 from .contact import GAPS
 from .quantities import Ways, normal_speed, over_equal, quantities
 from .schema import MEETING, Field, Raw
 from .tables import Attraction, Bridge, Impact, Liquid, Model, Particles, Partner, Pendulum
-from .user_model import Package, fields
+from .user_model import ENTRIES, Package, features, fields
 
 Formula = tuple[Callable[..., Any], tuple[str, ...]]
 _VARIANTS = (
@@ -57,6 +58,24 @@ class System:
     def entries(self) -> Mapping[str, float | str]:
         """The given entries: dotted name -> SI number or choice, in the order of the file."""
         return dict(self.si)
+
+    # ---- laws
+
+    def law_of(self, slot: str) -> str:
+        """The name of the law in a slot; "" if the scene lacks the table that says it."""
+        table, _, key = ENTRIES[slot].partition(".")
+        if ENTRIES[slot] not in self.fields:  # no entry of a scene says it
+            return next(iter((*(self.package.laws(slot) if self.package else ()), *LAWS[slot])))
+        return str(getattr(getattr(self, table), key, ""))
+
+    def law_has(self, slot: str, feature: str) -> bool:
+        """Whether the law in a slot has a feature: a function that others lack, or a property."""
+        return feature in features(self.package, slot, self.law_of(slot))
+
+    def laws_with(self, slot: str, feature: str, has: bool = True) -> list[str]:
+        """The laws that the scene may choose in a slot and that have a feature, or have it not."""
+        choices = self.fields[ENTRIES[slot]].choices
+        return [name for name in choices if (feature in features(self.package, slot, name)) == has]
 
     # ---- quantities of the pair
 

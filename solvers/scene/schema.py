@@ -7,15 +7,14 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from numbers import Real
 
+from ...generated.laws import LAWS
 from ..errors import InputError, did_you_mean
 from . import units
 
 Raw = float | int | str
 """An entry as a scene keeps it: text with its unit, a choice, or a plain number."""
-BRIDGE_LAWS = ("mikami", "mikami-log10", "willett", "willett-simple", "rabinovich", "lambert", "soulie", "constant")
 FROM_COATING = "from coating"
 """Value of `bridge.volume` for a bridge whose liquid flows out of the coatings."""
-FILM_LAWS = ("finite", "infinite", "cavitating", "constant-volume")
 
 
 @dataclass(frozen=True)
@@ -213,7 +212,7 @@ FIELDS: dict[str, Field] = _table(
     Field("bridge.volume", "a number V/R^3", "0.1", required=True, or_unit="m^3", words=(FROM_COATING,)),
     Field("bridge.coating_fraction", "the part of the coating", "0.067", PART, gives=""),
     Field("bridge.contact_angle", "an angle", '"0 deg"', WETTING_ANGLE, unit="rad", default=0.0),
-    Field("bridge.law", "a law", "mikami", choices=BRIDGE_LAWS),
+    Field("bridge.law", "a law", "mikami", choices=tuple(LAWS["bridge"])),
     Field("bridge.rupture", "a rupture distance", "common", choices=("common", "own")),
     Field("attraction.hamaker", "a Hamaker constant", '"1e-19 J"', NOT_NEGATIVE, unit="J", required=True),
     Field("partner.radius", "the radius R of the partner", '"200 um"', unit="m", gives=""),
@@ -224,12 +223,12 @@ FIELDS: dict[str, Field] = _table(
     Field("partner.wall", "a wall", "true", flag=True),
     Field("pendulum.length", "a string length", '"0.5 m"', unit="m", required=True, gives="string_length"),
     Field("pendulum.gravity", "an acceleration", '"9.81 m/s^2"', unit="m/s^2", default=9.81),
-    Field("pendulum.law", "a law", "exact", choices=("exact", "small-angle")),
-    Field("model.arm", "an arm", "midgap", choices=("midgap",)),
-    Field("model.tangential", "a logarithm", "immersed", choices=("immersed", "film")),
-    Field("model.glass", "a criterion", "literal", choices=("literal", "film-corrected")),
+    Field("pendulum.law", "a law", "exact", choices=tuple(LAWS["strings"])),
+    Field("model.arm", "an arm", "midgap", choices=tuple(LAWS["arm"])),
+    Field("model.tangential", "a logarithm", "immersed", choices=tuple(LAWS["shear"])),
+    Field("model.glass", "a criterion", "literal", choices=tuple(LAWS["glass"])),
     Field("model.contact_friction", "what has friction", "solid", choices=("solid", "all")),
-    Field("model.film", "a film", "finite", choices=FILM_LAWS),
+    Field("model.film", "a film", "finite", choices=tuple(LAWS["film"])),
     Field("impact.stokes", "a Stokes number", "0.03", gives=""),
     Field("impact.speed", "a normal approach speed", '"0.54 m/s"', unit="m/s"),
     Field("impact.relative_speed", "the magnitude of the relative velocity", '"1.08 m/s"', unit="m/s", gives=""),

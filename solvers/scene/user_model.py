@@ -17,6 +17,7 @@ from pathlib import Path
 from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
+from ...generated.laws import LAWS
 from ..errors import InputError, did_you_mean
 from ..host import bounded
 from ..host.emitted import derived_once, executed
@@ -181,6 +182,11 @@ class Package:
         """Names of the model's laws for a slot; the first is the default."""
         return tuple(law["name"] for law in self.manifest["laws"] if law["slot"] == slot)
 
+    def features(self, slot: str, name: str) -> tuple[str, ...]:
+        """Functions that not every law of the slot has, and properties, of a law of the model or of the library."""
+        own = (law.get("features", ()) for law in self.manifest["laws"] if (law["slot"], law["name"]) == (slot, name))
+        return tuple(next(own, LAWS[slot].get(name, ())))
+
     def extra(self, slot: str, function: str) -> tuple[str, ...]:
         """States and groups that a slot's function takes in addition to the slot's arguments."""
         return tuple(self.manifest["extra"].get(f"{slot}.{function}", ()))
@@ -324,6 +330,11 @@ def _field(one: Mapping[str, Any]) -> Field:
         example = f'"1 {unit}"'
     what = f"the {one['meaning']}" if unit else f"a number ({one['meaning']})"
     return Field(f"{TABLE}.{one['name']}", what, example, interval, unit=unit)
+
+
+def features(package: Package | None, slot: str, name: str) -> tuple[str, ...]:
+    """The features of a law of the library or of a user's model."""
+    return LAWS[slot].get(name, ()) if package is None else package.features(slot, name)
 
 
 def fields(package: Package | None) -> Mapping[str, Field]:

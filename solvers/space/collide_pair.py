@@ -133,9 +133,9 @@ def check_scene(scene: Scene) -> None:
         raise InputError("particles.friction", scene.particles.friction, "a scene without friction", problem)
     if scene.package is not None and scene.package.events:
         raise InputError("model", "declared events", "a model without events", "are of collisions in a plane")
-    if not scene.wall and scene.model.arm != "midgap":
+    if not scene.wall and not scene.law_has("arm", "balanced"):
         problem = "does not conserve the angular momentum of a pair in space"
-        raise InputError("model.arm", scene.model.arm, "midgap", problem)
+        raise InputError("model.arm", scene.model.arm, ", ".join(scene.laws_with("arm", "balanced")), problem)
 
 
 def refusals(pairs: Pairs) -> dict[int, str]:

@@ -133,7 +133,7 @@ def _spun(spins: tuple[float, float], a: float) -> float:
 def ceiling(one: Collision) -> float:
     """Upper limit of e_n^2 if only the bridge dissipates energy; NaN for a lever arm of one's own and with strings."""
     scene = one.scene
-    if one.energy is None or scene.pendulum is not None or scene.model.arm != "midgap":
+    if one.energy is None or scene.pendulum is not None or not scene.law_has("arm", "balanced"):
         return math.nan
     a, m = scene.particles.reduced_radius, scene.particles.reduced_mass
     first, last = 4 + scene.liquid.film_thickness / a, 4 + (one.final_gap or 0.0) / a  # distances over a

@@ -99,7 +99,7 @@ def film_alone(scene: Scene, engine: str, plain: Integrators = plain, collide: C
     critical *= 1 + 1 / max(bare.particles.dry_restitution, 0.2)
     for stokes in np.geomspace(1e-3 * critical, 30 * critical, 60).tolist():
         n = nondimensionalise(bare, bare.speed_of(stokes), 0.0)
-        gap = _rebound(n, bare.model.glass)
+        gap = _rebound(n, bare.law_has("glass", "rim"))
         loss = film_loss(gap) / stokes
         expected = bare.particles.dry_restitution * (1 - loss) - loss
         if gap == 1 or expected < _SMALLEST or bounced == _BOUNCES:
@@ -125,7 +125,7 @@ def _approach(bare: Scene, stokes: float, engine: str, plain: Integrators) -> tu
     return max(errors), place(stokes, 0.0, engine, "approach")
 
 
-def _rebound(n: Problem, glass: str) -> float:
+def _rebound(n: Problem, rim: bool) -> float:
     """The first gap on approach at which a rebound criterion is met, by a scan and bisection of the closed form."""
     stokes, limit = n.groups["stokes"], n.groups["glass_number"]
     contact = contact_gap(n.groups)
@@ -133,8 +133,7 @@ def _rebound(n: Problem, glass: str) -> float:
         return 1.0
 
     def clear(s: float) -> bool:
-        film = 1.0 if glass == "film-corrected" else 0.0
-        return (1 - film_loss(s) / stokes) * (1 / s**2 - film) < limit
+        return (1 - film_loss(s) / stokes) * (1 / s**2 - rim) < limit
 
     outer = 1.0
     if not clear(outer):
@@ -186,7 +185,7 @@ def spin_relaxes(scene: Scene, engine: str, plain: Integrators = plain) -> tuple
     outer, contact = min(edge, 1.0), contact_gap(n.groups)
     for gap in (min(max(part * outer, contact), 0.9 * outer) for part in (0.5, 0.05)):  # as deep as the solids allow
         x = gap * n.length
-        reach = n.length if bare.model.tangential == "film" else 2 * a
+        reach = n.length if bare.law_has("shear", "rim") else 2 * a
         r = 4 * a + x
         # m r domega/dt = -F_t and (16/5) m a^2 dxi/dt = F_t r/2, with F_t = 8 pi mu a^2 (omega - xi) ln(reach/x)
         decay = 8 * math.pi * mu * a**2 * math.log(reach / x) / m * (1 / r + 5 * r / (32 * a**2))

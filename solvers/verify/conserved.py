@@ -35,7 +35,7 @@ def conserved(sample: Sample) -> Iterator[Finding]:
         yield note("angular momentum", statement, "the strings exert a torque: L is not conserved")
     elif drifting:
         figure, worst = _worst(drifting, lambda one: one.angular_momentum_drift)
-        if sample.scene.model.arm == "midgap":
+        if sample.scene.law_has("arm", "balanced"):
             yield bounded("angular momentum", statement, figure, DRIFT, where(worst))
         else:
             yield note("angular momentum", statement, f"drift {figure:.1e}: the arm of the model file", where(worst))

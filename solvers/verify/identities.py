@@ -42,7 +42,7 @@ def symbolic(scene: Scene | None = None, recompute: bool = False) -> Iterator[Fi
 def _computed(chosen: Mapping[str, str]) -> Iterator[Finding]:
     """The findings one by one, each locked against derivations in other threads."""
     from ...derive.checks import symbolic_checks
-    from ...derive.physics.laws import LAWS
+    from ...derive.laws import LAWS
 
     checks = iter(symbolic_checks({slot: LAWS[slot][name] for slot, name in chosen.items() if name in LAWS[slot]}))
     while True:

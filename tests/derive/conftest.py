@@ -13,14 +13,14 @@ import pytest
 from wetdoublet.derive.checks import Check, symbolic_checks
 from wetdoublet.derive.equations.certificates.table import CERTIFICATES
 from wetdoublet.derive.equations.model import Model, derive
-from wetdoublet.derive.physics.laws import LAWS
+from wetdoublet.derive.laws import LAWS
 from wetdoublet.derive.physics.structure import FREE, Structure, structures
 
 from ..helpers.shared import made_once
 
 _ROOT = derive.__module__.rsplit(".", 2)[0]
 # What is remembered of forces and models; mechanics, laws and scaling are functions of their arguments alone.
-_DERIVED = ("physics.forces", "equations", "checks")
+_DERIVED = ("physics.forces", "physics.slots", "equations", "checks")
 
 
 @pytest.fixture(scope="session")

@@ -15,7 +15,8 @@ import sympy as sp
 from wetdoublet.derive.emit.one import structure_text
 from wetdoublet.derive.equations.model import Model, derive
 from wetdoublet.derive.physics.forces import FILM, SHEAR
-from wetdoublet.derive.physics.laws import LAWS, Law, LawFunction, fill
+from wetdoublet.derive.laws import LAWS
+from wetdoublet.derive.physics.law import Law, LawFunction, fill
 from wetdoublet.derive.physics.scaling import group_definitions
 from wetdoublet.derive.physics.structure import Structure, committed, known, structures
 from wetdoublet.derive.vocabulary.quantities import VOCABULARY

@@ -3,8 +3,7 @@
 import itertools
 from collections.abc import Mapping, Sequence
 
-from wetdoublet.solvers.scene.entry_rules import OWN_RUPTURE
-from wetdoublet.solvers.scene.schema import BRIDGE_LAWS
+from wetdoublet.generated.laws import LAWS
 
 Structure = dict[str, str]
 
@@ -18,7 +17,7 @@ CHOICES: dict[str, tuple[str, ...]] = {
     "head-on": ("", "yes"),
 }
 _LAWS: dict[str, tuple[str, ...]] = {
-    "bridge": tuple(BRIDGE_LAWS),
+    "bridge": tuple(LAWS["bridge"]),
     "film": ("finite", "infinite", "cavitating", "constant-volume"),
     "tangential": ("immersed", "film"),
     "glass": ("literal", "film-corrected"),
@@ -73,7 +72,7 @@ def with_laws(structures: Sequence[Structure]) -> list[Structure]:
                 "film": film,
                 "tangential": next(turns["tangential"]) if rim else "immersed",
                 "glass": next(turns["glass"]) if rim else "literal",
-                "rupture": next(turns["rupture"]) if bridge in OWN_RUPTURE else "common",
+                "rupture": next(turns["rupture"]) if "rupture_distance" in LAWS["bridge"].get(bridge, ()) else "common",
                 "friction": next(turns["friction"]) if structure["friction"] else "",
                 "strings": next(turns["strings"]) if structure["strings"] else "",
             }

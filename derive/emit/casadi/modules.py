@@ -3,15 +3,25 @@
 import re
 import textwrap
 from collections.abc import Iterable, Mapping, Sequence
+from pprint import pformat
 
 import sympy as sp
 
 from ...equations.model import Model
 from ...physics.forces import FILM, SHEAR
-from ...physics.laws.base import Law, LawFunction, needed
+from ...physics.law import RANGES, Law, LawFunction, needed
 from ...physics.scaling import first_rates, group_definitions, impact_groups, scale_definitions
-from ...vocabulary.quantities import VOCABULARY, obliquity, obliquity_pair, obliquity_space, obliquity_wall, rate_scale
-from ..provenance import Own, describe, digest, header, law_digest, model_digest
+from ...physics.slots import MIDGAP, place_of
+from ...vocabulary.quantities import (
+    VOCABULARY,
+    gap,
+    obliquity,
+    obliquity_pair,
+    obliquity_space,
+    obliquity_wall,
+    rate_scale,
+)
+from ..provenance import PROVENANCE, Own, describe, digest, header, law_digest, model_digest
 from .printer import Printer
 
 _WIDTH = 110
@@ -45,6 +55,36 @@ def law_module(law: Law) -> str:
     return _module(header(law_digest(law)), doc, ["from typing import Any", "", *_casadi(printer)], body)
 
 
+def features(law: Law) -> tuple[str, ...]:
+    """What rules and engines must know of a law: names of functions that not every law of the slot has, and properties.
+
+    "spread": the rim follows the bridge's volume; "rim": it vanishes where the film ends at initial contact;
+    "balanced": the lever arm at which the film exerts no torque on the doublet.
+    """
+    words = [function.name for function in law.functions if not place_of(law.slot, function.name).required]
+    words += ["spread"] * law.spread
+    if law.slot == "shear":
+        words += ["rim"] * (law["edge"].result == 1)
+    if law.slot == "glass":
+        words += ["rim"] * (law["pressure"].result.subs(gap, 1) == 0)
+    if law.slot == "arm":
+        words += ["balanced"] * (sp.expand(law["lever"].result - MIDGAP["arm"]["lever"].result) == 0)
+    return tuple(words)
+
+
+def laws_module(laws: Mapping[str, Mapping[str, Law]]) -> str:
+    """Text of the module with the names of the laws in each slot, and what rules and engines must know of them."""
+    table = {slot: {name: features(law) for name, law in named.items()} for slot, named in laws.items()}
+    lines = [f"# {PROVENANCE}", f'"""{_LAWS_DOC}"""', "", "LAWS: dict[str, dict[str, tuple[str, ...]]] = ("]
+    return "\n".join([*lines, pformat(table, sort_dicts=False, width=_WIDTH).replace("'", '"'), ")", ""])
+
+
+_LAWS_DOC = """Emitted laws: `<slot>_<name>`, functions of dimensionless arguments. `LAWS` has their names and features.
+
+A feature is a function that not every law of the slot has, or a property.
+"""
+
+
 def _kinks(function: LawFunction, arguments: str, printer: Printer) -> list[str]:
     """What vanishes at a law's kinks, in the order of its `sides`."""
     guards = [kink for kink, _ in function.kinks]
@@ -57,14 +97,14 @@ def _kinks(function: LawFunction, arguments: str, printer: Printer) -> list[str]
 
 def _validity(law: Law) -> list[str]:
     """The constant VALIDITY of a law: quantity to (least, largest), None for no known bound."""
-    known = law.validity
-    if known is None:
+    known = dict(law.validity)
+    if not known:
         return []
     lines = ["", "VALIDITY: dict[str, tuple[float | None, float | None]] = {"]
-    for quantity in ("volume", "contact_angle", "separation"):
-        bounds = ", ".join("None" if bound is None else repr(float(bound)) for bound in getattr(known, quantity))
+    for quantity in RANGES:
+        bounds = ", ".join("None" if x is None else repr(float(x)) for x in known.get(quantity, (None, None)))
         lines.append(f'{_INDENT}"{quantity}": ({bounds}),')
-    return [*lines, "}", f'VALIDITY_SOURCE = "{known.source}"', ""]
+    return [*lines, "}", f'VALIDITY_SOURCE = "{law.source}"', ""]
 
 
 def _casadi(printer: Printer) -> list[str]:

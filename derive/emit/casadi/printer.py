@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterable
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from ...physics.laws.base import is_slot_call
+from ...physics.law import is_slot_call
 
 _ADD, _MUL, _UNARY, _POW, _ATOM = range(5)  # binding strength
 

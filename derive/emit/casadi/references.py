@@ -1,10 +1,9 @@
 """The publications of laws as a Python module, read by `wetdoublet cite`."""
 
-from ...physics.laws import LAWS
-from ...physics.laws.bridge import COMMON
-from ...physics.laws.glass import ELASTIC
-from ...physics.laws.references import PAPER, WALTON, Reference
+from ...laws import LAWS, Law
 from ...physics.partners import PUBLISHED
+from ...physics.references import PAPER, WALTON, Reference
+from ...physics.scaling import COMMON, ELASTIC
 from ..provenance import PROVENANCE
 
 _DOC = "Where the equations and the laws are published."
@@ -14,15 +13,18 @@ _FIELDS = {
 }  # fmt: skip
 
 
+def of_law(law: Law) -> dict[str, tuple[Reference, ...]]:
+    """Publications of a law, and of the rupture distance that it has."""
+    ruptures = (each.references for each in law.functions if each.name == "rupture_distance")
+    return {f"{law.slot} {law.name}": law.references} | {f"rupture {law.name}": published for published in ruptures}
+
+
 def cited() -> dict[str, tuple[Reference, ...]]:
     """Publications by what they describe: the paper, laws by slot and name, and parts that fill no slot."""
     result: dict[str, tuple[Reference, ...]] = {"paper": (PAPER,)}
-    for slot, laws in LAWS.items():
+    for laws in LAWS.values():
         for law in laws.values():
-            result[f"{slot} {law.name}"] = law.references
-            for function in law.functions:
-                if function.name == "rupture_distance":
-                    result[f"rupture {law.name}"] = function.references
+            result |= of_law(law)
     result["rupture common"] = COMMON
     result |= {f"friction {partner}": references for partner, references in PUBLISHED.items()}
     return result | {"elastic length": ELASTIC, "friction contact": (WALTON,)}

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from itertools import groupby
 
 from ...equations.automaton import COMPONENTS, Event
-from ...physics.laws import LAWS, Law
+from ...laws import LAWS, Law
 from ...physics.mechanics import F_c, S_n, S_t
 from ...user.declarations import latex_names, unfolded
 from ...user.own_events import OwnEvent

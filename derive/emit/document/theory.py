@@ -7,16 +7,12 @@ import sympy as sp
 
 from ...equations.automaton import CRITERIA
 from ...equations.events import rebound
-from ...physics import mechanics
+from ...laws import LAWS, Law, fill, slot_calls
+from ...physics import mechanics, scaling
 from ...physics.contact_friction import equal_spheres
 from ...physics.forces import FILM, SHEAR, force_laws
-from ...physics.laws import LAWS, Law, fill
-from ...physics.laws.base import slot_calls
-from ...physics.laws.bridge import rupture_distance
-from ...physics.laws.glass import elastic_compliance, elastic_length
-from ...physics.laws.strings import r as string_distance
-from ...physics.laws.strings import swing_squared
-from ...physics.scaling import LUBRICATION_PRESSURE, group_definitions, initial_rate, start_values
+from ...physics.pendulum import r as string_distance
+from ...physics.pendulum import swing_squared
 from ...vocabulary import quantities as q
 from .latex import latex
 
@@ -87,11 +83,13 @@ def _film(laws: Mapping[str, Law]) -> Iterator[Equation]:
     inside = {FILM: 1, SHEAR: 1}
     # written with the factor 1 - x/x0 instead of x0 - x
     law = laws["film"]
-    resistance, rim = law["resistance"], _rim(law)
-    whole = force_laws(spread=rim is not None)[mechanics.F_n].subs(inside)
+    resistance = law["resistance"]
+    rim = dict(resistance.definitions).get(_RIM) if law.spread else None
+    whole = force_laws(law.spread)[mechanics.F_n].subs(inside)
     (call,) = slot_calls(whole)
     arguments = dict(zip(resistance.arguments, call.args, strict=True))
-    named = resistance.result.subs({**arguments, _RIM: _RIM / q.x0}, simultaneous=True)
+    result = resistance.result if rim is not None else resistance(*resistance.arguments)
+    named = result.subs({**arguments, _RIM: _RIM / q.x0}, simultaneous=True)
     end = q.x0 if rim is None else _RIM
     normal = sp.factor(sp.simplify(whole.xreplace({call: named})))
     normal = normal.subs((q.x - end) ** 2, (end - q.x) ** 2).subs(end - q.x, end * (1 - q.x / end))
@@ -101,18 +99,12 @@ def _film(laws: Mapping[str, Law]) -> Iterator[Equation]:
     edge = sp.simplify(q.x0 * laws["shear"]["edge"](q.x0 / q.a))
     sustains = all(function.name != "suction" for function in law.functions)
     where = _inside(q.x0) + ("; the same on the way in and out" if sustains else "; 0 on the way out")
-    where = where if rim is None else "at any gap, the same on the way in and out"
+    where = "at any gap, the same on the way in and out" if law.spread else where
     yield Equation("Lubrication", latex(mechanics.F_n), normal, where)
     if rim is not None:
         squared = sp.expand((rim**2).subs(arguments, simultaneous=True) * q.x0**2)
         yield Equation("Lubrication", latex(_RIM), sp.sqrt(squared), "rim of the disc that holds the bridge's volume")
     yield Equation("Lubrication", latex(mechanics.F_t), shear, _inside(edge))
-
-
-def _rim(law: Law) -> sp.Expr | None:
-    """The position of the rim over x0, if the law does not have it at x0."""
-    definitions = law["resistance"].definitions
-    return definitions[0][1] if definitions else None
 
 
 def _attraction(laws: Mapping[str, Law]) -> Iterator[Equation]:
@@ -157,25 +149,25 @@ def _strings(laws: Mapping[str, Law]) -> Iterator[Equation]:
 
 
 def _course(laws: Mapping[str, Law]) -> Iterator[Equation]:
-    group, start = "Start, rebound, rupture", start_values()
+    group, start = "Start, rebound, rupture", scaling.start_values()
     # the criterion is scaled with v0: substitute gap and velocity in SI
-    pressure = sp.factor(sp.simplify(LUBRICATION_PRESSURE * laws["glass"]["pressure"](q.gap, -q.normal_velocity)))
-    pressure = sp.factor(pressure.subs({q.gap: q.x / q.x0, q.normal_velocity: q.u / q.v0}, simultaneous=True))
-    length = sp.simplify(elastic_length() * (_COMPLIANCE / elastic_compliance()) ** _TWO_FIFTHS)
+    pressure = scaling.LUBRICATION_PRESSURE * laws["glass"]["pressure"](q.gap, -q.normal_velocity)
+    pressure = sp.factor(sp.factor(sp.simplify(pressure)).subs({q.gap: q.x / q.x0, q.normal_velocity: q.u / q.v0}))
+    length = sp.simplify(scaling.elastic_length() * (_COMPLIANCE / scaling.elastic_compliance()) ** _TWO_FIFTHS)
     cubed = sp.powsimp(sp.expand_power_base(length**5, force=True), force=True)
     yield Equation(group, f"{latex(q.x)}(0)", start[q.x], "initial contact")
     yield Equation(group, f"{latex(q.u)}(0)", start[q.u], "no angle turned yet")
     yield Equation(group, rf"{latex(q.xi)}(0)", start[q.xi], "spin before the collision, 0 if none is given")
-    yield Equation(group, latex(q.omega0), initial_rate())
+    yield Equation(group, latex(q.omega0), scaling.initial_rate())
     printed = {"glass": pressure, "elastic": sp.Pow(sp.sqrt(cubed), _TWO_FIFTHS, evaluate=False)}  # as in the paper
     for number, each in zip(_ROMAN, CRITERIA, strict=False):
-        limit = printed.get(each.word, q.x0 * group_definitions()[q.VOCABULARY[each.limit].symbol])
+        limit = printed.get(each.word, q.x0 * scaling.group_definitions()[q.VOCABULARY[each.limit].symbol])
         yield Equation(group, latex(q.x if each.contact else q.p_gt), limit, f"({number}) {each.name}", r"\leq")
         if limit.has(_COMPLIANCE):
-            yield Equation(group, latex(_COMPLIANCE), elastic_compliance())
+            yield Equation(group, latex(_COMPLIANCE), scaling.elastic_compliance())
     after = rebound((q.normal_velocity,))[q.normal_velocity].subs(q.normal_velocity, q.u)
     yield Equation(group, latex(q.u), after, "if any of these is met", r"\to")
-    yield Equation(group, "x_f", rupture_distance(bridge=True), f"rupture (${latex(q.x0)}$ without a bridge)")
+    yield Equation(group, "x_f", scaling.rupture_distance(), f"rupture (${latex(q.x0)}$ without a bridge)")
 
 
 def _friction(laws: Mapping[str, Law]) -> Iterator[Equation]:
@@ -193,7 +185,7 @@ def _friction(laws: Mapping[str, Law]) -> Iterator[Equation]:
 
 
 def _groups() -> Iterator[Equation]:
-    definitions = group_definitions()
-    rotating = sp.simplify(definitions[q.centrifugal] / initial_rate() ** 2) * q.omega0**2
+    definitions = scaling.group_definitions()
+    rotating = sp.simplify(definitions[q.centrifugal] / scaling.initial_rate() ** 2) * q.omega0**2
     for group in (q.stokes, q.capillary, q.centrifugal):
         yield Equation("Groups", latex(group), rotating if group == q.centrifugal else definitions[group])

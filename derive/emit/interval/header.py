@@ -11,7 +11,7 @@ from ...equations.events import CONTACT_GAPS, contact_gap
 from ...equations.model import Model, without_partner_spin
 from ...equations.observables import excess_energy
 from ...physics.forces import FILM, SHEAR
-from ...physics.laws.base import Definition, Law, needed, slot_call
+from ...physics.law import Definition, Law, needed, slot_call
 from ...physics.scaling import group_definitions
 from ...physics.structure import Structure
 from ...vocabulary import quantities as q

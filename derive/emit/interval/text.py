@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from ...physics.laws.base import is_slot_call
+from ...physics.law import is_slot_call
 from ..casadi.printer import EmissionError
 from ..taylor.program import Program
 

@@ -10,7 +10,7 @@ become derivatives by the groups at its end.
 import sympy as sp
 
 from ...physics.forces import FILM, SHEAR
-from ...physics.laws.base import slot_calls
+from ...physics.law import slot_calls
 from ...vocabulary.quantities import normal_velocity
 from ..casadi.printer import EmissionError
 from .c_text import Text, split_flags

@@ -8,7 +8,7 @@ from collections.abc import Set as AbstractSet
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from ...physics.laws.base import is_slot_call
+from ...physics.law import is_slot_call
 from ..casadi.printer import EmissionError, signed_sum
 from .program import Operation, Program
 

@@ -9,7 +9,7 @@ from ...equations.certificates.pendulum import braking
 from ...equations.certificates.slow_manifold import admits, coefficients
 from ...equations.certificates.table import CERTIFICATES
 from ...equations.model import Model
-from ...physics.laws.base import Definition, needed, slot_calls
+from ...physics.law import Definition, needed, slot_calls
 from ...physics.scaling import DISTANCE
 from ...physics.slots import places
 from ...vocabulary.quantities import gap, stokes

@@ -9,7 +9,7 @@ from collections.abc import Callable, Collection, Sequence
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from ...physics.laws.base import Definition, slot_calls
+from ...physics.law import Definition, slot_calls
 
 Slope = Callable[[AppliedUndef, int], sp.Expr]
 

@@ -4,7 +4,7 @@ import sympy as sp
 
 from ...equations.model import Model
 from ...physics.forces import FILM
-from ...physics.laws.base import slot_calls
+from ...physics.law import slot_calls
 from ...vocabulary.quantities import normal_velocity
 from .c_text import Constants
 from .layout import comment, compiled_if, documented, function

@@ -5,7 +5,7 @@ from collections.abc import Callable, Mapping
 import sympy as sp
 
 from ...equations.model import Model
-from ...physics.laws.base import slot_call
+from ...physics.law import slot_call
 from ...physics.scaling import group_definitions, impact_groups, scale_definitions
 from ...vocabulary import quantities as q
 from .c_text import Text

@@ -9,7 +9,7 @@ from ...equations import friction
 from ...equations.intermediates import LEVER
 from ...equations.model import Model
 from ...physics.forces import FILM, SHEAR
-from ...physics.laws.base import slot_calls
+from ...physics.law import slot_calls
 from ...physics.partners.bodies import CENTRES
 from ...physics.scaling import DISTANCE
 from ...user.own_events import OwnEvent

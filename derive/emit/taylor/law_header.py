@@ -9,7 +9,7 @@ from collections.abc import Set as AbstractSet
 import sympy as sp
 
 from ...equations.model import GROUPS
-from ...physics.laws.base import Definition, Law, LawFunction, needed
+from ...physics.law import Definition, Law, LawFunction, needed
 from ..provenance import header, law_digest
 from .c_text import Constants, Recurrences, Text
 from .layout import comment, documented, function, struct

@@ -6,8 +6,8 @@ from functools import cache
 
 import sympy as sp
 
-from ...physics.laws import LAWS
-from ...physics.laws.base import Law, LawFunction, needed
+from ...physics.law import Law, LawFunction, needed
+from ...physics.slots import place_of
 from ..provenance import header, law_digest
 from .c_text import Constants, Recurrences, Text
 from .chain_rule import Chain
@@ -19,16 +19,13 @@ UNUSED = "unused_"  # prefix of an argument that a law ignores
 
 
 def arguments(slot: str, name: str, count: int, extra: tuple[sp.Symbol, ...] = ()) -> tuple[str, ...]:
-    """Names of a slot function's arguments, from laws with that number of arguments.
+    """Names of a slot function's arguments, of which there are so many.
 
     Arguments:
         extra: additional arguments at the end, passed by a user's model.
     """
-    for law in LAWS[slot].values():
-        for each in law.functions:
-            if each.name == name and len(each.arguments) + len(extra) == count:
-                return tuple(argument.name for argument in (*each.arguments, *extra))
-    raise LookupError(f"no law of {slot} has {name}")
+    spread = count > len(place_of(slot, name).arguments) + len(extra)
+    return tuple(argument.name for argument in (*place_of(slot, name, spread).arguments, *extra))
 
 
 def _by(argument: sp.Symbol) -> str:

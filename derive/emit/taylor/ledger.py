@@ -10,7 +10,7 @@ from typing import Protocol
 import sympy as sp
 
 from ...equations.model import Model
-from ...physics.laws.base import needed
+from ...physics.law import needed
 from ..casadi.printer import EmissionError
 from .c_text import Constants, Recurrences
 from .layout import compiled_if, documented, struct

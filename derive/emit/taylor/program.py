@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from ...physics.laws.base import Definition, is_slot_call, needed
+from ...physics.law import Definition, is_slot_call, needed
 from ..casadi.printer import EmissionError
 
 # Cost of an operation in products of whole series; a square counts one half.

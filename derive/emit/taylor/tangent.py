@@ -12,8 +12,8 @@ import sympy as sp
 
 from ...equations.friction import IMPULSE
 from ...equations.model import Model
-from ...physics.laws import LAWS
-from ...physics.laws.base import Law, filled, slot_calls
+from ...physics.law import Law, filled, slot_calls
+from ...physics.slots import MIDGAP
 from ..casadi.printer import EmissionError
 from ..provenance import header, model_digest
 from .adjoint import Adjoint, contraction
@@ -217,9 +217,7 @@ class Tangent(LinearFlow):
             if "arm" not in self.model.slots:
                 lines += self._directed(name, head, targets, True, doc, moved)
                 continue
-            for arm in LAWS["arm"].values():
-                along = self._directed(name, head, targets, True, doc, moved, {"arm": arm})
-                lines += compiled_if(f"{arm.name.upper()}_ARM", along)
+            lines += compiled_if("MIDGAP_ARM", self._directed(name, head, targets, True, doc, moved, MIDGAP))
         return [*lines, ""]
 
     def _directed(

@@ -21,7 +21,7 @@ liquid in its glassy state.
 
 import sympy as sp
 
-from ...physics.laws.base import Definition
+from ...physics.law import Definition
 from ...physics.structure import Structure
 from ...vocabulary import quantities as q
 from ..events import contact_gap

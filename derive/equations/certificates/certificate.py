@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import sympy as sp
 
-from ...physics.laws.base import Definition
+from ...physics.law import Definition
 from ...physics.structure import Structure
 
 Functions = Iterator[tuple[str, str, Mapping[str, sp.Expr]]]

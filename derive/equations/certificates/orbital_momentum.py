@@ -26,7 +26,7 @@ from dataclasses import replace
 
 import sympy as sp
 
-from ...physics.laws.base import Definition
+from ...physics.law import Definition
 from ...physics.mechanics import doublet_inertia
 from ...physics.scaling import DISTANCE, nondimensional
 from ...physics.structure import Structure

@@ -36,10 +36,9 @@ xi, J and L are never negative.
 import sympy as sp
 
 from ...physics.forces import FILM, scaled_strings
-from ...physics.laws import slot_call
-from ...physics.laws.base import Definition, slot_calls
-from ...physics.laws.strings import offset_squared
+from ...physics.law import Definition, slot_call, slot_calls
 from ...physics.mechanics import doublet_inertia
+from ...physics.pendulum import offset_squared
 from ...physics.scaling import DISTANCE, INERTIA, nondimensional
 from ...physics.structure import Structure
 from ...vocabulary import quantities as q

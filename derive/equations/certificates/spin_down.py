@@ -33,9 +33,9 @@ from dataclasses import replace
 import sympy as sp
 
 from ...physics.forces import SHEAR
-from ...physics.laws import LAWS, slot_call
-from ...physics.laws.base import Definition, filled, slot_calls
+from ...physics.law import Definition, filled, slot_call, slot_calls
 from ...physics.scaling import DISTANCE
+from ...physics.slots import MIDGAP
 from ...physics.structure import Structure
 from ...vocabulary import quantities as q
 from ..events import contact_gap, start
@@ -78,7 +78,7 @@ def decay(structure: Structure, near: sp.Expr, far: sp.Expr, logarithm: sp.Expr)
         for symbol, value in reversed(list(known.items())):
             if symbol not in kept:
                 expression = expression.subs(symbol, value)
-        expression = filled(expression, {"arm": LAWS["arm"]["midgap"]}).subs(SHEAR, 1)
+        expression = filled(expression, MIDGAP).subs(SHEAR, 1)
         return sp.expand(expression.xreplace(dict.fromkeys(slot_calls(expression), logarithm)))
 
     line = opened(named[q.orbital_momentum] / DISTANCE**2).subs(DISTANCE, far)

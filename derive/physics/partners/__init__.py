@@ -4,7 +4,7 @@ Equal spheres have equations of their own. As a pair of ratio 1, the ratios fold
 rates take a tenth more operations (32 to 29, with a bridge 38 to 35) and a product of series more (8 to 7, 9 to 8).
 """
 
-from ..laws.references import GOLDMAN, JEFFREY, Reference
+from ..references import GOLDMAN, JEFFREY, Reference
 from ..structure import Structure
 from . import pair, space, wall
 from .base import Rotation

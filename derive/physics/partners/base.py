@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 
 import sympy as sp
 
-from ..laws.base import Definition
+from ..law import Definition
 
 
 @dataclass(frozen=True)

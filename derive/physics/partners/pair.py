@@ -6,8 +6,7 @@ import sympy as sp
 
 from ...vocabulary import quantities as q
 from ..forces import SHEAR, TANGENTIAL
-from ..laws import slot_call
-from ..laws.base import Definition
+from ..law import Definition, slot_call
 from ..scaling import DISTANCE, INERTIA, nondimensional
 from .base import Rotation, relative_change
 from .bodies import CENTRES, T_1, T_2, F_t, centres, equations_of_motion, inertias, r, radii

@@ -15,8 +15,7 @@ import sympy as sp
 
 from ...vocabulary import quantities as q
 from ..forces import SHEAR, TANGENTIAL
-from ..laws import slot_call
-from ..laws.base import Definition
+from ..law import Definition, slot_call
 from ..scaling import DISTANCE, INERTIA
 from .base import Rotation
 from .bodies import CENTRES, centres, inertias, r, radii

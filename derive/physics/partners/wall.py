@@ -18,8 +18,7 @@ import sympy as sp
 
 from ...vocabulary import quantities as q
 from ..forces import SHEAR
-from ..laws import slot_call
-from ..laws.base import Definition
+from ..law import Definition, slot_call
 from ..scaling import nondimensional
 from .base import Rotation
 from .bodies import CENTRES, T_1, F_t, centres, equations_of_motion, inertias, r, radii

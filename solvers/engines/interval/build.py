@@ -65,7 +65,7 @@ def source(choice: ModelKey, own_rupture: bool, parameters: int) -> str:
     """
     if choice.package is not None:
         raise NotProvable("laws, groups and events of a model file are not enclosed")
-    if choice.law("arm") not in (None, "midgap"):
+    if choice.drifts:
         raise NotProvable("a lever arm that is not at mid-gap is not enclosed")
     slots = [f"{slot}_{name.replace('-', '_')}" for slot, name in choice.laws if slot != "arm"]
     texts = [emitted.header(f"interval/{name}.h") for name in (*(f"laws/{slot}" for slot in slots), choice.structure)]

@@ -96,11 +96,11 @@ def files(variant: Variant, emitted: tuple[str, ...]) -> dict[str, str]:
         "WITH_LEDGER": int(variant.ledger),
         "WITH_TRAJECTORY": int(variant.trajectory),
         "WITH_LIMIT": int(variant.limit),
-        "DRIFTS": int(slots.get("arm", "midgap") != "midgap"),  # the angular momentum
+        "DRIFTS": int(variant.choice.drifts),  # the angular momentum
         "SHOWN": SHOWN_IN_SPACE if variant.space else SHOWN,
         "RESULTS": 1 if variant.backward else len(MORE_RESULTS) + (SHOWN_IN_SPACE if variant.space else SHOWN),
         "MOST_STEPS": MOST_STEPS,
-        "MIDGAP_ARM": int(slots.get("arm") == "midgap"),
+        "MIDGAP_ARM": int("arm" in slots and not variant.choice.drifts),
     }
     kinks = _kinks(emitted)
     settings["READS_SERIES"] |= int(bool(kinks))

@@ -194,7 +194,7 @@ def _each(name: str, each: Result, case: Case) -> list[Issue]:
         )
     if each.more.get("residual", 0.0) > OPEN:
         issues.append(Issue("ledger", (name,), f"{name}'s ledger is open by {each.more['residual']:.1e}"))
-    if case.scene.model.arm == "midgap" and each.more.get("drift", 0.0) > DRIFT:
+    if case.scene.law_has("arm", "balanced") and each.more.get("drift", 0.0) > DRIFT:
         issues.append(Issue("drift", (name,), f"L drifts by {each.more['drift']:.1e} in {name}"))
     return issues
 

@@ -151,7 +151,7 @@ def _ledgers(stress: Stress) -> str:
     figures = {
         "energy residual over the largest term": [more["residual"] for _, more in pairs if "residual" in more],
         "drift of L (midgap arm)": [
-            more["drift"] for one, more in pairs if "drift" in more and one.case.scene.model.arm == "midgap"
+            more["drift"] for one, more in pairs if "drift" in more and one.case.scene.law_has("arm", "balanced")
         ],
         "difference in e_n between engines": [one.error for one in stress.verdicts if one.error is not None],
     }

@@ -9,11 +9,10 @@ from typing import Any
 import numpy as np
 from scipy.stats import qmc
 
+from ....generated.laws import LAWS
 from ...boundaries.boundary import boundary
 from ...errors import InputError
-from ...scene.entry_rules import OWN_RUPTURE
 from ...scene.scene import Scene
-from ...scene.schema import BRIDGE_LAWS, FILM_LAWS
 from .verdict import Case
 
 SEED = 20121
@@ -82,12 +81,13 @@ Model = dict[str, str]
 
 def models(count: int, seed: int) -> Iterator[Model]:
     """Combinations of structure and laws, few enough that several scenes share what an engine builds."""
+    bridges, hung, shears, glasses = (tuple(LAWS[slot]) for slot in ("bridge", "strings", "shear", "glass"))
     for k, point in enumerate(qmc.Halton(_CHOICES, seed=seed + 1).random(count)):
-        bridge = "" if point[0] < 0.25 else BRIDGE_LAWS[int((point[0] - 0.25) / 0.75 * len(BRIDGE_LAWS))]
-        films = FILM_LAWS if bridge else FILM_LAWS[:-1]  # the last has the volume of the bridge
-        film = "finite" if point[5] < 0.55 else films[1 + int((point[5] - 0.55) / 0.45 * (len(films) - 1))]
-        rim = film != "constant-volume"
-        strings = "" if point[1] < 0.75 else "exact" if point[1] < 0.9 else "small-angle"
+        bridge = "" if point[0] < 0.25 else bridges[int((point[0] - 0.25) / 0.75 * len(bridges))]
+        films = [law for law, features in LAWS["film"].items() if bridge or "spread" not in features]
+        film = films[0] if point[5] < 0.55 else films[1 + int((point[5] - 0.55) / 0.45 * (len(films) - 1))]
+        rim = "spread" not in LAWS["film"][film]
+        strings = "" if point[1] < 0.75 else hung[int(point[1] >= 0.9)]
         yield {
             "bridge": bridge,
             "strings": strings,
@@ -96,9 +96,9 @@ def models(count: int, seed: int) -> Iterator[Model]:
             "friction": "" if point[8] < 0.5 else "solid" if point[8] < 0.8 else "all",
             "attraction": "yes" if point[9] < 0.25 else "",
             "film": film,
-            "tangential": "immersed" if point[3] < 0.7 or not rim else "film",
-            "glass": "literal" if point[4] < 0.7 or not rim else "film-corrected",
-            "rupture": "own" if bridge in OWN_RUPTURE and point[10] < 0.2 else "common",
+            "tangential": shears[int(point[3] >= 0.7 and rim)],
+            "glass": glasses[int(point[4] >= 0.7 and rim)],
+            "rupture": "own" if "rupture_distance" in LAWS["bridge"].get(bridge, ()) and point[10] < 0.2 else "common",
             "head-on": "yes" if k % 8 == 3 else "",
         }
 

@@ -24,8 +24,9 @@ from wetdoublet.derive.checks.restitution import ceiling_is_the_published
 from wetdoublet.derive.equations import observables
 from wetdoublet.derive.equations.events import rebound, rebound_loss
 from wetdoublet.derive.equations.intermediates import CENTRIFUGAL_FORCE, intermediates
+from wetdoublet.derive.laws import LAWS
 from wetdoublet.derive.physics import forces
-from wetdoublet.derive.physics.laws import LAWS, Law
+from wetdoublet.derive.physics.law import Law
 from wetdoublet.derive.physics.mechanics import F_c, F_n, F_t, S_t, doublet_inertia
 from wetdoublet.derive.physics.scaling import group_definitions
 from wetdoublet.derive.physics.structure import Structure

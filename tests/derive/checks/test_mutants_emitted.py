@@ -18,7 +18,7 @@ from wetdoublet.derive.checks.restitution import decomposition
 from wetdoublet.derive.equations import events, intermediates, observables
 from wetdoublet.derive.equations.certificates import pendulum
 from wetdoublet.derive.equations.events import rebound_loss
-from wetdoublet.derive.physics.laws import slot_call
+from wetdoublet.derive.physics.law import slot_call
 from wetdoublet.derive.physics.mechanics import F_t
 from wetdoublet.derive.physics.structure import Structure
 from wetdoublet.derive.vocabulary import quantities as q

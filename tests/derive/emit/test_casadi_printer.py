@@ -9,7 +9,7 @@ import sympy as sp
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from wetdoublet.derive.emit.casadi.printer import EmissionError, Printer
-from wetdoublet.derive.physics.laws import slot_call
+from wetdoublet.derive.physics.law import slot_call
 from wetdoublet.derive.user.kinks import KinkError, rounded
 
 x, y, z = sp.symbols("x y z", real=True)

@@ -10,9 +10,9 @@ from wetdoublet.derive.emit.taylor.chain_rule import Chain
 from wetdoublet.derive.emit.taylor.header import Beside
 from wetdoublet.derive.emit.taylor.tangent import tangent_header
 from wetdoublet.derive.equations.model import derive
+from wetdoublet.derive.laws import LAWS
 from wetdoublet.derive.physics.forces import FILM, SHEAR
-from wetdoublet.derive.physics.laws import LAWS
-from wetdoublet.derive.physics.laws.base import Law, fill
+from wetdoublet.derive.physics.law import Law, fill
 from wetdoublet.derive.physics.structure import structures
 
 DRAW = random.Random(3)

@@ -6,10 +6,11 @@ from matplotlib.mathtext import MathTextParser
 from wetdoublet.derive.emit.casadi.printer import EmissionError
 from wetdoublet.derive.emit.document.latex import NAMES, latex
 from wetdoublet.derive.emit.document.theory import theory
+from wetdoublet.derive.laws import LAWS
 from wetdoublet.derive.physics.forces import FILM, SHEAR, force_laws
-from wetdoublet.derive.physics.laws import LAWS, fill
-from wetdoublet.derive.physics.laws.strings import swing_squared
+from wetdoublet.derive.physics.law import fill
 from wetdoublet.derive.physics.mechanics import F_n, F_t, S_n, S_t, doublet_inertia
+from wetdoublet.derive.physics.pendulum import swing_squared
 from wetdoublet.derive.vocabulary import quantities as q
 
 CHOICES = [{slot: name} for slot, laws in LAWS.items() for name in laws]

@@ -6,14 +6,14 @@ import random
 
 import pytest
 from wetdoublet.generated import scaling
-from wetdoublet.solvers.scene.schema import BRIDGE_LAWS
+from wetdoublet.generated.laws import LAWS
 
 from ...helpers.two_bodies import Bodies
 
 pi, sqrt = math.pi, math.sqrt
 
 
-@pytest.mark.parametrize("name", BRIDGE_LAWS)
+@pytest.mark.parametrize("name", LAWS["bridge"])
 def test_bridge_law(name: str):
     """The emitted law is the published fit at 200 random gaps, volumes and angles, to 1e-13 of its value's terms."""
     law, draw = (

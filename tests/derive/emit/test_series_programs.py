@@ -10,7 +10,7 @@ from wetdoublet.derive.emit.taylor.header import structure_header
 from wetdoublet.derive.emit.taylor.law_header import antiderivative, law_header, moves
 from wetdoublet.derive.emit.taylor.program import Program, cheapest
 from wetdoublet.derive.equations.model import derive
-from wetdoublet.derive.physics.laws import LAWS
+from wetdoublet.derive.laws import LAWS
 from wetdoublet.derive.physics.structure import Structure
 
 x, y = sp.symbols("x y", positive=True)

@@ -10,7 +10,7 @@ from wetdoublet.derive.checks.admission import certificate
 from wetdoublet.derive.checks.base import nonnegative
 from wetdoublet.derive.checks.restitution import ceiling
 from wetdoublet.derive.equations.invariants import NoInvariantError, conserved_momentum, invariants
-from wetdoublet.derive.physics.laws import LAWS
+from wetdoublet.derive.laws import LAWS
 from wetdoublet.derive.physics.structure import Structure
 from wetdoublet.derive.vocabulary import quantities as q
 

@@ -5,11 +5,11 @@ import math
 import pytest
 import sympy as sp
 from wetdoublet.derive.equations.model import Model
+from wetdoublet.derive.laws import LAWS, film, glass, shear
+from wetdoublet.derive.physics import pendulum as strings
 from wetdoublet.derive.physics import scaling
 from wetdoublet.derive.physics.forces import FILM, SHEAR, force_laws
-from wetdoublet.derive.physics.laws import LAWS, fill, film, glass, shear, strings
-from wetdoublet.derive.physics.laws.bridge import rupture_distance
-from wetdoublet.derive.physics.laws.glass import elastic_compliance, elastic_length
+from wetdoublet.derive.physics.law import fill
 from wetdoublet.derive.physics.mechanics import (
     F_c,
     F_n,
@@ -23,7 +23,7 @@ from wetdoublet.derive.physics.mechanics import (
     sphere_inertia,
     string_forces,
 )
-from wetdoublet.derive.physics.scaling import start_values
+from wetdoublet.derive.physics.scaling import elastic_compliance, elastic_length, rupture_distance, start_values
 from wetdoublet.derive.vocabulary import quantities as q
 
 a, m, x, u, omega, xi = q.a, q.m, q.x, q.u, q.omega, q.xi
@@ -193,9 +193,8 @@ def test_elastic_length():
 
 
 def test_rupture_distance():
-    """x_f = 2a V^(1/3)(1 + phi/2) with a bridge, x0 without."""
-    assert same(rupture_distance(True), 2 * a * q.volume ** sp.Rational(1, 3) * (1 + q.contact_angle / 2))
-    assert rupture_distance(False) == x0
+    """x_f = 2a V^(1/3)(1 + phi/2) with a bridge."""
+    assert same(rupture_distance(), 2 * a * q.volume ** sp.Rational(1, 3) * (1 + q.contact_angle / 2))
 
 
 def test_start():

@@ -7,8 +7,8 @@ import pytest
 import sympy as sp
 from wetdoublet.derive.checks.user import model_checks
 from wetdoublet.derive.emit.taylor.law_slopes import slopes_header
+from wetdoublet.derive.laws.modelfile import read
 from wetdoublet.derive.user.kinks import WIDTH
-from wetdoublet.derive.user.modelfile import read
 
 from ...helpers.random_laws import random_law
 

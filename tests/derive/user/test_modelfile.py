@@ -9,10 +9,11 @@ from wetdoublet.derive.checks.words import conserved, in_words
 from wetdoublet.derive.emit.compare import same
 from wetdoublet.derive.emit.document.document import document
 from wetdoublet.derive.equations.model import derive
-from wetdoublet.derive.physics.laws import LAWS, fill
+from wetdoublet.derive.laws import LAWS
+from wetdoublet.derive.laws.modelfile import read
+from wetdoublet.derive.physics.law import fill
 from wetdoublet.derive.physics.structure import Structure, structures
 from wetdoublet.derive.user.declarations import ModelFileError
-from wetdoublet.derive.user.modelfile import read
 from wetdoublet.derive.user.template import TEMPLATE
 from wetdoublet.derive.vocabulary.allowed_values import Bounds, BoundsError
 from wetdoublet.derive.vocabulary.dimensions import (
@@ -142,6 +143,12 @@ def _laws(bridge):
     return {slot: next(iter(laws.values())) for slot, laws in LAWS.items()} | {"bridge": bridge}
 
 
+def test_a_rupture_distance_is_a_length_or_a_number_of_radii():
+    """2 a in SI is one radius."""
+    found = [model(f'law("bridge", "mine", force=1, rupture_distance={text})').laws[0] for text in ("2*a", "1")]
+    assert [law["rupture_distance"].result for law in found] == [1, 1]
+
+
 def test_structures_without_the_slot_are_untouched():
     """A bridge law changes no equation of a structure without a bridge."""
     mine = read(Path("mine.py"), TEMPLATE)
@@ -162,6 +169,12 @@ def test_structures_without_the_slot_are_untouched():
         ('law("film", "mine", resistance=mu*a**2/x*sqrt(Abs(u)*v0))', "dissipation: film mine", "u*Abs(u)**(n - 1)"),
         ('law("bridge", "mine", force=1/(h - h))', "dimensions", "zoo"),
         ('law("bridge", "mine", force=log(V - 0.05))', "limits: bridge mine", "volume = 0.001"),
+        ('law("bridge", "mine", force=1 + h, falls=True)', "force falls: mine", "dF/dh = 1"),
+        ('law("film", "mine", resistance=(1 - gap)**2/gap, stopping=1 - gap)', "stopping: mine", "gap"),
+        ('law("film", "mine", resistance=(1 - gap)/gap, braking=log(1/gap))', "braking: mine", "1"),
+        ('law("glass", "mine", pressure=approach/gap**2, reach=approach/glass_number)', "reach of the glass criterion, mine", "approach/glass_number"),  # noqa: E501 # a row
+        ('law("bridge", "mine", force=sqrt(positive(h - 0.05)))', "limits: bridge mine", "is not a finite number"),
+        ('k = quantity("k")\nlaw("bridge", "mine", force=k, rupture_distance=k)', "groups", "may depend on volume, contact_angle only"),  # noqa: E501 # a row
         ('law("arm", "mine", lever=2 + (distance - 4)/3)', "angular momentum: arm mine", "dL/dt"),
         ('law("strings", "mine", rise=offset_squared/2, stiffness=offset_squared)', "potential: strings mine", "left over"),  # noqa: E501 # a row
     ],
@@ -204,6 +217,11 @@ def test_template_says_what_it_is_without_stress():
         ("law('bridge', 'mikami', force=1)", "is a law of the library"),
         ("law('bridge', 'mine', pull=1)", "accepted: the functions force"),
         ("law('bridge', 'mine')", "law bridge mine.force"),
+        ("law('film', 'mine', resistance=1/gap, suction=0.5/gap)", "law film mine.suction"),
+        ("law('bridge', 'mine', force=1, source=5)", "law bridge mine.source"),
+        ("law('bridge', 'mine', force=1, validity={'volume': (0, 'h')})", "(least, largest), a number each, or None"),
+        ("law('bridge', 'mine', force=1, spread=True)", "law bridge mine.spread"),
+        ("law('bridge', 'mine', force=1, validity={'angle': (0, 1)})", "accepted: volume, contact_angle, separation"),
         ("law('bridge', 'mine', force='x')", "a sympy expression"),
         ("k = quantity('viscosity')", "is taken already"),
         ("k = quantity('k', unit='ergs')", "unknown unit 'ergs'"),

@@ -7,8 +7,8 @@ from pathlib import Path
 import casadi
 import pytest
 from wetdoublet.derive.emit.casadi.modules import law_module
+from wetdoublet.derive.laws.modelfile import read
 from wetdoublet.derive.user.declarations import ModelFileError, collecting, event, law, let, quantity
-from wetdoublet.derive.user.modelfile import read
 from wetdoublet.derive.user.names import taken
 from wetdoublet.derive.vocabulary.quantities import VOCABULARY, sigma, x
 

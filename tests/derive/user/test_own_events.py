@@ -6,9 +6,9 @@ import pytest
 import sympy as sp
 from wetdoublet.derive.emit.compare import same
 from wetdoublet.derive.equations.model import derive
+from wetdoublet.derive.laws.modelfile import read
 from wetdoublet.derive.physics.structure import Structure
 from wetdoublet.derive.user.declarations import ModelFileError
-from wetdoublet.derive.user.modelfile import read
 from wetdoublet.derive.user.structures import UserModel
 
 OBLIQUE = Structure(True, True, False)

@@ -6,8 +6,8 @@ import subprocess
 import sys
 
 import pytest
+from wetdoublet.generated.laws import LAWS
 from wetdoublet.solvers import InputError, ModelWarning, Scene, collide_many
-from wetdoublet.solvers.scene.schema import BRIDGE_LAWS
 
 from ...helpers.reference import collide
 
@@ -23,7 +23,7 @@ OWN = {
 }
 
 
-@pytest.mark.parametrize("law", BRIDGE_LAWS)
+@pytest.mark.parametrize("law", LAWS["bridge"])
 def test_own_rupture(law):
     """`own` is the distance that the law's authors give; a law without one says which have."""
     entries = {"bridge.law": law, "bridge.rupture": "own", "bridge.contact_angle": "20 deg"}

@@ -6,7 +6,7 @@ import tomllib
 from pathlib import Path
 
 import pytest
-from wetdoublet.derive.physics.laws import LAWS
+from wetdoublet.derive.laws import LAWS
 from wetdoublet.derive.user.template import TEMPLATE
 from wetdoublet.generated.references import CITED, REFERENCES
 from wetdoublet.solvers import Scene

@@ -8,12 +8,12 @@ from typing import Any
 
 import numpy as np
 import pytest
+from wetdoublet.generated.laws import LAWS
 from wetdoublet.solvers import Scene, boundary, collide, collide_many
 from wetdoublet.solvers.commands.cli import main
 from wetdoublet.solvers.commands.verify import command as verify
 from wetdoublet.solvers.engines.taylor.undecided import CHATTERS
 from wetdoublet.solvers.errors import ComputationError
-from wetdoublet.solvers.scene.schema import FILM_LAWS
 from wetdoublet.solvers.verify.stress import judge as checking
 from wetdoublet.solvers.verify.stress import run as stress_test
 from wetdoublet.solvers.verify.stress.judge import judge
@@ -152,7 +152,7 @@ def test_the_sample_is_the_same_again_and_covers_its_ranges() -> None:
     assert {scene.particles.dry_restitution for scene in drawn} >= {0.0, 1.0}
     assert any(scene.angle == 0 for scene in drawn)
     assert {(scene.wall, scene.pair) for scene in drawn} >= {(True, False), (False, True), (False, False)}
-    assert {scene.model.film for scene in drawn} == set(FILM_LAWS)
+    assert {scene.model.film for scene in drawn} == set(LAWS["film"])
     for part in ("particles.friction", "impact.spin", "impact.partner_spin", "attraction.hamaker"):
         assert {part in dict(scene.given) for scene in drawn} == {True, False}
     beside = [case for case in cases if case.kind == "beside"]

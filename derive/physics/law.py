@@ -33,13 +33,6 @@ class LawFunction:
     references: tuple[Reference, ...] = ()
     kinks: tuple[tuple[sp.Symbol, sp.Symbol], ...] = ()
 
-    def __post_init__(self) -> None:
-        known = set(self.arguments)
-        for symbol, expression in (*self.definitions, (sp.Symbol(self.name), self.result)):
-            if unknown := sorted(map(str, expression.free_symbols - known)):
-                raise ValueError(f"{self.name}: {symbol} uses {unknown}, which no argument or definition gives")
-            known.add(symbol)
-
     def __call__(self, *values: sp.Expr) -> sp.Expr:
         """The closed expression at `values`, all intermediates substituted."""
         expression = self.result
@@ -48,18 +41,10 @@ class LawFunction:
         return expression.subs(dict(zip(self.arguments, values, strict=True)), simultaneous=True)
 
 
-@dataclass(frozen=True)
-class Validity:
-    """The range in which a law was fitted or is valid, according to its source.
-
-    Each is (least, largest), None for no known bound. `volume` is V/R^3, `contact_angle` in rad, `separation` the gap
-    over R.
-    """
-
-    source: str
-    volume: tuple[sp.Expr | None, sp.Expr | None] = (None, None)
-    contact_angle: tuple[sp.Expr | None, sp.Expr | None] = (None, None)
-    separation: tuple[sp.Expr | None, sp.Expr | None] = (None, None)
+Range = tuple[sp.Expr | None, sp.Expr | None]
+"""Least and largest value, None for no known bound."""
+RANGES = ("volume", "contact_angle", "separation")
+"""What a law may have a range of: V/R^3, an angle in rad, and the gap over R."""
 
 
 @dataclass(frozen=True)
@@ -68,8 +53,9 @@ class Law:
 
     Arguments:
         source: its origin, as text.
-        validity: range in which it is valid, if known.
+        validity: ranges for which its source gives it, as far as known.
         references: its publications.
+        spread: of a film, its rim follows the volume of the bridge, so that it acts at any gap.
     """
 
     slot: str
@@ -77,8 +63,9 @@ class Law:
     meaning: str
     source: str
     functions: tuple[LawFunction, ...]
-    validity: Validity | None = None
+    validity: tuple[tuple[str, Range], ...] = ()
     references: tuple[Reference, ...] = ()
+    spread: bool = False
 
     @property
     def module(self) -> str:

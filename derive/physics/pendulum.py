@@ -4,10 +4,8 @@ from functools import cache
 
 import sympy as sp
 
-from ...vocabulary.quantities import a, beta, g, l_s, m, string_ratio
-from ..mechanics import without_sines
-from .base import Law, LawFunction
-from .references import DOUBLETS
+from ..vocabulary.quantities import a, beta, g, l_s, m, string_ratio
+from .mechanics import without_sines
 
 r = sp.Symbol("r", positive=True)  # distance between the centres
 offset_squared = sp.Symbol("offset_squared", nonnegative=True)  # (d/a)^2, d: horizontal displacement of either sphere
@@ -58,23 +56,3 @@ def potential(small_angle: bool) -> sp.Expr:
     """U_s(r, beta) in SI: two spheres, each of mass 2m, lifted by `rise`."""
     swung = {offset_squared: swing_squared() / a**2, string_ratio: l_s / a}
     return 4 * m * g * a * height(small_angle).subs(swung, simultaneous=True)
-
-
-def _law(name: str, small_angle: bool, meaning: str) -> Law:
-    stiffness = sp.simplify(2 * height(small_angle).diff(offset_squared))
-    arguments, doc = (
-        (string_ratio, offset_squared),
-        "Horizontal restoring force over weight and swing d/a: a/sqrt(l^2 - d^2).",
-    )
-    functions = (
-        LawFunction("rise", arguments, rise(small_angle), "Height gained by each sphere over a."),
-        LawFunction("stiffness", arguments, stiffness, doc),
-    )
-    source = f"{DOUBLETS.short}: vertical tension balances the weight"
-    return Law("strings", name, meaning, source, functions, references=(DOUBLETS,))
-
-
-STRINGS = (
-    _law("exact", False, "strings of length l, exact geometry"),
-    _law("small-angle", True, "linearised in the swing: sqrt(l^2 - d^2) -> l"),
-)

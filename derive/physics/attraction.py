@@ -4,9 +4,7 @@ from functools import cache
 
 import sympy as sp
 
-from ...vocabulary.quantities import A_H, a, gap, x, x0
-from .base import Law, LawFunction
-from .references import DERJAGUIN, HAMAKER
+from ..vocabulary.quantities import A_H, a, x
 
 _h = sp.Symbol("h", positive=True)
 
@@ -39,23 +37,3 @@ def van_der_waals_force() -> sp.Expr:
 def van_der_waals_potential() -> sp.Expr:
     """W_w(x) = -A a/(6 x): the potential of `van_der_waals_force`, zero at infinite separation."""
     return -sp.integrate(van_der_waals_force(), (x, x, sp.oo))
-
-
-def _in_gaps(expression: sp.Expr) -> sp.Expr:
-    return expression.subs(x, gap * x0)
-
-
-_FORCE = _in_gaps(van_der_waals_force() / van_der_waals_force().subs(x, x0))
-_POTENTIAL = _in_gaps(van_der_waals_potential() / (van_der_waals_force() * x**2 / x0))
-ATTRACTIONS = (
-    Law(
-        "attraction", "van-der-waals",
-        "van der Waals attraction of nearly touching spheres, neither retarded nor cut off",
-        f"{HAMAKER.short}; {DERJAGUIN.short}",
-        (
-            LawFunction("force", (gap,), _FORCE, "Attraction over A a/(6 x0^2).", falls=True),
-            LawFunction("potential", (gap,), _POTENTIAL, "Potential energy over A a/(6 x0), zero far away."),
-        ),
-        references=(HAMAKER, DERJAGUIN),
-    ),
-)  # fmt: skip

@@ -9,9 +9,14 @@ from functools import cache
 
 import sympy as sp
 
-from ...vocabulary.quantities import a, aspect, gap, mu, omega, x, x0, xi
-from .base import Law, LawFunction
-from .references import ONEILL, Reference
+from ..user import Reference, a, aspect, gap, law, mu, omega, x, x0, xi
+
+ONEILL = Reference(
+    "oneill1970asymmetrical", ("O'Neill, M. E.", "Majumdar, R."),
+    "Asymmetrical slow viscous fluid motions caused by the translation or rotation of two spheres. Part I: The "
+    "determination of exact solutions for any values of the ratio of radii and separation parameters",
+    "Zeitschrift für angewandte Mathematik und Physik", "ZAMP", "21", "164–179", 1970,
+)  # fmt: skip
 
 _h, _outer = sp.symbols("h h_outer", positive=True)
 
@@ -37,19 +42,13 @@ def log_factor(outer: sp.Expr) -> sp.Expr:
     return sp.simplify(scaled.subs(x0, aspect * a))
 
 
-def _law(name: str, outer: sp.Expr, meaning: str, source: str, references: tuple[Reference, ...] = ()) -> Law:
+def _sliding(name: str, outer: sp.Expr, meaning: str, source: str | Reference, remark: str = "") -> None:
     edge = sp.simplify((outer / x0).subs(x0, aspect * a))
-    doc = "Tangential force over 8 pi mu a^2 (omega - xi), inside its edge."
-    functions = (
-        LawFunction("log_factor", (gap, aspect), log_factor(outer), doc, falls=True),
-        LawFunction("edge", (aspect,), edge, "Gap (in film thicknesses) beyond which there is no tangential force."),
-    )
-    return Law("shear", name, meaning, source, functions, references=references)
+    factor = log_factor(outer)
+    law("shear", name, meaning=meaning, source=source, remark=remark, log_factor=factor, edge=edge, falls=True)
 
 
 _IMMERSED = "leading logarithm of nearly touching, fully immersed spheres: cut off at the sphere radius 2a"
 _FILM = "leading logarithm cut off at the rim of the film, x0"
-SHEARS = (
-    _law("immersed", 2 * a, _IMMERSED, f"{ONEILL.short}, without its constant term", (ONEILL,)),
-    _law("film", x0, _FILM, "Couette shear integrated over the wetted disc"),
-)
+_sliding("immersed", 2 * a, _IMMERSED, ONEILL, ", without its constant term")
+_sliding("film", x0, _FILM, "Couette shear integrated over the wetted disc")

@@ -3,8 +3,9 @@
 import traceback
 from pathlib import Path
 
-from .declarations import Declarations, ModelFileError, collecting
-from .structures import UserModel, express
+from ..user.declarations import Declarations, ModelFileError, collecting
+from ..user.structures import UserModel, express
+from . import LAWS
 
 _LARGEST = 1_000_000  # bytes
 _ACCEPTED = "a model file (see `wetdoublet generate --template`)"
@@ -18,7 +19,7 @@ def declared(path: Path, text: str | None = None) -> tuple[str, Declarations]:
     """
     source = _text(path) if text is None else text
     namespace = {"__name__": "wetdoublet_model", "__file__": str(path)}
-    with collecting() as result:
+    with collecting(LAWS) as result:
         try:
             exec(compile(source, str(path), "exec", dont_inherit=True), namespace)  # the warnings are the user's own
         except ModelFileError as error:

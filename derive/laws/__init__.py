@@ -1,0 +1,31 @@
+"""The library's laws, declared as a user's are: one published law or family of laws a file.
+
+`LAWS[slot][name]` has every selectable law. Equations call a law through its slot, so eight bridge laws are eight small
+modules and not eight copies of the equations. Files in this folder are found; `modelfile` reads those of users.
+"""
+
+from importlib import import_module
+from pkgutil import iter_modules
+
+from ..physics.law import Law, LawFunction, fill, filled, is_slot_call, slot_call, slot_calls
+from ..physics.slots import SLOTS
+from ..user.declarations import collecting
+from ..user.structures import express
+
+_FIRST = ("mikami", "mikami_log10", "willett", "lambert", "soulie", "constant")
+"""Files of laws in the order in which lists have them; any other follows by its name."""
+
+
+def _library() -> dict[str, dict[str, Law]]:
+    result: dict[str, dict[str, Law]] = {slot: {} for slot in SLOTS}
+    names = sorted({module.name for module in iter_modules(__path__)} - {"modelfile"})
+    for name in sorted(names, key=lambda name: _FIRST.index(name) if name in _FIRST else len(_FIRST)):
+        with collecting() as declared:
+            import_module(f".{name}", __package__)
+        for law in express(name, "", declared).laws:
+            result[law.slot][law.name] = law
+    return result
+
+
+LAWS = _library()
+__all__ = ["LAWS", "Law", "LawFunction", "fill", "filled", "is_slot_call", "slot_call", "slot_calls"]
