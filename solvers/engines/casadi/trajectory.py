@@ -72,10 +72,9 @@ def stretch(piece: Piece, model: Model, replayed: Replay, p: np.ndarray, plugin:
         start = piece.start[[*range(size), *(size + names.index(name) for name in extras)]]
         flow = replace(piece.flow, extras=extras)
         y = np.column_stack([start, plain(flow, plugin, tolerance, tuple(parts[1:]))(start, p, piece.duration)])
-        units = extra_units(model, extras, p)
-        return y[:size], {
-            name: unit * (row - tolerance.offset) for name, unit, row in zip(extras, units, y[size:], strict=True)
-        }
+        states, units = dict(zip(model.state, y, strict=False)), extra_units(model, extras, p)
+        along = {name: unit * (row - tolerance.offset) for name, unit, row in zip(extras, units, y[size:], strict=True)}
+        return y[:size], {**along, **({"rotation": states["rotation"]} if "rotation" in states else {})}
 
     return Stretch(str(piece.phase), piece.time, piece.duration, sample)
 
@@ -108,7 +107,7 @@ def dataset(
     y, time = np.hstack(columns), np.concatenate(times) * n.time
     along = {
         name: np.concatenate([each[name] for each in integrals])
-        for name in integrals[0]
+        for name in ("rotation", *TAKEN)
         if all(name in each for each in integrals)
     }
     zero = np.zeros(time.size)
