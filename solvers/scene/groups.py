@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 
 from ...generated import scaling
-from ...generated.laws import LAWS
 from ..host import emitted
+from ..host.emitted import LAWS
 from .quantities import Ways, normal_speed, over_equal, quantities
 from .schema import MEETING, Field, Raw
 from .tables import Attraction, Bridge, Impact, Liquid, Model, Particles, Partner, Pendulum
