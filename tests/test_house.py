@@ -12,7 +12,7 @@ from collections.abc import Callable
 from functools import cache
 from pathlib import Path
 
-from wetdoublet.generated.laws import LAWS
+from wetdoublet.solvers.host.emitted import LAWS
 
 ROOT = Path(__file__).resolve().parents[1]
 Graph = dict[str, set[str]]

@@ -47,9 +47,11 @@ def emitted(chosen: tuple[Structure, ...] | None = None) -> Mapping[str, str]:
     Arguments:
         chosen: structures to emit; None for those in `generated/`. Others are derived on first use.
     """
+    named = {slot: {law.name: modules.features(law) for law in laws.values()} for slot, laws in LAWS.items()}
     files = {
         "__init__.py": _package("Emitted CasADi modules: one per structure, laws in `laws`, groups in `scaling`."),
-        "laws/__init__.py": modules.laws_module(LAWS),
+        "laws/__init__.py": _package("Emitted laws: `<slot>_<name>`, functions of dimensionless arguments."),
+        "laws.json": json.dumps(named, indent=1) + "\n",
         "assemble.py": f"# {PROVENANCE}\n{ASSEMBLE}",
         "scaling.py": modules.scaling_module(),
         "automaton.py": automaton_module(),
@@ -87,7 +89,9 @@ def emitted(chosen: tuple[Structure, ...] | None = None) -> Mapping[str, str]:
             headers[f"taylor/tangent/{structure.name}.h"] = tangent_header(model)
         manifest["structures"][structure.name] = model_digest(model)
     files |= with_shared_functions(headers, f"/* {PROVENANCE} */\n")
-    manifest["files"] = {name: sha256(text) for name, text in sorted(files.items()) if name.endswith((".py", ".h"))}
+    manifest["files"] = {
+        name: sha256(text) for name, text in sorted(files.items()) if name.endswith((".py", ".h", ".json"))
+    }
     files["manifest.json"] = json.dumps(manifest, indent=1, sort_keys=True) + "\n"
     return MappingProxyType(dict(sorted(files.items())))
 

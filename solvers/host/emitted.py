@@ -9,7 +9,8 @@ import hashlib
 import json
 import re
 import threading
-from collections.abc import Callable
+from collections import defaultdict
+from collections.abc import Callable, Mapping, Sequence
 from functools import cache
 from importlib import import_module
 from pathlib import Path
@@ -24,6 +25,21 @@ _DERIVE = _FOLDER.with_name("derive")
 _IMPORTED = re.compile(r"^from \.(\w+) import", re.MULTILINE)  # structures whose functions a structure has too
 _INCLUDED = re.compile(r'^#include "(shared/\w+\.h)"\n', re.MULTILINE)
 DERIVING = threading.RLock()  # sympy is not thread-safe
+
+
+def _laws() -> Mapping[str, Mapping[str, Sequence[str]]]:
+    """The laws of the library by slot and name, with their features: functions that others lack, and properties.
+
+    There are none where this file is missing or broken, so that `generate` can write it.
+    """
+    try:
+        table: dict[str, dict[str, list[str]]] = json.loads((_FOLDER / "laws.json").read_bytes())
+    except (OSError, ValueError):
+        return defaultdict(dict)
+    return table
+
+
+LAWS = _laws()
 
 
 @cache
@@ -54,7 +70,7 @@ def module(name: str) -> ModuleType:
     path = name.replace(".", "/") + ".py"
     if not committed(path):
         return executed(f"{_PACKAGE}.{name}", text(name).encode())
-    for each in (path, "assemble.py", "scaling.py", "automaton.py", "laws/__init__.py"):
+    for each in (path, "assemble.py", "scaling.py", "automaton.py", "laws.json"):
         _verified(each)
     for home in _IMPORTED.findall((_FOLDER / path).read_text(encoding="utf-8")):
         _verified(f"{home}.py")

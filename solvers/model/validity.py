@@ -15,8 +15,8 @@ from typing import Any
 import numpy as np
 
 from ...generated.automaton import BOUNCE, OUTCOMES
-from ...generated.laws import LAWS
 from ..errors import ModelWarning
+from ..host.emitted import LAWS
 from ..scene.contact import GAPS, NEVER_MET
 from ..scene.groups import formulas, law_module, si_values
 from ..scene.scene import Scene

@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 
 from ...generated import scaling
-from ...generated.laws import LAWS
 from ..errors import InputError
 from ..host import emitted
+from ..host.emitted import LAWS
 from .contact import GAPS
 from .quantities import Ways, normal_speed, over_equal, quantities
 from .schema import MEETING, Field, Raw

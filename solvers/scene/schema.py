@@ -7,8 +7,8 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from numbers import Real
 
-from ...generated.laws import LAWS
 from ..errors import InputError, did_you_mean
+from ..host.emitted import LAWS
 from . import units
 
 Raw = float | int | str

@@ -17,10 +17,9 @@ from pathlib import Path
 from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
-from ...generated.laws import LAWS
 from ..errors import InputError, did_you_mean
 from ..host import bounded
-from ..host.emitted import derived_once, executed
+from ..host.emitted import LAWS, derived_once, executed
 from .schema import FIELDS, TABLES, Field, Range, Raw
 
 if TYPE_CHECKING:
@@ -334,7 +333,7 @@ def _field(one: Mapping[str, Any]) -> Field:
 
 def features(package: Package | None, slot: str, name: str) -> tuple[str, ...]:
     """The features of a law of the library or of a user's model."""
-    return LAWS[slot].get(name, ()) if package is None else package.features(slot, name)
+    return tuple(LAWS[slot].get(name, ())) if package is None else package.features(slot, name)
 
 
 def fields(package: Package | None) -> Mapping[str, Field]:

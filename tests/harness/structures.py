@@ -3,7 +3,7 @@
 import itertools
 from collections.abc import Mapping, Sequence
 
-from wetdoublet.generated.laws import LAWS
+from wetdoublet.solvers.host.emitted import LAWS
 
 Structure = dict[str, str]
 

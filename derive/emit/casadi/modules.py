@@ -3,7 +3,6 @@
 import re
 import textwrap
 from collections.abc import Iterable, Mapping, Sequence
-from pprint import pformat
 
 import sympy as sp
 
@@ -21,7 +20,7 @@ from ...vocabulary.quantities import (
     obliquity_wall,
     rate_scale,
 )
-from ..provenance import PROVENANCE, Own, describe, digest, header, law_digest, model_digest
+from ..provenance import Own, describe, digest, header, law_digest, model_digest
 from .printer import Printer
 
 _WIDTH = 110
@@ -70,19 +69,6 @@ def features(law: Law) -> tuple[str, ...]:
     if law.slot == "arm":
         words += ["balanced"] * (sp.expand(law["lever"].result - MIDGAP["arm"]["lever"].result) == 0)
     return tuple(words)
-
-
-def laws_module(laws: Mapping[str, Mapping[str, Law]]) -> str:
-    """Text of the module with the names of the laws in each slot, and what rules and engines must know of them."""
-    table = {slot: {name: features(law) for name, law in named.items()} for slot, named in laws.items()}
-    lines = [f"# {PROVENANCE}", f'"""{_LAWS_DOC}"""', "", "LAWS: dict[str, dict[str, tuple[str, ...]]] = ("]
-    return "\n".join([*lines, pformat(table, sort_dicts=False, width=_WIDTH).replace("'", '"'), ")", ""])
-
-
-_LAWS_DOC = """Emitted laws: `<slot>_<name>`, functions of dimensionless arguments. `LAWS` has their names and features.
-
-A feature is a function that not every law of the slot has, or a property.
-"""
 
 
 def _kinks(function: LawFunction, arguments: str, printer: Printer) -> list[str]:

@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 from scipy.stats import qmc
 
-from ....generated.laws import LAWS
 from ...boundaries.boundary import boundary
 from ...errors import InputError
+from ...host.emitted import LAWS
 from ...scene.scene import Scene
 from .verdict import Case
 

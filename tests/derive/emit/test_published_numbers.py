@@ -6,7 +6,7 @@ import random
 
 import pytest
 from wetdoublet.generated import scaling
-from wetdoublet.generated.laws import LAWS
+from wetdoublet.solvers.host.emitted import LAWS
 
 from ...helpers.two_bodies import Bodies
 

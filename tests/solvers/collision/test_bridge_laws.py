@@ -6,8 +6,8 @@ import subprocess
 import sys
 
 import pytest
-from wetdoublet.generated.laws import LAWS
 from wetdoublet.solvers import InputError, ModelWarning, Scene, collide_many
+from wetdoublet.solvers.host.emitted import LAWS
 
 from ...helpers.reference import collide
 

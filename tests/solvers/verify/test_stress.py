@@ -8,12 +8,12 @@ from typing import Any
 
 import numpy as np
 import pytest
-from wetdoublet.generated.laws import LAWS
 from wetdoublet.solvers import Scene, boundary, collide, collide_many
 from wetdoublet.solvers.commands.cli import main
 from wetdoublet.solvers.commands.verify import command as verify
 from wetdoublet.solvers.engines.taylor.undecided import CHATTERS
 from wetdoublet.solvers.errors import ComputationError
+from wetdoublet.solvers.host.emitted import LAWS
 from wetdoublet.solvers.verify.stress import judge as checking
 from wetdoublet.solvers.verify.stress import run as stress_test
 from wetdoublet.solvers.verify.stress.judge import judge
