@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 import wetdoublet as wd
 
+pytestmark = pytest.mark.slow
 ROOT = Path(__file__).resolve().parents[2]
 
 

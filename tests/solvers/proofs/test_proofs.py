@@ -123,6 +123,7 @@ def test_a_part_of_a_box_may_rebound_at_initial_contact() -> None:
     assert low < above.restitution < high
 
 
+@pytest.mark.slow
 def test_cells_from_head_on_impacts_on_hold_both() -> None:
     """From 0 deg on: sticks and bounces on either side of the film's limit, head-on and at up to 2 deg."""
     scene = Scene.load("granulation")
