@@ -71,12 +71,20 @@ class Intermediate:
 Source = str | Reference | tuple[Reference, ...]
 
 
+_PUBLICATION = 'authors as ("Family, Initials", ...), the year as a whole number, all else as text'
+
+
 def published(source: Source, remark: str = "") -> tuple[Any, tuple[Reference, ...]]:
     """A source in words, and its publications."""
     named = source if isinstance(source, tuple) else (source,)
     publications = tuple(each for each in named if isinstance(each, Reference))
     if publications != named:
         return source + remark if isinstance(source, str) else source, ()  # what is no text is refused as one
+    for one in publications:
+        texts = [one.key, one.title, one.journal, one.abbreviated, one.volume, one.pages, one.doi]
+        authors = one.authors if isinstance(one.authors, tuple) and one.authors else (None,)
+        if not all(isinstance(part, str) for part in (*texts, *authors)) or not isinstance(one.year, int):
+            raise ModelFileError("source", one, _PUBLICATION, "has a part of another kind")
     return "; ".join(each.short for each in publications) + remark, publications
 
 
@@ -268,14 +276,24 @@ def law(
     if bibtex and not _BIBTEX.fullmatch(bibtex):
         raise ModelFileError(f"{label}.bibtex", bibtex, "an entry such as @article{key, author = {...}, ...}")
     meaning, origin = meaning or f"{name}, a user's law", origin or "no source given"
+    if not isinstance(validity, Mapping | None):
+        raise ModelFileError(f"{label}.validity", validity, "ranges by name: " + ", ".join(RANGES), "is no mapping")
     for quantity, ends in (validity or {}).items():
         if quantity not in RANGES:
             raise ModelFileError(f"{label}.validity", quantity, ", ".join(RANGES), "has no range")
-        if len(ends) != 2 or not all(end is None or sp.sympify(end).is_number for end in ends):
+        if not _is_range(ends):
             raise ModelFileError(f"{label}.validity", ends, "(least, largest), a number each, or None")
     valid = tuple((name, validity[name]) for name in RANGES if validity and name in validity)
     declared = Law(slot, name, meaning, origin, (), valid, references, spread)
     there.laws[slot, name] = Proposed(declared, formulas, tuple(accept), bibtex, falls)
+
+
+def _is_range(ends: object) -> bool:
+    """Whether these are two ends, finite numbers or None, of which the first is below the second."""
+    if not isinstance(ends, tuple | list) or len(ends) != 2:
+        return False
+    known = [sp.sympify(end) for end in ends if end is not None]
+    return all(end.is_number and end.is_finite for end in known) and (len(known) < 2 or bool(known[0] < known[1]))
 
 
 def _formula(label: str, value: object) -> Formula:

@@ -40,10 +40,12 @@ def command(
     is_number = name in known and not (known[name].choices or known[name].flag)
     within = texts.span(known[name], span, "--free") if is_number else (0.0, 1.0)  # `solve` says what may be free
 
+    from ..host.arguments import check_name
     from ..results import DEFINITIONS
-    from ..sensitivity.solve import solve
+    from ..sensitivity.solve import TARGETS, solve
 
-    if of in DEFINITIONS and DEFINITIONS[of].unit == "rad" and units.is_number(value):
+    check_name(of, TARGETS, "--for")  # a name that is no result may be an argument of `solve`
+    if DEFINITIONS[of].unit == "rad" and units.is_number(value):
         value = f"{value} deg"
     chosen: dict[str, Any] = {**request.impact, **passed(hold=request.hold, rtol=rtol), of: value}
     output.show(solve(scene, free=name, within=within, **chosen))

@@ -17,7 +17,7 @@ from ..collision.text import name_of
 from ..engines.casadi.replay import Stopped, replayed
 from ..engines.casadi.sequence import PhaseRun
 from ..engines.casadi.watch import guards
-from ..engines.settings import check_rtol
+from ..engines.settings import UNTIL, check_rtol
 from ..model.dimensionless import nondimensionalise
 from ..model.model import Model, load, select_model
 from ..model.phases import Flow, expressions
@@ -127,7 +127,7 @@ def equations(
     scene: Scene | str | FilePath,
     model: str | FilePath | None = None,
     *,
-    until: float | None = None,
+    until: float | str | None = None,
     rtol: float = 1e-10,
 ) -> Equations:
     """The equations of a scene's model as plain CasADi functions, and the order of phases of its collision.
@@ -138,7 +138,7 @@ def equations(
     Arguments:
         scene: a Scene, a path to a scene file, or a preset's name, with an impact.
         model: a user's model, as for `Scene.load`.
-        until: time (s) up to which a stick is followed on.
+        until: time up to which a stick is followed on; s, or a string with its unit.
         rtol: relative tolerance of durations and states.
 
     Raises:
@@ -152,12 +152,13 @@ def equations(
         True
     """
     loaded, rtol = Scene.load(scene, model), check_rtol(rtol)
+    end = None if until is None else UNTIL.number(until)
     v0, theta0 = loaded.need_impact()
     problem = nondimensionalise(loaded, v0, theta0)
     choice = select_model(loaded, problem.oblique, full=True)
     built = load(choice)
     try:
-        path, replay = replayed(partial(sequence_of, problem, until=until), choice, (), _ENGINE, rtol)
+        path, replay = replayed(partial(sequence_of, problem, until=end), choice, (), _ENGINE, rtol)
     except Stopped as stopped:
         raise problem.in_si(stopped.error(_ENGINE, built)) from None
     kind = kind_of(loaded, held_quantity(loaded, None))

@@ -106,8 +106,8 @@ class Solutions(list[float]):
         lines += [f"  {each.value:.10g} {unit}".rstrip() + f"  {each.outcome}" for each in self.found]
         lines += [f"  all along from {low:.6g} to {high:.6g} {unit}".rstrip() for low, high in self.throughout]
         if len(lines) == 1:
-            others = self.attained and "collisions there have {:.6g} to {:.6g}".format(*self.attained)
-            lines.append(f"  none: no {span} has it; {others or 'all stick'}")
+            others = self.attained and "; collisions there have {:.6g} to {:.6g}".format(*self.attained)
+            lines.append(f"  none: no {span} has it{others or ''}")
         lines += [f"  jumped over at {each}" for each in self.jumps]
         lines += [f"  no derivatives at {each.value:.6g}: {each.reason}" for each in self.found if each.reason]
         lines += [f"  {text}" for text in self.remarks]

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from pathlib import Path as FilePath
 from typing import Any
@@ -18,10 +17,9 @@ from ..errors import ComputationError, InputError, WetDoubletError
 from ..host.arguments import check_name
 from ..many.collide_many import collide_many
 from ..results import DEFINITIONS, DIFFERENTIATED, INTEGRATED, OF_IMPACT, REVERSALS
-from ..scene import units
 from ..scene.held import held_quantity
 from ..scene.scene import Scene
-from ..scene.schema import MEETING, SPEEDS
+from ..scene.schema import ANY, MEETING, SPEEDS, Field
 from .parameters import check_wrt
 from .sensitivities import sensitivities
 from .solutions import Jump, Question, Solution, Solutions
@@ -96,7 +94,7 @@ def solve(
         if clashes and number is not None:
             raise InputError(each, number, f"{each} left out, where {free} is free", "is given together with free")
     loaded = loaded.with_impact(**given)
-    (entry,) = check_wrt(loaded, free, "free")
+    (entry,) = check_wrt(loaded, (free,), "free")
     if not isinstance(within, (tuple, list)) or len(within) != 2:
         raise InputError("within", within, "the lowest and the highest value, (LO, HI)", "is not a pair")
     low, high = (loaded.si_number(entry, end, "within") for end in within)
@@ -114,14 +112,8 @@ def _target(target: Mapping[str, Any]) -> tuple[str, float]:
         raise InputError("target", ", ".join(target) or None, "one result with its value, as restitution=0.5")
     ((name, raw),) = target.items()
     unit = DEFINITIONS[check_name(name, TARGETS, "target")].unit
-    accepted = f"a number{f' with its unit, {unit}' if unit != '1' else ''}"
-    try:
-        measured = isinstance(raw, str) and not units.is_number(raw)
-        value = units.quantity(str(raw), unit, name, accepted) if measured else float(raw)
-    except (TypeError, ValueError):
-        raise InputError(name, raw, accepted) from None
-    if not math.isfinite(value):
-        raise InputError(name, raw, accepted, "is not finite")
+    ratio = unit == "1"
+    value = Field(name, "a value", "0.5" if ratio else f'"1 {unit}"', ANY, unit=None if ratio else unit).number(raw)
     if name == "restitution" and value <= 0:
         raise InputError(name, raw, "a number above 0; where sticking ends is a `boundary`", "is that of all sticks")
     return name, value
@@ -182,6 +174,9 @@ class Search(Question):
             elif not roots or root - roots[-1] > _SAME:
                 roots.append(root)
         remarks = [f"{known.size - place.size} samples could not be computed and are passed over"] * (not known.all())
+        if not defined.size:
+            stuck = bool((label // _SIDES // _KINDS == OUTCOMES.index(STICK)).all())
+            remarks.append("all stick" if stuck else f"no collision of this scene has {DEFINITIONS[self.of].label}")
         if not (alike.all() or roots):
             remarks.append(f"beside a change of outcome nothing is resolved within {_CHANGED:g} of the range")
         return Solutions(

@@ -220,6 +220,18 @@ def test_template_says_what_it_is_without_stress():
         ("law('film', 'mine', resistance=1/gap, suction=0.5/gap)", "law film mine.suction"),
         ("law('bridge', 'mine', force=1, source=5)", "law bridge mine.source"),
         ("law('bridge', 'mine', force=1, validity={'volume': (0, 'h')})", "(least, largest), a number each, or None"),
+        ("law('bridge', 'mine', force=1, validity={'volume': (1, 0.1)})", "(least, largest), a number each, or None"),
+        ("law('bridge', 'mine', force=1, validity={'volume': 3})", "(least, largest), a number each, or None"),
+        ("law('bridge', 'mine', force=1, validity={'volume': (float('nan'), 1)})", "(least, largest), a number each"),
+        ("law('bridge', 'mine', force=1, validity=3)", "law bridge mine.validity"),
+        (
+            "law('bridge', 'mine', force=1, source=Reference('k', 'Me, A.', *'tjavp', 2024))",
+            '("Family, Initials", ...)',
+        ),
+        (
+            "law('bridge', 'mine', force=1, source=Reference('k', ('Me, A.',), *'tja', 3, 'p', 2024))",
+            "all else as text",
+        ),
         ("law('bridge', 'mine', force=1, spread=True)", "law bridge mine.spread"),
         ("law('bridge', 'mine', force=1, validity={'angle': (0, 1)})", "accepted: volume, contact_angle, separation"),
         ("law('bridge', 'mine', force='x')", "a sympy expression"),

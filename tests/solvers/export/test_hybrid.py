@@ -36,13 +36,20 @@ def test_a_stick_has_phases_up_to_where_it_is_certain():
     """None where that is initial contact; `until` follows it on; the last phase of a stick has no event."""
     scene = Scene.load("granulation").with_impact(stokes=0.012, angle="50 deg")
     assert equations(scene).phases == () and "certain at initial contact" in str(equations(scene))
-    found = equations(scene, until=1e-3)
+    found = equations(scene, until="1 ms")
     assert found.outcome == "stick"
     assert sum(phase.duration for phase in found.phases) * found.scales["time"] == pytest.approx(1e-3)
     last = len(found.phases) - 1
     assert found.phases[-1].event == "" and f"event_{last}" not in found.functions
     with pytest.raises(InputError, match=r"impact\.angle"):
         equations(Scene.from_toml(Scene.load("granulation").to_toml().replace('angle = "60 deg"', "")))
+
+
+@pytest.mark.parametrize("until", [-1.0, float("nan"), "1 m"])
+def test_a_time_that_is_none_is_refused(until):
+    """Also where the collision would not need it."""
+    with pytest.raises(InputError, match="^until"):
+        equations("granulation", until=until)
 
 
 @pytest.mark.slow

@@ -138,7 +138,13 @@ def test_the_command():
     ):  # fmt: skip
         wrong = run(*arguments, "--free", option)
         assert wrong.exit_code == 2 and wrong.stderr.startswith(message)
-    for target, message in (("restituton=1", "--for"), ("restitution=0", "restitution"), ("restitution", "--for")):
+    for target, message in (
+        ("restituton=1", "--for"),
+        ("restitution=0", "restitution"),
+        ("restitution", "--for"),
+        ("free=1", "--for"),
+        ("stokes=0.1", "--for"),
+    ):
         wrong = run(*arguments[:-1], target, "--free", "liquid.viscosity=0.5:5 Pa s")
         assert wrong.exit_code == 2 and wrong.stderr.startswith(message), wrong.stderr
     again = pickle.loads(pickle.dumps(solve(GRANULATION, **FREE, restitution=0.5)))
@@ -156,6 +162,8 @@ def test_the_command():
         ({"restitution": "half"}, "restitution"),
         ({"contact_time": "5 Pa"}, "contact_time"),
         ({"contact_time": math.inf}, "contact_time"),
+        ({"restitution": True}, "restitution"),
+        ({"restitution": 0.5, "free": None}, "free"),
         ({"restitution": 0.5, "free": "bridge.law"}, "free"),
     ],
 )
@@ -169,3 +177,20 @@ def test_a_range_that_is_forgotten():
     """Python names the missing argument; the result, which is no argument by name, is not called wrong."""
     with pytest.raises(TypeError, match="within"):
         solve(GRANULATION, free="liquid.viscosity", restitution=0.5)
+
+
+@pytest.mark.parametrize(
+    ("of", "stokes", "text"),
+    [("energy.attraction", 0.13, "no collision of this scene has"), ("rotation", 0.01, "all stick")],
+)
+def test_a_result_that_no_collision_has_is_said(of, stokes, text):
+    """A scene without attraction has no work of it, though it bounces; sticks have no rotation."""
+    none = solve(GRANULATION, **{of: 1.0}, free="liquid.viscosity", within=(2.0, 3.0), stokes=stokes)
+    assert not none and none.attained is None and text in str(none)
+
+
+def test_a_value_may_carry_its_unit():
+    """As wherever a number is taken."""
+    pint = pytest.importorskip("pint")
+    angle = pint.UnitRegistry().Quantity(3.0, "deg")
+    assert solve(GRANULATION, **FREE, rotation=angle) == solve(GRANULATION, **FREE, rotation="3 deg")
