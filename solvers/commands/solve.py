@@ -3,6 +3,7 @@
 from typing import Any
 
 from ..errors import InputError
+from ..host.arguments import check_name
 from ..scene import units
 from ..scene.user_model import fields
 from . import options, texts
@@ -41,9 +42,10 @@ def command(
     within = texts.span(known[name], span, "--free") if is_number else (0.0, 1.0)  # `solve` says what may be free
 
     from ..results import DEFINITIONS
-    from ..sensitivity.solve import solve
+    from ..sensitivity.solve import TARGETS, solve
 
-    if of in DEFINITIONS and DEFINITIONS[of].unit == "rad" and units.is_number(value):
+    check_name(of, TARGETS, "--for")  # `free`, `angle`, ... are arguments of `solve`, and no results
+    if DEFINITIONS[of].unit == "rad" and units.is_number(value):
         value = f"{value} deg"
     chosen: dict[str, Any] = {**request.impact, **passed(hold=request.hold, rtol=rtol), of: value}
     output.show(solve(scene, free=name, within=within, **chosen))

@@ -138,7 +138,10 @@ def test_the_command():
     ):  # fmt: skip
         wrong = run(*arguments, "--free", option)
         assert wrong.exit_code == 2 and wrong.stderr.startswith(message)
-    for target, message in (("restituton=1", "--for"), ("restitution=0", "restitution"), ("restitution", "--for")):
+    for target, message in (
+        ("restituton=1", "--for"), ("restitution=0", "restitution"), ("restitution", "--for"), ("free=1", "--for"),
+        ("angle=1", "--for"),
+    ):  # fmt: skip
         wrong = run(*arguments[:-1], target, "--free", "liquid.viscosity=0.5:5 Pa s")
         assert wrong.exit_code == 2 and wrong.stderr.startswith(message), wrong.stderr
     again = pickle.loads(pickle.dumps(solve(GRANULATION, **FREE, restitution=0.5)))
