@@ -21,7 +21,6 @@ from .base import MIDGAP, Check, Evidence, check, checks, checks_of, positive, r
 
 _HERE = 4 + q.aspect * q.gap
 _HALF = sp.Symbol("half_angle_sine", nonnegative=True)  # sin(beta/2), which grows with beta up to half a turn
-_BEYOND = sp.Symbol("beyond", nonnegative=True)  # a quantity minus its least value
 
 
 def _model() -> Model:

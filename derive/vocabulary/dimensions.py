@@ -57,7 +57,7 @@ ONE = Dimension()
 MASS, LENGTH, TIME = Dimension(mass=Fraction(1)), Dimension(length=Fraction(1)), Dimension(time=Fraction(1))
 SPEED, RATE = LENGTH / TIME, TIME**-1
 FORCE = MASS * LENGTH / TIME**2
-PRESSURE, ENERGY, TORQUE = FORCE / LENGTH**2, FORCE * LENGTH, FORCE * LENGTH
+PRESSURE, ENERGY = FORCE / LENGTH**2, FORCE * LENGTH
 
 
 class DimensionError(ValueError):

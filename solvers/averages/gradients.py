@@ -61,9 +61,12 @@ def _add_limits(
     """Add what the changes contribute by their motion; to the error the contributions of those not followed."""
     k = np.flatnonzero(parts.low > 0)
     line, angle, width = parts.line[k], parts.low[k], parts.width[k]
-    sides = (np.clip(angle + side * (_BESIDE + width), 0, RIGHT_ANGLE) for side in (-1, 1))
-    below, above = (collide(experiment, pair[line], speed[line], at) for at in sides)
-    jump = _integrands(below) - _integrands(above)
+    below, above, below_far, above_far = (
+        collide(experiment, pair[line], speed[line], np.clip(angle + side * far * (_BESIDE + width), 0, RIGHT_ANGLE))
+        for far in (1, 4)
+        for side in (-1, 1)
+    )
+    jump = _limit(below, below_far) - _limit(above, above_far)
     use = np.abs(jump).max(axis=1, initial=0.0) > _SAME
     if not use.any():
         return
@@ -79,6 +82,15 @@ def _add_limits(
     moved = np.sin(2 * angle)[:, None] * jump
     np.add.at(total, line, moved[:, :, None] * np.nan_to_num(by_free)[:, None])
     np.add.at(error, line, np.abs(moved)[:, :, None] * (np.isnan(by_free) * steepest)[:, None])
+
+
+def _limit(near: Collided, far: Collided) -> np.ndarray:
+    """The integrands at a change, from two distances to it, one four times the other: results begin as a square root.
+
+    At the nearer distance alone they would be off by 1e-4 of what they change by within a rad.
+    """
+    at, alike = _integrands(near), (near.label == far.label)[:, None]
+    return np.where(alike, 2 * at - _integrands(far), at)
 
 
 def _integrands(collided: Collided) -> np.ndarray:

@@ -41,7 +41,6 @@ FORMULAS = {  # the terms: in words, and as a formula
     "own_events": ("declared events", f"-2 D{_OVER}, D taken by their jumps"),
     "residual": ("residual", "the error of the integration"),
 }
-TURNING = ("rigid_rotation", "slip", "sliding")
 NONE = "no budget of e_n^2 - 1: a stick never separates, so that it has no e_n"
 _LABEL = 24
 

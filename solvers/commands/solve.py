@@ -3,6 +3,7 @@
 from typing import Any
 
 from ..errors import InputError
+from ..host.arguments import check_name
 from ..scene import units
 from ..scene.user_model import fields
 from . import options, texts

@@ -9,7 +9,6 @@ from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any
 
-from .compiled import FLAGS
 from .compiler import compiler
 from .cores import usable_cores
 
@@ -40,7 +39,7 @@ def environment() -> dict[str, Any]:
         "load": list(os.getloadavg()) if hasattr(os, "getloadavg") else None,
         "system": platform.platform(),
         "python": platform.python_version(),
-        "compiler": f"{working.version}, {' '.join(FLAGS)}" if working else None,
+        "compiler": str(working.version) if working else None,
         **{name: _version(name) for name in _PACKAGES},
     }
 

@@ -119,6 +119,29 @@ def test_the_probability_moves_with_the_boundary() -> None:
     )
 
 
+def test_a_jump_that_begins_as_a_square_root_moves_with_its_change() -> None:
+    """Where the glass criterion is just met, e_n leaves its limit as a square root: the jump is that of the limits.
+
+    Values 2e-8 rad beside the change were off by 2.4e-4 of the derivative. The difference is off by 1e-5 or less, as
+    changes are enclosed to 1e-8 rad.
+    """
+    entry, speed, step = "liquid.film_thickness", 4.0, 1e-3
+    found = collision_averages("granulation", speeds=speed, wrt=[entry])
+    scene = Scene.load("granulation")
+    size = float(scene.entries[entry])
+
+    def difference(step: float) -> float:
+        low, high = (
+            collision_averages(scene.with_entries({entry: size * (1 + change)}, hold="speed"), speeds=speed)
+            for change in (-step, step)
+        )
+        return float(high.restitution_all - low.restitution_all) / (2 * step * size)
+
+    expected = (4 * difference(step) - difference(2 * step)) / 3
+    slope = float(found.gradient.sel(quantity="restitution_all", parameter=entry))
+    assert slope == pytest.approx(expected, rel=3e-5)
+
+
 def test_where_all_stick_no_mean_moves() -> None:
     """At a speed below that of every change, all derivatives are 0, and what is of none that separate is undefined."""
     found = collision_averages("granulation", speeds="0.1 m/s", wrt=["liquid.viscosity"])
