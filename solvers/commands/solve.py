@@ -3,7 +3,6 @@
 from typing import Any
 
 from ..errors import InputError
-from ..host.arguments import check_name
 from ..scene import units
 from ..scene.user_model import fields
 from . import options, texts
@@ -45,7 +44,7 @@ def command(
     from ..results import DEFINITIONS
     from ..sensitivity.solve import TARGETS, solve
 
-    check_name(of, TARGETS, "--for")  # a name that is no result may be an argument of `solve`
+    check_name(of, TARGETS, "--for")  # `free`, `angle`, ... are arguments of `solve`, and no results
     if DEFINITIONS[of].unit == "rad" and units.is_number(value):
         value = f"{value} deg"
     chosen: dict[str, Any] = {**request.impact, **passed(hold=request.hold, rtol=rtol), of: value}

@@ -30,16 +30,20 @@ DERIVING = threading.RLock()  # sympy is not thread-safe
 def _laws() -> Mapping[str, Mapping[str, Sequence[str]]]:
     """The laws of the library by slot and name, with their features: functions that others lack, and properties.
 
-    There are none where this file is missing or broken, so that `generate` can write it.
+    There are none where this file is missing or broken, so that `generate` can write it; see `check_laws`.
     """
     try:
-        table: dict[str, dict[str, list[str]]] = json.loads((_FOLDER / "laws.json").read_bytes())
+        return defaultdict(dict, json.loads((_FOLDER / "laws.json").read_bytes()))
     except (OSError, ValueError):
         return defaultdict(dict)
-    return table
 
 
 LAWS = _laws()
+
+
+def check_laws() -> None:
+    """Raise CheckFailed unless the table of laws is what was emitted."""
+    _verified("laws.json")
 
 
 @cache

@@ -8,6 +8,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 from ..errors import InputError, shown
+from ..host import emitted
 from . import user_model as custom
 from .contact import AT_ANY_SPEED, ENTRIES, gap_at_any_speed, never_touching
 from .quantities import Ways, initial_gap, partner_mass, partner_radius, quantities, sphere
@@ -70,6 +71,7 @@ def check_entries(
     entries: Mapping[str, Any], package: Package | None = None, *, from_file: bool = False
 ) -> dict[str, float | str]:
     """Return the entries in SI; InputError for one that is unknown, wrong by itself, or an alternative to another."""
+    emitted.check_laws()  # which say what entries may be
     known = custom.fields(package)
     for name, raw in entries.items():
         if name not in known:

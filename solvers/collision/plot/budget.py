@@ -24,12 +24,13 @@ _COLOURS = {
 
 @picture
 def draw(budget: Budget) -> Figure:
-    """Draw the budget of a collision; InputError if it has no trajectory with a ledger."""
+    """Draw the budget of a collision; InputError if it has no trajectory with a ledger, or no duration."""
     collision = budget.collision
     data = collision.trajectory
-    if data is None or "normal_lubrication" not in data or not data["time"][-1] > 0:
-        accepted = "trajectory=True and ledger=True in collide(), and an outcome that is not certain at initial contact"
-        raise InputError("trajectory", None, accepted, "has no terms over time")
+    if data is not None and not data["time"][-1] > 0:
+        raise InputError("impact", None, "one that is not decided at initial contact", "has no terms over time")
+    if data is None or "normal_lubrication" not in data:
+        raise InputError("trajectory", None, "trajectory=True and ledger=True in collide()", "has no terms over time")
     turns = collision.scene.turns(collision.angle) and not collision.scene.wall
     heights = [_MOMENTUM] * turns + [_TERMS]
     figure = Figure(figsize=(_WIDTH, 1.3 + sum(heights)), layout="constrained")

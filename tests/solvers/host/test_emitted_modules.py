@@ -99,3 +99,13 @@ def test_an_edited_library_module_is_an_error(tmp_path: Path, monkeypatch: pytes
     monkeypatch.setattr(emitted, "_FOLDER", tmp_path)
     with pytest.raises(CheckFailed, match="is not what was emitted .* run `wetdoublet generate`"):
         emitted._verified.__wrapped__("head_on.py")
+
+
+def test_a_missing_table_of_laws_is_an_error(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    """No scene is read without it: the file is named, and the remedy."""
+    text = Scene.load("granulation").to_toml()
+    emitted._verified.cache_clear()
+    monkeypatch.setattr(emitted, "_FOLDER", tmp_path)
+    with pytest.raises(CheckFailed, match=r"laws\.json is not what was emitted .* run `wetdoublet generate`"):
+        Scene.from_toml(text)
+    emitted._verified.cache_clear()
