@@ -132,8 +132,11 @@ def test_the_picture_has_the_terms_and_the_momentum(name, impact, panels, tmp_pa
 
 
 def test_a_picture_needs_the_trajectory():
-    """Without the trajectory, or without its ledger, the error names what to ask for."""
-    for options in ({}, {"trajectory": True, "stokes": 0.002}):
+    """Without the trajectory, or where initial contact decides, the error names what to ask for."""
+    for options, accepted in (
+        ({}, "trajectory=True"),
+        ({"trajectory": True, "stokes": 0.002}, "not decided at initial"),
+    ):
         one = collide("granulation", **{**GAINS, **options})
-        with pytest.raises(InputError, match="trajectory=True"):
+        with pytest.raises(InputError, match=accepted):
             one.budget.plot()
