@@ -27,6 +27,7 @@ _RISES = 1e-9  # in its scale per duration: slope above which the function rises
 _TRIES = 8
 _MOVED, _MOVED_LEAST = 1e-4, 1e-12  # of a phase, and in x0/v0: how far an event may lie from where the record has it
 _ROUNDING = 1e-15  # noise of a gap or velocity of order 1, for times and event functions
+_SLOW = 1e-2  # in v0: at slower motion times are not as uncertain as the rounding of a gap makes them
 _ON_KINK = 1e-11  # of a guard: below it the side is that towards which it changes
 _REST = 10.0  # factor in the height of a rebound within which two engines may differ on whether it comes to rest
 TIGHTEST = 1e-13  # relative tolerance at which a phase is tried last
@@ -339,9 +340,10 @@ class _Solution:
         for _ in range(_TRIES):
             landed, dt, miss = (np.asarray(part.full()).ravel() for part in land(y, parameters))
             shift = float(dt[0])
-            if not np.isfinite(shift) or duration + shift <= 0 or abs(shift) > expected:
+            if not np.isfinite(shift) or duration + shift <= 0 or abs(shift) > expected + _ROUNDING:
                 break
-            landed_close = abs(shift) <= max(_LANDED * duration, _ROUNDING)
+            noise = _ROUNDING / min(max(abs(float(y[1])), _SLOW), 1.0)  # of a time, from that of a gap
+            landed_close = abs(shift) <= max(_LANDED * duration, noise)
             if landed_close and abs(float(miss[0])) <= max(_MISSES * scale, _ROUNDING):
                 slope = float(guard(landed, parameters)[1][events.index(event)])
                 if slope > _RISES * scale / duration:

@@ -21,6 +21,7 @@ _ERRORS = 1e2  # tolerances of the engine by which a guard may be negative
 _LEAST = {"turning": 1e-3, "contact": 1e-3, "film_edge": 1.0, "tangential_edge": 1.0, "rupture": 1.0}
 _MET = ("glass", "contact", "half_turn", "unwinding")  # a stick does not end just there unless this is its event
 _SHORT = 1e-15  # in x0/v0: a phase no longer than the rounding of a gap
+_ROUNDED = 1e-15  # of a guard, whose terms are of order 1: glass met within rounding of initial contact
 
 Solution = Callable[[np.ndarray], np.ndarray]
 """Parts of a phase's duration, increasing, from 0 to 1 -> states as columns."""
@@ -75,7 +76,7 @@ def first_crossing(
     crossings = []
     for k, name in enumerate(names):
         size = _size(name, values[k])
-        limit = -_ERRORS * rtol * size
+        limit = -max(_ERRORS * rtol * size, _ROUNDED)
         if landed is None and name in _MET and values[k][-1] < -limit:
             crossings.append(Crossing(name, 1.0, float(values[k][-1]) / size))
         inner = slice(1, None if landed is None else -1)
