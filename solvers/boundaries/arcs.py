@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
 
-from .continuation import crossings
 from .plane import Plane
+from .segments import crossings
 
 CHORD = 2e-5  # largest distance of a curve from its chords, relative to the window
 _ROUNDS = 4
@@ -112,7 +113,7 @@ def refined(plane: Plane, arcs: list[Arc], ascending: bool = False) -> list[Arc]
         length = np.linalg.norm(way, axis=1)
         normal = np.column_stack([-way[:, 1], way[:, 0]]) / length[:, None]
         right, left = (np.array([getattr(arcs[k], side) for k, _ in chords]) for side in ("right", "left"))
-        places = crossings(plane.labels, 0.5 * (one + other), normal, 0.2 * length, right, left)
+        places = crossings(plane.labels, 0.5 * (one + other), normal, length, right, left)
         arcs = [_with(arc, k, chords, places, ascending) for k, arc in enumerate(arcs)]
     return arcs
 
@@ -140,3 +141,13 @@ def _with(arc: Arc, k: int, chords: list[tuple[int, int]], places: np.ndarray, a
         return arc
     points = np.insert(arc.points, [j + 1 for j, _ in fits], np.array([place for _, place in fits]), axis=0)
     return Arc(points, arc.right, arc.left)
+
+
+def passes(points: np.ndarray, axis: int, value: float) -> Iterator[tuple[float, float]]:
+    """Crossings of a polyline with a value of one coordinate: the other coordinate, and the change of the first."""
+    along, other = points[:, axis], points[:, 1 - axis]
+    change = np.diff(along)
+    low, high = np.minimum(along[:-1], along[1:]), np.maximum(along[:-1], along[1:])
+    for k in np.flatnonzero((low <= value) & (value <= high) & (change != 0)).tolist():
+        part = (value - along[k]) / change[k]
+        yield float(other[k] + part * (other[k + 1] - other[k])), float(change[k])

@@ -1,41 +1,48 @@
 """All boundaries in a plane of an entry and the Stokes number, and their meeting points: search and verification.
 
-The search starts from a lattice of collisions and from seed lines (`trace`). Curves are followed (`survey`,
-`continuation`), classified (`atlas_points`), and compared with the lines, the lattice and random collisions.
+The search starts from a lattice of collisions and from seed lines (`trace`). Curves are joined from cell to cell
+(`cells`), classified (`atlas_points`), and compared with the lines, the lattice and random collisions.
 """
 
-import math
 from collections.abc import Callable
+from itertools import pairwise
 
 import numpy as np
 
 from ...generated.automaton import OUTCOMES
 from ..errors import ComputationError
-from .arcs import CHORD, Arc, monotone, refined
+from .arcs import CHORD, Arc, monotone, passes, refined
 from .atlas_points import FOLD, Stretch, named, stretches
+from .cells import Cells
 from .changes import Change
-from .continuation import crossings
 from .plane import ANGLE, Plane
 from .regions import Slab, apart, labelled, slabs
 from .result import LATTICE, Atlas, Curve, Point
-from .survey import Survey, lattice, passes, surveyed
 from .trace import Traced, trace
 
 _RANDOM = 4096  # random collisions for verification
 _ROUNDS = 3  # rounds of refinement where results disagree
-_FINER_ROWS, _MORE = 769, 12  # rows of a column through a collision that disagrees; most columns per round
-_AGREES = 1e-6  # tolerance in ln St between a line and a curve
-_ROUGHLY = 50 * CHORD  # the same near a vertical tangent, relative to the window
+_MORE = 12  # most collisions that disagree whose cells are divided in a round
+_SAME_COLUMN = 1e-9  # distance of two columns, relative to the window
+_ROUGHLY = (
+    50 * CHORD
+)  # largest height between a line's change and a curve near a vertical tangent, relative to the window
 _NEAR = 2 * CHORD  # collisions closer to a curve are not compared, relative to the window
 
 
 def curves_of(plane: Plane, lines: int, tell: Callable[[int, int], None]) -> Atlas:
     """The boundaries of a plane, found from a lattice of collisions and `lines` seed lines."""
-    at, labels = lattice(plane, *LATTICE)
     x = np.linspace(*plane.span, lines)
     traced = _lines(plane, x, tell)
-    survey = surveyed(plane, at, labels, _changes(plane, x, traced))
-    return _settled(plane, survey, x, traced, at, labels)
+    across = np.linspace(0, 1, lines)
+    columns = np.union1d(np.linspace(0, 1, LATTICE[0]), across)
+    columns = columns[np.concatenate([[True], np.diff(columns) > _SAME_COLUMN])]
+    cells = Cells(plane.labels, columns, np.linspace(0, 1, LATTICE[1]))
+    for at, line in zip(across, traced.changes, strict=True):
+        column = float(columns[np.argmin(np.abs(columns - at))])
+        heights = plane.points(np.full(len(line), x[0]), np.array([one.stokes for one in line]))[:, 1]
+        cells.mark((column, 0.5 * (low + high)) for low, high in pairwise(heights.tolist()))
+    return _settled(plane, cells, x, traced)
 
 
 def _lines(plane: Plane, x: np.ndarray, tell: Callable[[int, int], None]) -> Traced:
@@ -50,44 +57,33 @@ def _lines(plane: Plane, x: np.ndarray, tell: Callable[[int, int], None]) -> Tra
     return whole
 
 
-def _changes(plane: Plane, x: np.ndarray, traced: Traced) -> list[tuple[np.ndarray, int, int]]:
-    return [
-        (plane.points(np.array([at]), np.array([one.stokes]))[0], OUTCOMES.index(one.before), OUTCOMES.index(one.after))
-        for at, line in zip(x.tolist(), traced.changes, strict=True)
-        for one in line
-    ]
-
-
-def _settled(plane: Plane, survey: Survey, x: np.ndarray, traced: Traced, at: np.ndarray, labels: np.ndarray) -> Atlas:
-    """The verified boundaries of a survey, after refinement where collisions disagree with it."""
+def _settled(plane: Plane, cells: Cells, x: np.ndarray, traced: Traced) -> Atlas:
+    """The verified boundaries of a plane, after more cells were divided where collisions disagree with them."""
     random = np.random.default_rng(20121).random((_RANDOM, 2))
+    at, labels = cells.lattice
     points = np.vstack([at.reshape(-1, 2), random])
     outcomes = np.concatenate([labels.ravel(), plane.labels(random)])
     column, middle = _along(plane, at, labels)
     for attempt in range(_ROUNDS + 1):
-        pieces = [monotone(plane, arc) for arc in survey.arcs]
+        curves, meetings = cells.curves()
+        pieces = [monotone(plane, arc) for arc in refined(plane, curves)]
         arcs = refined(plane, [part for parts, _ in pieces for part in parts], ascending=True)
-        regions = slabs(arcs, column, middle)
-        wrong = _wrong(arcs, regions, points, outcomes)
+        wrong = _wrong(arcs, slabs(arcs, column, middle), points, outcomes)
         if attempt == _ROUNDS or not wrong.size:
             break
-        for k in _some(wrong, points).tolist():
-            column = np.column_stack([np.full(_FINER_ROWS, points[k, 0]), np.linspace(0, 1, _FINER_ROWS)])
-            survey.seek(column, plane.labels(column))
-            row = column[:, ::-1].copy()
-            row[:, 1] = points[k, 1]
-            survey.seek(row, plane.labels(row))
-    unsettled = [(place, why) for place, why in survey.failures]
+        cells.divide_at([(x, y) for x, y in points[_some(wrong, points)].tolist()])
+    unsettled = [
+        (one.place, "curves end here, where collisions are not decided") for one in meetings if not one.located
+    ]
     unsettled += [
         (points[k], f"a collision here is a {OUTCOMES[outcomes[k]]}, which the curves do not say")
         for k in _some(wrong, points).tolist()
     ]
     unsettled += _against_lines(plane, arcs, x, traced)
-    folds = [place for _, folded in pieces for place in folded]
+    folds = [(FOLD, place) for _, folded in pieces for place in folded]
     parts, inner = stretches(plane, arcs)
-    parts, meetings = named(plane, survey.meetings, parts)
-    places = [*meetings, *((FOLD, place) for place in folds), *inner]
-    return _made(plane, parts, places, unsettled, x, traced, int(middle[middle.size // 2]), labels.shape)
+    places = [*named(plane, [one for one in meetings if one.located], parts), *folds, *inner]
+    return _made(plane, parts, places, unsettled, x, traced, int(middle[middle.size // 2]))
 
 
 def _along(plane: Plane, at: np.ndarray, labels: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -137,28 +133,7 @@ def _against_lines(plane: Plane, arcs: list[Arc], x: np.ndarray, traced: Traced)
             for passing in crossed
             if 0 < passing[0] < 1 and not any(_is(one, place, passing) for place, one in changes)
         ]
-        differences += _apart(plane, changes)
     return differences
-
-
-def _apart(plane: Plane, changes: list[tuple[np.ndarray, Change]]) -> list[tuple[np.ndarray, str]]:
-    """Changes on a line without a change of outcome of collisions at that place."""
-    if not changes:
-        return []
-    places = np.array([place for place, _ in changes])
-    low, high = (np.array([OUTCOMES.index(getattr(one, side)) for _, one in changes]) for side in ("before", "after"))
-    count = len(changes)
-    located = crossings(plane.labels, places, np.tile([0.0, 1.0], (count, 1)), np.full(count, 1e-4), low, high)
-    distance = np.abs(located[:, 1] - places[:, 1]) * plane.log_height
-    return [
-        (place, f"the line changes here, and collisions {_beside(far)}")
-        for (place, _), far in zip(changes, distance.tolist(), strict=True)
-        if not far < _AGREES
-    ]
-
-
-def _beside(far: float) -> str:
-    return "beside it do not" if math.isnan(far) else f"do so {far:.1e} beside it (relative, in St)"
 
 
 def _is(change: Change, at: np.ndarray, place: tuple[float, str, str]) -> bool:
@@ -174,7 +149,6 @@ def _made(
     x: np.ndarray,
     traced: Traced,
     background: int,
-    size: tuple[int, ...],
 ) -> Atlas:
     curves = [
         Curve(
@@ -203,5 +177,4 @@ def _made(
         points=tuple(points),
         unsettled=tuple((float(plane.x(at)), float(plane.stokes_at(at)), why) for at, why in unsettled),
         background=OUTCOMES[background],
-        lattice=(size[0], size[1]),
     )

@@ -1,6 +1,5 @@
 """Kinds of change along the curves of a plane, and classification of the points where the kind changes."""
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
@@ -14,19 +13,18 @@ from ..model.dimensionless import nondimensionalise
 from ..model.model import load, select_model
 from .arcs import Arc
 from .barrier import Potential
+from .cells import Meeting
 from .changes import FREE, GRAZE, REVERSED
-from .continuation import crossings
 from .plane import ANGLE, Plane
-from .survey import Meeting
+from .segments import crossings
 
-TRIPLE, FOLD, CROSSING, CORNER = "triple point", "fold", "crossing", "corner"
+TRIPLE, FOLD, CROSSING = "triple point", "fold", "crossing"
 CRITERION, KIND, RIM = "criterion change", "graze meets escape", "saddle meets rim"
 CRITICAL = "St* meets Ce*"
 BESIDE = 1e-8  # distance from a curve of the collisions that determine its kind, relative to the window
 _AT = 1e-9  # places closer than this are identical, relative to the window
 _PARTS, _NARROWED = 16, 6  # places between two, and rounds, to locate a change of kind along a curve
 _LOOKS = 9  # places along a curve at which the barrier is computed
-_STRAIGHT = 0.02  # rad; a curve that turns by less at an interruption is continued
 _NONE = -9  # unknown
 
 
@@ -180,54 +178,33 @@ def _passes_saddle(plane: Plane, place: np.ndarray) -> bool:
     return Potential(model, model.group_values(n.groups), plane.rtol).passes_saddle(end)
 
 
-def named(
-    plane: Plane, meetings: Sequence[Meeting], parts: list[Stretch]
-) -> tuple[list[Stretch], list[tuple[str, np.ndarray]]]:
-    """The classified meeting points; curves interrupted without a change are joined."""
+def named(plane: Plane, meetings: Sequence[Meeting], parts: list[Stretch]) -> list[tuple[str, np.ndarray]]:
+    """The points where curves meet, with their names."""
     points = []
     for one in meetings:
-        outcomes = {label for branch in one.leaving for label in (branch.right, branch.left)}
-        if len(one.leaving) == 2:
-            parts, name = _joined(parts, one)
-            points += [(name, one.place)] if name else []
-            continue
-        points.append((TRIPLE if len(outcomes) > 2 and len(one.leaving) == 3 else CROSSING, one.place))
-        if points[-1][0] == TRIPLE and plane.over == ANGLE and _reaches_head_on(parts, one.place):
+        triple = len(one.pairs) == 3 and len(frozenset().union(*one.pairs)) == 3
+        points.append((TRIPLE if triple else CROSSING, one.place))
+        if triple and plane.over == ANGLE and _reaches_head_on(parts, one.place):
             points.append((CRITICAL, one.place))
-    return parts, points
-
-
-def _joined(parts: list[Stretch], point: Meeting) -> tuple[list[Stretch], str]:
-    """Name of the change where two curves meet; they are joined if there is none."""
-    ending = [one for one in parts if min(np.linalg.norm(one.arc.points[[0, -1]] - point.place, axis=1)) < _AT]
-    if len(ending) != 2:
-        return parts, CORNER if ending else ""  # none ends there where another curve passes it
-    one, other = ending
-    if one.kind != other.kind:
-        return parts, KIND
-    if one.criterion != other.criterion:
-        return parts, CRITERION
-    apart = abs(point.leaving[0].direction - point.leaving[1].direction) % math.tau
-    if abs(math.pi - min(apart, math.tau - apart)) > _STRAIGHT:
-        return parts, CORNER
-    first, last = sorted(ending, key=lambda part: part.arc.points[0, 0])
-    if not np.allclose(first.arc.points[-1], last.arc.points[0], rtol=0, atol=_AT):
-        return parts, FOLD
-    whole = Arc(np.vstack([first.arc.points, last.arc.points[1:]]), first.arc.right, first.arc.left)
-    return [part for part in parts if part is not one and part is not other] + [replace(first, arc=whole)], ""
+    return points
 
 
 def _reaches_head_on(parts: Sequence[Stretch], place: np.ndarray) -> bool:
-    """True if the boundary between stick and bounce extends from a point to the lowest angle.
+    """True if the boundary between stick and bounce extends from a point to the lowest angle, through folds or not.
 
     There it is the critical Stokes number of head-on collisions.
     """
-    for _ in range(len(parts)):
-        before = [one.arc for one in parts if np.linalg.norm(one.arc.points[-1] - place) < _AT]
-        before = [arc for arc in before if (arc.right, arc.left) == (0, 2)]
-        if len(before) != 1:
+    arcs = [one.arc for one in parts if {one.arc.right, one.arc.left} == {0, 2}]
+    while True:
+        ends = [
+            (k, end)
+            for k, arc in enumerate(arcs)
+            for end in (0, -1)
+            if np.allclose(arc.points[end], place, rtol=0, atol=_AT)
+        ]
+        if len(ends) != 1:
             return False
-        place = before[0].points[0]
+        k, end = ends[0]
+        place = arcs.pop(k).points[-1 - end]
         if place[0] <= 0:
             return True
-    return False

@@ -14,8 +14,8 @@ from ..engines.settings import KERNEL_STEPS
 from ..errors import ComputationError
 from ..model.dimensionless import nondimensionalise
 from ..scene.contact import GAPS
-from .samples import known
-from .scene_sampler import SAMPLE_BUDGET, SceneSampler
+from .samples import SAMPLE_BUDGET, known
+from .scene_sampler import SceneSampler
 
 # Kinds of change: a criterion is just met; a doublet begins to escape without or with a rebound; other.
 GRAZE, FREE, REVERSED, PLAIN = "graze", "escape", "escape reversed", "plain"

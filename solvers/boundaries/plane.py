@@ -15,6 +15,7 @@ from ..many.arguments import ascending, checked_numbers, checked_vary
 from ..many.by_kernel import impacts_of
 from ..many.impacts import Impacts
 from ..scene.scene import Scene
+from .samples import SAMPLE_BUDGET
 from .window import STOKES, stokes_range
 
 ANGLE = "impact.angle"
@@ -98,7 +99,8 @@ class Plane:
         """Outcomes (-1 where unknown), and the first rebound criterion met (-1 for none), at points."""
         impacts, sound = impacts_of(self._request(points))
         self.collisions += sound.size
-        answers = run_kernel(impacts, self.rtol, threads=usable_cores() if sound.size > _THREADED else 1)
+        threads = usable_cores() if sound.size > _THREADED else 1
+        answers = run_kernel(impacts, self.rtol, threads=threads, budget=SAMPLE_BUDGET)
         outcome, reversal = np.full(sound.size, -1), np.full(sound.size, -1)
         outcome[sound] = np.where(answers["status"] <= LAST_ANSWER, answers["outcome"], -1)
         reversal[sound] = answers["reversal"]

@@ -23,7 +23,7 @@ from .result import LINES, Atlas, Boundaries, Curve, Point
 
 _ROOM = 1.8  # factor of the Stokes number shown beyond the outermost curves
 _MARKS = {
-    "triple point": "o", "St* meets Ce*": "o", "fold": "^", "crossing": "X", "corner": "D", "criterion change": "D",
+    "triple point": "o", "St* meets Ce*": "o", "fold": "^", "crossing": "X", "criterion change": "D",
     "graze meets escape": "s", "saddle meets rim": "v",
 }  # fmt: skip
 _MOST_DOTS = 60  # most lines whose changes are marked

@@ -241,7 +241,6 @@ class Atlas(Boundaries):
         at: x of the lines; `angles` are their impact angles.
         curves, points: boundaries, and points where they meet, have a fold or change in kind.
         unsettled: places (x, St) where collisions and curves disagree, with the reason.
-        lattice: columns and rows of the lattice; fewer without a kernel for the scene.
 
     Example:
         >>> from wetdoublet.solvers import atlas
@@ -257,7 +256,6 @@ class Atlas(Boundaries):
     points: tuple[Point, ...] = ()
     unsettled: tuple[tuple[float, float, str], ...] = ()
     background: str = OUTCOMES[0]
-    lattice: tuple[int, int] = LATTICE
 
     def to_dict(self) -> dict[str, Any]:
         """The JSON object of `wetdoublet boundary --angle LO:HI --json`."""
@@ -294,8 +292,8 @@ class Atlas(Boundaries):
             "lines": len(self.at),
             "line_spacing": across / max(len(self.at) - 1, 1),
             "line_stokes": self.resolution,
-            "lattice_spacing": across / (self.lattice[0] - 1),
-            "lattice_stokes": math.expm1(log_height / (self.lattice[1] - 1)),
+            "lattice_spacing": across / (LATTICE[0] - 1),
+            "lattice_stokes": math.expm1(log_height / (LATTICE[1] - 1)),
             "chord_stokes": math.expm1(CHORD * log_height),
         }
 
@@ -351,10 +349,6 @@ class Atlas(Boundaries):
             f"{self.collisions} collisions; straight lines between the points of a curve are within "
             f"{sought['chord_stokes']:.1e} of St, relative"
         )
-        if self.lattice != LATTICE:
-            text += (
-                f"; without the compiled kernel, from a lattice of {self.lattice[0]} by {self.lattice[1]} collisions"
-            )
         return "\n".join([*lines, "", text])
 
     def to_dataset(self) -> xarray.Dataset:

@@ -21,6 +21,7 @@ SAMPLE = np.dtype(
         ("reach", "f8"),  # gap at which a stick falls back, x0; NaN if unknown
     ]
 )
+SAMPLE_BUDGET = 20_000  # steps of a sampled collision; limits how close to a separatrix collisions are sampled
 BRACKET = 1e-4  # width in ln St to which samples bracket a change of outcome
 FINEST = 1e-5  # smallest spacing in ln St of other samples
 _INSIDE = 7  # new samples between two

@@ -18,10 +18,9 @@ from ..scene.contact import GAPS, NEVER_MET
 from ..scene.groups import formulas, si_values
 from ..scene.scene import Scene
 from .barrier import Potential
-from .samples import SAMPLE
+from .samples import SAMPLE, SAMPLE_BUDGET
 
 PER_DECADE = 100  # initial samples of a line per decade of the Stokes number
-SAMPLE_BUDGET = 20_000  # steps of a sampled collision; limits how close to a separatrix collisions are sampled
 _SHARE, _EVERY = 32, 16  # parts (1/n) of the steps for all first samples, and of their chatter that gets all steps
 _ROW = 33  # as many in a row fail a line, whatever collisions with a larger budget decide among them
 _EARLIER = 5  # the last state of chatter is compared with the state after this fraction (1/n) of its steps
