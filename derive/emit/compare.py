@@ -3,6 +3,7 @@
 import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from itertools import groupby
 from random import Random
 
 import sympy as sp
@@ -108,6 +109,25 @@ def _terms(name: str, before: sp.Expr, after: sp.Expr) -> Iterable[Change]:
         return
     yield from (Change(name, term, None) for term in old)
     yield from (Change(name, None, term) for term in new)
+
+
+def in_lines(changes: Iterable[Change]) -> list[str]:
+    """The changes as text, below the name of each equation."""
+    lines = []
+    for equation, of_equation in groupby(changes, key=lambda change: change.equation):
+        lines += ["", equation]
+        for change in of_equation:
+            if change.kind == "changed":
+                lines += [f"  changed  {plain(change.before)}", f"      to   {plain(change.after)}"]
+            else:
+                lines.append(f"  {change.kind:<8} {plain(change.before if change.after is None else change.after)}")
+    return lines
+
+
+def count(changes: Iterable[Change]) -> str:
+    """How many equations differ, in words."""
+    number = len({change.equation for change in changes})
+    return f"{number or 'no'} equation{'s' if number > 1 else ''} differ{'s' if number < 2 else ''}"
 
 
 def _symbols(term: sp.Expr) -> frozenset[str]:

@@ -3,9 +3,8 @@
 The manifest has a digest of every file. `model.py` is the model file itself, from which the rest can be derived again.
 """
 
-import hashlib
 import json
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from dataclasses import asdict
 from pathlib import Path
 
@@ -112,25 +111,3 @@ def _quantity(model: UserModel, name: str) -> dict[str, object]:
         "name": name, "symbol": one.latex, "unit": one.unit, "default": one.default, "bounds": one.bounds.to_json(),
         "meaning": one.meaning, "group": group.symbol.name, "over": str(group.over),
     }  # fmt: skip
-
-
-def earlier(folder: Path) -> set[str]:
-    """Relative paths of the files of a package in a folder, according to its manifest; other files are not listed."""
-    try:
-        listed = json.loads((folder / "manifest.json").read_text(encoding="utf-8"))["files"]
-    except (OSError, ValueError, KeyError, TypeError):
-        return set()
-    inside = folder.resolve()
-    return {name for name in listed if inside in (folder / name).resolve().parents}
-
-
-def differences(files: Mapping[str, str], folder: Path) -> list[str]:
-    """A line for each file of a package that is missing from a folder or differs."""
-    lines = []
-    for name, text in files.items():
-        path = folder / name
-        if not path.is_file():
-            lines.append(f"missing: {name}")
-        elif hashlib.sha256(path.read_bytes()).hexdigest() != sha256(text):
-            lines.append(f"differs: {name}")
-    return lines

@@ -9,11 +9,15 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+import numpy as np
+
+from ...generated.automaton import OUTCOMES
 from ..boundaries.boundary import boundary
 from ..collision.collide import collide
 from ..errors import ComputationError, InputError, did_you_mean
 from ..host import bounded
 from ..host.emitted import text, with_imports
+from ..many.collide_many import collide_many
 from ..model.key import ModelKey
 from ..model.model import select_model
 from ..scene.scene import Scene
@@ -28,6 +32,7 @@ LIBRARY = "library"
 _ANGLES = (0.0, 45.0, 60.0, 75.0)
 _FACTORS = (0.5, 1.0, 2.0)
 _LINE = math.radians(45)
+_SIDE, _DECADE, _STEEPEST = 61, 10.0, math.radians(85)  # of the map: impacts along it, St over the scene's, angle
 
 
 @dataclass(frozen=True)
@@ -49,6 +54,23 @@ class Probe:
 
 
 @dataclass(frozen=True)
+class OnMap:
+    """What differs on a map over St and angle (rad), of which the ends are given.
+
+    Attributes:
+        impacts: their number, those that failed left out.
+        moved: outcome by the first model, by the second, and the number of such impacts.
+        farthest: largest difference of e_n where the outcome is the same, with St and angle; None if it nowhere is.
+    """
+
+    stokes: tuple[float, float]
+    angle: tuple[float, float]
+    impacts: int
+    moved: tuple[tuple[str, str, int], ...]
+    farthest: tuple[float, float, float] | None
+
+
+@dataclass(frozen=True)
 class Differences:
     """The differences. `boundaries` has, for each side, (change, St, Ce) along 45 deg."""
 
@@ -56,6 +78,7 @@ class Differences:
     changes: tuple[Change, ...]
     probes: tuple[Probe, ...]
     boundaries: tuple[tuple[tuple[str, float, float | None], ...], ...]
+    on_map: OnMap | None = None
 
 
 def differences(one: str, other: str, probe: str = "granulation", changes: dict[str, str] | None = None) -> Differences:
@@ -80,7 +103,7 @@ def differences(one: str, other: str, probe: str = "granulation", changes: dict[
     if len(scenes) < 2:
         return Differences((sides[0].name, sides[1].name), equation_changes, (), ())
     lines = tuple(tuple(_line(scene)) for scene in scenes)
-    return Differences((sides[0].name, sides[1].name), equation_changes, tuple(_probes(scenes)), lines)
+    return Differences((sides[0].name, sides[1].name), equation_changes, tuple(_probes(scenes)), lines, _on_map(scenes))
 
 
 def _sides(one: str, other: str, probe: str, changes: dict[str, str]) -> tuple[Side, Side]:
@@ -154,6 +177,21 @@ def _probes(scenes: Sequence[Scene]) -> list[Probe]:
             pair = [_collided(scene, stokes * factor, angle) for scene in scenes]
             probes.append(Probe(stokes * factor, angle, (pair[0], pair[1])))
     return probes
+
+
+def _on_map(scenes: Sequence[Scene]) -> OnMap:
+    stokes = (scenes[0].stokes or 1.0) * np.geomspace(1 / _DECADE, _DECADE, _SIDE)
+    angle = np.linspace(0, _STEEPEST, _SIDE)
+    one, other = (collide_many(scene, stokes=stokes[:, None], angle=angle) for scene in scenes)
+    before, after = one["outcome"].values, other["outcome"].values
+    known = (before >= 0) & (after >= 0)
+    pairs, counts = np.unique(np.stack([before, after])[:, known & (before != after)], axis=1, return_counts=True)
+    moved = tuple((OUTCOMES[a], OUTCOMES[b], int(n)) for a, b, n in zip(*pairs, counts, strict=True))
+    off = np.where(known & (before == after), other["restitution"].values - one["restitution"].values, np.nan)
+    at = None if np.isnan(off).all() else np.unravel_index(np.nanargmax(np.abs(off)), off.shape)
+    farthest = None if at is None else (float(off[at]), float(stokes[at[0]]), float(angle[at[1]]))
+    ends = [(float(values[0]), float(values[-1])) for values in (stokes, angle)]
+    return OnMap(ends[0], ends[1], int(known.sum()), moved, farthest)
 
 
 def _collided(scene: Scene, stokes: float, angle: float) -> tuple[str, float] | None:

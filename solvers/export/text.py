@@ -3,15 +3,10 @@
 from __future__ import annotations
 
 import math
-from itertools import groupby
-from typing import TYPE_CHECKING
 
 from ...generated.automaton import OUTCOMES
 from ..formatting.markdown import aligned
-from .differences import Differences
-
-if TYPE_CHECKING:
-    from ...derive.emit.compare import Change
+from .differences import Differences, OnMap
 
 _SHORT = dict(zip(OUTCOMES, ("S", "SRS", "B"), strict=True))
 _HEADS = ("angle (deg)", "St", "A", "e_n A", "B", "e_n B", "B - A")
@@ -19,29 +14,30 @@ _HEADS = ("angle (deg)", "St", "A", "e_n A", "B", "e_n B", "B - A")
 
 def as_text(differences: Differences) -> str:
     """The differences as plain text."""
-    from ...derive.emit.compare import plain  # imports sympy
+    from ...derive.emit.compare import count, in_lines  # imports sympy
 
+    changes = differences.changes
     lines = [f"A: {differences.names[0]}", f"B: {differences.names[1]}", ""]
-    lines += ["no equation differs"] if not differences.changes else [f"{_count(differences)}:"]
-    for equation, of_equation in groupby(differences.changes, key=lambda change: change.equation):
-        lines += ["", equation]
-        for change in of_equation:
-            if change.kind == "changed":
-                lines += [f"  changed  {plain(change.before)}", f"      to   {plain(change.after)}"]
-            else:
-                lines.append(f"  {change.kind:<8} {plain(_one(change))}")
+    lines += [count(changes) + (":" if changes else ""), *in_lines(changes)]
     if differences.probes:
         lines += ["", *aligned([_HEADS, *_rows(differences)]), "", *_lines(differences)]
+    if differences.on_map:
+        lines += ["", _on_map(differences.on_map)]
     return "\n".join(lines)
 
 
-def _count(differences: Differences) -> str:
-    number = len({change.equation for change in differences.changes})
-    return f"{number} equation{'s' if number != 1 else ''} differ{'s' if number == 1 else ''}"
-
-
-def _one(change: Change) -> object:
-    return change.after if change.before is None else change.before
+def _on_map(what: OnMap) -> str:
+    low, high = map(math.degrees, what.angle)
+    number = sum(count for *_, count in what.moved)
+    text = "on the map St {:.4g} to {:.4g}, ".format(*what.stokes) + f"{low:g} to {high:g} deg, "
+    text += f"{number} of {what.impacts} impacts change outcome"
+    text += f" ({', '.join(f'{a} -> {b} {count}' for a, b, count in what.moved)})" * bool(number)
+    if what.farthest and what.farthest[0]:
+        off, stokes, angle = what.farthest
+        text += (
+            f";\nwhere they do not, e_n differs by at most {off:.2g}, at St {stokes:.4g}, {math.degrees(angle):.4g} deg"
+        )
+    return text
 
 
 def _rows(differences: Differences) -> list[tuple[str, ...]]:

@@ -42,6 +42,14 @@ def write_all_in(folder: Path, files: Mapping[str, str]) -> list[Path]:
     return written
 
 
+def differing(folder: Path, files: Mapping[str, str]) -> dict[str, str]:
+    """Those of the texts by relative path that are not what is below the folder."""
+    old = {name: folder / name for name in files}
+    return {
+        name: text for name, text in files.items() if not old[name].is_file() or old[name].read_bytes() != text.encode()
+    }
+
+
 def save(figure: Figure, path: str | Path, dpi: int) -> None:
     """Write a figure in the format of the file's suffix. OSError as in `write`."""
     drawn = io.BytesIO()

@@ -2,8 +2,9 @@
 
 import os
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
+from time import perf_counter
 
 from ..errors import InputError
 from ..host.emitted import library_digest
@@ -12,24 +13,39 @@ from .user_model import Package
 
 @dataclass(frozen=True)
 class Derived:
-    """A derived model file: the report as text, its files (none if a check fails), and the failed checks."""
+    """A derived model file: the report as text, its files (none if a check fails), and the failed checks.
+
+    Attributes:
+        seconds: how long each step took.
+    """
 
     report: str
     files: Mapping[str, str]
     failed: str
+    seconds: Mapping[str, float] = field(default_factory=dict)
 
 
 def derived_package(path: Path, folder: Path | None) -> Derived:
     """Derive, check and emit a model file (imports sympy); `folder` is the destination of its files, if any.
 
+    With a folder, the report says what has changed against the model there, or else the library.
+
     Raises:
         InputError: not a valid model file; names the line, and what is accepted.
     """
+    seconds, start = {}, perf_counter()
+
+    def took(step: str) -> None:
+        nonlocal start
+        seconds[step], start = perf_counter() - start, perf_counter()
+
+    from ...derive.checks.regenerated import changed, earlier
     from ...derive.checks.user import model_checks
     from ...derive.checks.words import conserved, in_words
     from ...derive.emit.user import package
     from ...derive.user.declarations import ModelFileError
 
+    took("load sympy")
     try:
         model, checks = model_checks(path)
     except ModelFileError as error:
@@ -40,8 +56,10 @@ def derived_package(path: Path, folder: Path | None) -> Derived:
     failing = [check.name for check in checks if check.ok is False]
     if model is None or failing:
         return Derived("\n".join(lines), {}, f"fails {', '.join(failing)}; nothing is emitted")
+    took("derive and check its laws")
     source, words = path.read_text(encoding="utf-8"), in_words(model)
-    files = package(model, source, library_digest(), conserved(model), words, _origin(path, folder))
+    took("find what is conserved")
+    files = package(model, source, library_digest(), conserved(model), words, origin_of(path, folder))
     emitted = Package(files["manifest.json"])
     for name, value in emitted.defaults.items():
         try:
@@ -50,13 +68,18 @@ def derived_package(path: Path, folder: Path | None) -> Derived:
             accepted = error.accepted.partition(", such as")[0]  # the example is this default
             accepted += f", which is {unit}" if (unit := emitted.fields[name].unit) else ""
             raise InputError(f"{path}: {name}, default", value, accepted, error.problem) from None
+    took("emit")
     meanings = [f"{model.name}: {model.meaning}."]
     meanings += [f"  {law.slot} law {law.name}: {law.meaning}" for law in model.laws]
     meanings += [f"  event {event.proposed.word}: {event.proposed.meaning}" for event in model.events]
-    return Derived("\n".join([*meanings, "", *lines, "", *words]), files, "")
+    lines = [*meanings, "", *lines, "", *words]
+    if folder is not None:
+        lines += ["", *changed(earlier(folder / "model.py"), model)]
+        took("compare")
+    return Derived("\n".join(lines), files, "", seconds)
 
 
-def _origin(path: Path, folder: Path | None) -> str:
+def origin_of(path: Path, folder: Path | None) -> str:
     """Path of the model file relative to the folder."""
     if folder is None:
         return ""

@@ -82,11 +82,16 @@ def _of_folder(folder: Path, label: str) -> Package:
     return package
 
 
+def key_of(content: bytes, origin: str = "") -> str:
+    """Name of the cache's entry for the files that a model file of this content gives."""
+    parts = [content, derivation().encode(), library_digest().encode(), *([origin.encode()] if origin else [])]
+    return f"model-{hashlib.sha256(bytes([0]).join(parts)).hexdigest()[:32]}.json"
+
+
 def _of_file(path: Path, label: str) -> Package:
     from ..host.user_cache import kept
 
     content = _read(path, label)
-    key = hashlib.sha256(b"\0".join([content, derivation().encode(), library_digest().encode()])).hexdigest()
 
     def derived() -> bytes:
         from .user_model_derived import derived_package  # a late import, as it imports sympy
@@ -97,5 +102,5 @@ def _of_file(path: Path, label: str) -> Package:
             raise CheckFailed(f"{path}: {package.failed}")
         return json.dumps(dict(package.files)).encode()
 
-    files = json.loads(kept(f"model-{key[:32]}.json", derived))
+    files = json.loads(kept(key_of(content), derived))
     return Package(files["manifest.json"], path, files)

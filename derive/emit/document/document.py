@@ -24,7 +24,7 @@ _PREAMBLE = r"""% Emitted by wetdoublet from its derivation.
 \allowdisplaybreaks"""
 _QUANTITY_HEADS = ("quantity", "symbol", "unit", "default", "accepted", "meaning")
 _EVENT_HEADS = ("event", "watched while", "effect", "meaning", "source")
-_EFFECTS = {"": "goes on", "separated": "ends: separated", "stick": "cut off: a stick"}
+EFFECTS = {"": "goes on", "separated": "ends: separated", "stick": "cut off: a stick"}
 _DOLLAR = "$"
 _RELATIONS = {"<": "<", ">": ">", "<=": r"\leq", ">=": r"\geq"}
 
@@ -98,7 +98,7 @@ def _of_event(event: OwnEvent, user: UserModel | None) -> Iterator[Equation]:
 def _events(user: UserModel | None) -> tuple[tuple[str, ...], ...]:
     """Rows on the declared events, which come after the library's where they coincide."""
     events = [event.proposed for event in (user.events if user else ())]
-    effects = [_EFFECTS[one.ends] + ("; the motion jumps" if one.jump else "") for one in events]
+    effects = [EFFECTS[one.ends] + ("; the motion jumps" if one.jump else "") for one in events]
     each = zip(events, effects, strict=True)
     return tuple((one.word, watched(one.row), effect, one.meaning, one.source) for one, effect in each)
 

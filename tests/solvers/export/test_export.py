@@ -12,7 +12,7 @@ import sympy as sp
 from matplotlib.mathtext import MathTextParser
 from wetdoublet.derive.emit.compare import compare, equations, plain, same
 from wetdoublet.derive.emit.read import ReadError, functions
-from wetdoublet.solvers import Scene
+from wetdoublet.solvers import Scene, collide
 from wetdoublet.solvers.export import differences
 from wetdoublet.solvers.export.functions import functions as exported
 from wetdoublet.solvers.export.functions import texts as c_texts
@@ -62,6 +62,18 @@ def test_an_added_and_a_removed_term():
     [removed] = compare(other, one)
     assert (added.kind, added.equation, plain(added.after)) == ("added", "d normal_velocity/dt", "-gap")
     assert (removed.kind, plain(removed.before)) == ("removed", "-gap")
+
+
+def test_what_a_change_does_to_the_map():
+    """Impacts that change outcome are counted along the boundary; the largest change of e_n is that of collisions."""
+    thicker = {"liquid.viscosity": "2.1 Pa s"}
+    on_map = differences.differences("granulation", "granulation", changes=thicker).on_map
+    assert on_map is not None and on_map.impacts == 61**2 and 0 < sum(count for *_, count in on_map.moved) < 200
+    off, stokes, angle = on_map.farthest
+    ends = [collide(Scene.load("granulation").with_entries(each), stokes=stokes, angle=angle) for each in (thicker, {})]
+    assert ends[0].outcome == ends[1].outcome
+    assert off == pytest.approx(ends[0].restitution - ends[1].restitution, abs=1e-9)
+    assert differences.differences("granulation", "granulation").on_map.moved == ()
 
 
 def test_rearranging_is_no_difference():

@@ -63,6 +63,29 @@ def test_generate_check_and_clean_up(mine: Path, tmp_path: Path):
     assert {path.name for path in folder.rglob("*.*")} == {"bridge_one.py", "manifest.json", "model.py", "notes.txt"}
 
 
+def test_generate_says_what_has_changed(mine: Path, tmp_path: Path):
+    """The terms that differ from the model as it was, and what is written; where nothing has changed, that."""
+    folder = copied(mine, tmp_path)
+    arguments = ("generate", str(tmp_path / "mine.py"), "--out", str(folder))
+    before = {path: path.stat().st_mtime_ns for path in folder.rglob("*.*")}
+    assert run(*arguments).output.startswith("nothing has changed: the 10 files in ")
+    assert {path: path.stat().st_mtime_ns for path in folder.rglob("*.*")} == before
+    later = LAW.replace("-0.34 * K", "-0.35 * K")
+    surface = 'law("arm", "surface", lever=2*a, accept=("angular momentum",))\n'
+    surface += 'event("lost", guard=2 - u/v0, ends="stick")\n'
+    (tmp_path / "mine.py").write_text(later + surface)
+    done = run(*arguments).output
+    assert f"Against {folder}/, 4 equations differ:\n" in done
+    assert "bridge yielding: rise\n  changed  contact_angle**2*(-0.34*logarithm - 0.96)\n      to" in done
+    assert "arm: lever\n  changed  distance/2\n      to   2\n" in done
+    assert "events, lost\n  added    2 - normal_velocity\n" in done
+    assert "group      as before\nevent      added    lost: watched moving; cut off: a stick\n" in done
+    assert "conserved  removed  angular momentum L" in done and f"written  {folder / 'laws/arm_surface.py'}\n" in done
+    (tmp_path / "mine.py").write_text("import math\n" + later)  # may read anything
+    assert "\nlaw        removed  arm surface\ngroup      as before\n" in run(*arguments).output
+    assert not run(*arguments).output.startswith("nothing")
+
+
 _COLLIDE = """
 import sys
 from wetdoublet.solvers import Scene, collide
