@@ -129,7 +129,7 @@ def _first_rigid(collision: Outcome) -> float:
 def over_time(collision: Outcome, data: xarray.Dataset) -> Mapping[str, np.ndarray]:
     """The shares that the terms have reached along a trajectory with its ledger; their sum is u^2/v0^2 - 1.
 
-    `dry_contact` is all that the solids and declared events take.
+    `dry_contact` is all that the solids take, `own_events` the jumps at the times of declared events.
     """
     assert collision.energy is not None
     scene, unit = collision.scene, collision.scene.reduced_mass * collision.speed**2 / 2
@@ -144,5 +144,10 @@ def over_time(collision: Outcome, data: xarray.Dataset) -> Mapping[str, np.ndarr
     absent = set() if scene.turns(collision.angle) else {"tangential_lubrication"}
     taken = [name for name in FORMULAS if name in data and name not in absent]
     result |= {name: (data[name].values[0] - data[name].values) / unit for name in taken}
-    result["dry_contact"] = velocity**2 - 1 - sum(result.values())
+    jumps = velocity**2 - 1 - sum(result.values())
+    if collision.energy.own_events is not None:
+        time, words = data["time"].values, scene.package.words if scene.package else ()
+        at = np.isin(time, [event.time for event in collision.events if event.kind in words])
+        result["own_events"] = np.cumsum(np.diff(jumps, prepend=0.0) * (at & (np.diff(time, prepend=0.0) == 0)))
+    result["dry_contact"] = jumps - result.get("own_events", 0.0)
     return {name: result[name] for name in FORMULAS if name in result}

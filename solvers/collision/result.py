@@ -31,7 +31,7 @@ class Collision(Outcome, Drawn):
     def budget(self) -> Budget | None:
         """Pairs of a term and its share of the initial normal energy, which sum to e_n^2 - 1.
 
-        Empty for a stick, which has no e_n; None without the ledger.
+        Empty for a stick, which has no e_n. None where the collision was computed with `ledger=False`.
         """
         return None if self.energy is None else Budget(self)
 

@@ -39,6 +39,8 @@ def command(
     known = fields(request.package)
     is_number = name in known and not (known[name].choices or known[name].flag)
     within = texts.span(known[name], span, "--free") if is_number else (0.0, 1.0)  # `solve` says what may be free
+    for end in within if is_number else ():
+        scene.si_number(name, end, "--free")
 
     from ..host.arguments import check_name
     from ..results import DEFINITIONS

@@ -3,7 +3,7 @@
 Derivatives are in theta, p = p_ref (1 + theta), or p = scale theta where p_ref is 0, so that each is of order one.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -41,6 +41,10 @@ def check_wrt(scene: Scene, wrt: Sequence[str] | str | None, label: str = "wrt")
         return everything
     # parameters even if the scene takes their defaults or gives another speed
     more = (*_defaults(scene), RELATIVE)
+    for name in (wrt,) if isinstance(wrt, str) else wrt if isinstance(wrt, Collection) else ():
+        entry = scene.fields.get(str(name))
+        if entry is not None and (entry.choices or entry.flag):
+            raise InputError(label, name, ", ".join(everything), "is a choice, not a number")
     requested = check_names(wrt, (*everything, *(name for name in more if name not in everything)), label)
     if not requested:
         raise InputError(label, "", ", ".join(everything), "names no parameter")

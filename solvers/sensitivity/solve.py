@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+import warnings
 from collections.abc import Mapping
 from pathlib import Path as FilePath
 from typing import Any
@@ -13,7 +15,7 @@ from ...generated.automaton import OUTCOMES, STICK
 from ..changes.brackets import Brackets, enclose
 from ..collision.collide import collide
 from ..engines.settings import check_rtol
-from ..errors import ComputationError, InputError, WetDoubletError
+from ..errors import ComputationError, InputError, ModelWarning, WetDoubletError
 from ..host.arguments import check_name
 from ..many.collide_many import collide_many
 from ..results import DEFINITIONS, DIFFERENTIATED, INTEGRATED, OF_IMPACT, REVERSALS
@@ -27,9 +29,9 @@ from .solutions import Jump, Question, Solution, Solutions
 TARGETS = tuple(
     name
     for name in (*INTEGRATED, *OF_IMPACT)
-    if name not in ("reversal", "steps", "until", "energy.residual", "angular_momentum_drift")
+    if name not in ("reversal", "steps", "until", "energy.initial", "energy.residual", "angular_momentum_drift")
 )
-"""Results that may have a value: not codes, nor errors of the integration."""
+"""Results that may have a value: not codes, nor what is given, nor errors of the integration."""
 _SAMPLES = 1025
 _DECADE = 10.0  # a range whose ends have a larger ratio is searched in the logarithm
 _FINER, _LOOKS = 17, 8  # samples between the neighbours of a minimum, and how often it is narrowed down
@@ -37,6 +39,7 @@ _SEEN, _CHANGED = 1e-6, 1e-11  # widths to which roots and changes are enclosed,
 _SHARP = 1e-2  # tolerance of the search over the requested one: noise moves a root by less
 _SHARPEST = 1e-13
 _AGREES = 1e-6  # of the value, or of the largest at hand: how well a collision has to confirm a root
+_REACH = 10.0  # changes of a result over the last samples before a change of outcome, within which it may have a value
 _FLAT = 1e2  # tolerances within which a result is its target
 _SAME = 1e-9  # part of the range within which two roots are one: what errors of a collision move a root by
 _KINDS, _SIDES = len(REVERSALS) + 1, 3  # sides of the value: below, above, undefined
@@ -102,8 +105,13 @@ def solve(
         raise InputError("within", within, "LO below HI", "is not a range")
     if entry not in MEETING:
         loaded.need_impact()
-    sharp = max(rtol * _SHARP, _SHARPEST)
-    return Search(loaded, entry, low, high, name, value, held_quantity(loaded, hold), sharp).solutions()
+    search = Search(loaded, entry, low, high, name, value, held_quantity(loaded, hold), max(rtol * _SHARP, _SHARPEST))
+    with warnings.catch_warnings(record=True) as told:  # by all samples
+        warnings.simplefilter("always", ModelWarning)
+        result = search.solutions()
+    for each in {re.sub(r"-?[\d.]+(e[-+]\d+)?", "", str(each.message)): each for each in reversed(told)}.values():
+        warnings.warn(each.message, each.category, stacklevel=2)
+    return result
 
 
 def _target(target: Mapping[str, Any]) -> tuple[str, float]:
@@ -128,8 +136,7 @@ class Search(Question):
             return np.clip(self.low * (self.high / self.low) ** place, self.low, self.high)
         return self.low + (self.high - self.low) * place
 
-    def sampled(self, place: Any) -> tuple[np.ndarray, np.ndarray]:
-        """Values of the result, and labels: outcome, criterion and side of the value as a number; -1 where unknown."""
+    def _collided(self, place: Any) -> Any:
         values = np.atleast_1d(self.at(place))
         options: dict[str, Any] = {"rtol": self.rtol, "of": ("outcome", "reversal", self.of)}
         if self.free in MEETING:
@@ -138,7 +145,21 @@ class Search(Question):
             measured = self.scene.fields[self.free].or_unit  # a volume is given with its unit
             given = [self.scene.as_given(self.free, each) for each in values.tolist()] if measured else values
             options |= {"vary": {self.free: given}, "hold": self.hold}
-        data = collide_many(self.scene, **options)
+        return collide_many(self.scene, **options)
+
+    def _failed(self, place: np.ndarray) -> str:
+        """How many samples have failed, at these places, and why the first did."""
+        try:
+            reason = str(self._collided(place[:1])["reason"].values[0])
+        except InputError as error:  # a single one that cannot be
+            reason = str(error)
+        unit = self.scene.fields[self.free].unit or ""
+        span = f"{self.at(place.min()):.4g} to {self.at(place.max()):.4g} {unit}".rstrip()
+        return f"{place.size} samples from {span} are passed over; the first: {reason}"
+
+    def sampled(self, place: Any) -> tuple[np.ndarray, np.ndarray]:
+        """Values of the result, and labels: outcome, criterion and side of the value as a number; -1 where unknown."""
+        data = self._collided(place)
         outcome, reversal = data["outcome"].values.astype(int), data["reversal"].values.astype(int)
         result = np.asarray(data[self.of].values, float)
         if self.of not in ("restitution", *OF_IMPACT):
@@ -151,18 +172,31 @@ class Search(Question):
         place, result, label = self._samples()
         known = label >= 0
         if not known.any():
-            raise ComputationError(f"no collision with {self.free} in the range could be computed")
-        place, result, label = place[known], result[known], label[known]
+            raise ComputationError(f"no collision with {self.free} in the range can be computed: {self._failed(place)}")
+        failed = place[~known]
+        edges = enclose(  # roots may lie between the last sample and where there are no collisions
+            lambda _, at: (self.sampled(at)[1] >= 0).astype(int),
+            Brackets.between(np.zeros(place.size, int), place, known.astype(int)),
+            _SEEN, at_once=4 * _FINER,
+        )  # fmt: skip
+        last = np.where(edges.before == 1, edges.low, edges.high)
+        columns = np.hstack([[place[known], result[known], label[known]], [last, *self.sampled(last)]])
+        columns = columns[:, np.argsort(columns[0])]
+        place, result, label = columns[0], columns[1], columns[2].astype(int)
         defined = result[~np.isnan(result) & ((label // _SIDES // _KINDS > 0) | (self.of in OF_IMPACT))]
         size = abs(self.value) or float(np.abs(defined).max(initial=0.0)) or 1.0
         flat = _runs(np.abs(result - self.value) <= _FLAT * self.rtol * size, label // _SIDES)
         for first, last in flat:
             label[first : last + 1] += 2 - label[first : last + 1] % _SIDES  # neither side
+        options: dict[str, Any] = {"at_once": 4 * _FINER, "unknown": -1}
+        labels, every = lambda _, at: self.sampled(at)[1], Brackets.between(np.zeros(place.size, int), place, label)
+        changes = enclose(labels, every, _SEEN, **options)
         closed = enclose(
-            lambda _, at: self.sampled(at)[1], Brackets.between(np.zeros(place.size, int), place, label),
+            labels,
+            self._in_reach(changes, place, result, label),
             lambda each: np.where(each.before // _SIDES == each.after // _SIDES, _SEEN, _CHANGED),
-            at_once=4 * _FINER, unknown=-1,
-        )  # fmt: skip
+            **options,
+        )
         roots: list[float] = []
         jumps: list[Jump] = []
         alike = closed.before // _SIDES == closed.after // _SIDES
@@ -173,17 +207,29 @@ class Search(Question):
                 jumps.append(self._jump(low, high))
             elif not roots or root - roots[-1] > _SAME:
                 roots.append(root)
-        remarks = [f"{known.size - place.size} samples could not be computed and are passed over"] * (not known.all())
+        remarks = [] if known.all() else [self._failed(failed)]
         if not defined.size:
             stuck = bool((label // _SIDES // _KINDS == OUTCOMES.index(STICK)).all())
             remarks.append("all stick" if stuck else f"no collision of this scene has {DEFINITIONS[self.of].label}")
-        if not (alike.all() or roots):
+        if not roots and (changes.before // _SIDES != changes.after // _SIDES).any():
             remarks.append(f"beside a change of outcome nothing is resolved within {_CHANGED:g} of the range")
         return Solutions(
             self, [self._confirmed(root, size) for root in roots], jumps,
             [(float(self.at(place[j])), float(self.at(place[k]))) for j, k in flat],
             (float(defined.min()), float(defined.max())) if defined.size else None, remarks,
         )  # fmt: skip
+
+    def _in_reach(self, brackets: Brackets, place: np.ndarray, result: np.ndarray, label: np.ndarray) -> Brackets:
+        """The brackets that may hold the value: between their ends, or beyond one, as the result varies before it."""
+        ends = self.sampled(np.concatenate([brackets.low, brackets.high]))[0].reshape(2, -1)
+        near = brackets.before % _SIDES + brackets.after % _SIDES == 1
+        below = np.searchsorted(place, brackets.low, "right") - 2
+        above = np.searchsorted(place, brackets.high, "left") + 1
+        for end, at, regime in ((ends[0], below, brackets.before), (ends[1], above, brackets.after)):
+            at = np.clip(at, 0, place.size - 1)
+            far = np.abs(end - self.value) > _REACH * np.abs(end - result[at])
+            near |= ~np.isnan(end) & ~(far & (label[at] // _SIDES == regime // _SIDES))
+        return brackets.part(near)
 
     def _samples(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Samples over the range, finer about extrema towards the value that do not reach it."""

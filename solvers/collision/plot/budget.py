@@ -14,11 +14,11 @@ from ..text import against, name_of
 from .time_panels import BLUE, GREEN, GREY, ORANGE, PURPLE, Column, columns_of, finish, letter
 
 _WIDTH, _MOMENTUM, _TERMS = 9.0, 0.9, 3.2  # inches
-_NOTHING = 1e-6  # a smaller term is not drawn
+_NOTHING = 1e-3  # of the largest term; a smaller one is not drawn
 _COLOURS = {
     "rigid_rotation": GREEN, "slip": PURPLE, "sliding": GREEN, "normal_lubrication": BLUE,
     "tangential_lubrication": ORANGE, "dry_contact": "#56B4E9", "capillary": "#8C564B", "attraction": "#B0A000",
-    "strings": GREY,
+    "strings": GREY, "own_events": "#CC3311",
 }  # fmt: skip
 
 
@@ -66,8 +66,9 @@ def _fill(column: Column, collision: Outcome, turns: bool) -> None:
         column.panels[0].set_ylim(min(0.0, 1.1 * (momentum / scale).min()), max(1.1, 1.1 * (momentum / scale).max()))
         column.panels[0].set_ylabel("L / L(0)")
     panel = column.panels[-1]
+    largest = max(abs(values).max() for values in terms.values())
     for name, values in terms.items():
-        if np.any(abs(values) > _NOTHING):
+        if np.any(abs(values) > _NOTHING * largest):
             word = "solids" if name == "dry_contact" else FORMULAS[name][0]
             panel.plot(time, values, color=_COLOURS[name], label=word)
     panel.plot(time, sum(terms.values()), color=INK, linewidth=2, label="sum: $u^2/v_0^2 - 1$")

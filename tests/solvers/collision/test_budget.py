@@ -111,6 +111,24 @@ def test_a_declared_event_parts_them_where_it_does(tmp_path):
 
 
 @pytest.mark.slow
+@pytest.mark.parametrize("engine", ["taylor", "rosenbrock"])
+def test_what_declared_events_take_is_not_the_solids(tmp_path, engine):
+    """A jump to 0.7 of the velocity takes (1 - 0.49) u^2/v0^2 when it happens; the solids their own at contact."""
+    path = tmp_path / "tug.py"
+    law = 'event("tug", guard=3*x0 - x, jump={u: u*0.7}, where="opening")'
+    path.write_text(f"from wetdoublet.derive.user import *\n{law}\n")
+    one = collide(Scene.load("granulation", model=path), stokes=1.0, angle="60 deg", trajectory=True, engine=engine)
+    terms, data = over_time(one, one.trajectory), one.trajectory
+    (at,) = [event.time for event in one.events if event.kind == "tug"]
+    time, before = data["time"].values, data["normal_velocity"].values[data["time"].values <= at].max() / one.speed
+    assert set(terms["own_events"][time < at]) == {0.0}
+    assert terms["own_events"][time > at] == pytest.approx(-(1 - 0.49) * before**2, rel=1e-6)
+    assert terms["own_events"][-1] == pytest.approx(dict(one.budget)["own_events"], rel=1e-6)
+    assert terms["dry_contact"] == pytest.approx(-(1 - 0.99**2), abs=1e-6)  # at contact
+    assert collide("granulation", stokes=1.0, ledger=False).budget is None
+
+
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "impact", "panels"),
     [("granulation", GAINS, 4), ("pendulum", {}, 4), ("granulation", {"stokes": 0.2, "angle": 0.0}, 2)],

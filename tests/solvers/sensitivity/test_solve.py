@@ -6,7 +6,7 @@ import pickle
 
 import numpy as np
 import pytest
-from wetdoublet.solvers import InputError, Scene, boundary, collide, collide_many, solve
+from wetdoublet.solvers import InputError, ModelWarning, Scene, boundary, collide, collide_many, solve
 
 from ...helpers.command import run
 
@@ -171,6 +171,37 @@ def test_what_is_refused(options, field):
     """The error names the argument."""
     with pytest.raises(InputError, match=rf"^{field}"):
         solve(GRANULATION, **{**FREE, **options})
+
+
+def test_what_is_refused_says_why():
+    """A choice is no number; what is given is no result; and the command speaks of its own option."""
+    with pytest.raises(InputError, match=r'^free: "bridge.law" is a choice, not a number'):
+        solve(GRANULATION, free="bridge.law", within=(1, 2), restitution=0.5)
+    with pytest.raises(InputError, match=r'^target: "energy.initial" is not known'):
+        solve(GRANULATION, **FREE, **{"energy.initial": 1e-9})
+    wrong = run("solve", "granulation", "--free", "bridge.volume=1 um^3:2 um^3", "--for", "restitution=0.5")
+    assert wrong.stderr.startswith("--free: ") and "within" not in wrong.stderr
+
+
+def test_samples_without_a_collision_are_counted_with_a_reason():
+    """A roughness above the film is no scene: how many samples, where, and why; the root below is found."""
+    found = solve(
+        GRANULATION, free="particles.roughness", within=(1e-8, 2e-5), restitution=0.5, stokes=0.03, angle="45 deg"
+    )
+    (remark,) = found.remarks
+    assert len(found) == 1 and remark.startswith("124 samples from 8.026e-06 to 2e-05 m are passed over; the first: ")
+    assert "is not below the film thickness" in remark
+    gap = collide(GRANULATION.with_entries({"particles.roughness": 7.999e-6}), stokes=0.2).restitution
+    last = solve(GRANULATION, free="particles.roughness", within=(1e-8, 2e-5), restitution=gap, stokes=0.2)
+    assert last[-1] == pytest.approx(7.999e-6, rel=1e-6)  # between the last sample and the film
+
+
+def test_a_warning_of_the_model_is_given_once():
+    """Hundreds of calls, the roots and their derivatives: one warning, as of one collision."""
+    scene = GRANULATION.with_entries({"bridge.law": "willett", "bridge.volume": 0.3})
+    with pytest.warns(ModelWarning, match=r"volume = 0\.3 is above 0\.1") as told:
+        assert solve(scene, free="impact.stokes", within=(0.005, 0.1), restitution=1.55, angle="75 deg")
+    assert len(told) == 1
 
 
 def test_a_range_that_is_forgotten():
