@@ -30,8 +30,15 @@ from ..sensitivity.parameters import SCALES, kind_of, parameter_map, references
 _ENGINE = "rosenbrock"
 _OTHERS = ("right_hand_side", "resting_rates", "energy_rates", "jacobian", "event_rates", "start")  # by phase, or made
 _LINE = re.compile(r"^- (\w+) \[(.+?)\]: ", re.MULTILINE)
+_BY_PHASE = re.compile(r"^(rates|events?|reset)_\d+$")
 _OF_SCALES = dict(zip(SCALES, ("m", "s", "rad/s", "J"), strict=True))
 _OF_RESULTS = {None: "1", "rate": "Omega"}
+_OWN = {  # what functions give that are not emitted; those with _K in phase K
+    "groups": "Groups of the entries.", "scales": "Scales of the entries, SI.",
+    "start": "State at initial contact, behind what happens there.",
+    "rates_K": "Rates of the states per v0/x0.", "events_K": "Guards of the phase's events, positive before them.",
+    "event_K": "Guard of the event that ends the phase, 0 at its end.", "reset_K": "State after that event.",
+}  # fmt: skip
 
 
 def units_of(model: Model) -> dict[str, str]:
@@ -70,10 +77,11 @@ class Equations:
             before their events), `event_K` (that of the event which ends it), `reset_K` (the state after the event).
         states: names of the states, in order.
         outputs: names of the elements of `energies`, `outputs` and other functions, by function.
+        docs: what each function gives, with its unit; those of phases under `rates_K`, ...
         entries, groups, scales: values of the scene and its impact by name, in the order of the functions' arguments;
             entries in SI; scales of length x0, time x0/v0, angular velocity Omega and energy m v0^2.
         phases: of the scene's collision, in order; of a stick up to where it is certain, or to `until`.
-        units: by name, of all of these, `outputs`, `energies` and the `duration` of phases.
+        units: by name, of states, entries, groups, scales, `outputs`, `energies` and the `duration` of phases.
 
     Example:
         >>> import wetdoublet as wd
@@ -87,6 +95,7 @@ class Equations:
     functions: Mapping[str, Function] = field(repr=False)
     states: tuple[str, ...]
     outputs: Mapping[str, tuple[str, ...]] = field(repr=False)
+    docs: Mapping[str, str] = field(repr=False)
     entries: Mapping[str, float] = field(repr=False)
     groups: Mapping[str, float]
     scales: Mapping[str, float]
@@ -104,8 +113,10 @@ class Equations:
         phases = [
             f"  {k:<3}{phase.name:<28}{phase.duration:>11.6g}  {phase.event}" for k, phase in enumerate(self.phases)
         ]
-        shared = [name for name in self.functions if not name[-1].isdigit()]
-        by_phase = dict.fromkeys(name.rpartition("_")[0] for name in self.functions if name not in shared)
+        listing: dict[str, str] = {}  # a function's arguments, once for all phases
+        for name, function in self.functions.items():
+            known = _BY_PHASE.sub(r"\1_K", name)
+            listing.setdefault(known, str(function).rpartition(" ")[0].replace(name, known))
         return "\n".join(
             [
                 f"{name_of(self.scene)}: {self.outcome}",
@@ -115,10 +126,9 @@ class Equations:
                 "scales",
                 *listed(self.scales),
                 "phases" + f"{'duration in x0/v0, and the event that ends it':>61}",
-                *(phases or ["  none: the outcome is certain at initial contact"]),
+                *(phases or ["  none: the outcome is certain at initial contact; `until` follows it on"]),
                 "functions",
-                *(f"  {str(self.functions[name]).rpartition(' ')[0]}" for name in shared),
-                *([f"  {', '.join(f'{name}_K' for name in by_phase)}: (state, groups), of phase K"] if phases else []),
+                *(line for name, text in listing.items() for line in (f"  {text}", f"      {self.docs[name]}")),
             ]
         )
 
@@ -181,6 +191,8 @@ def equations(
             functions[name] = _then(functions[name], reset(course, leg))
         else:
             functions["start"] = _then(functions["start"], reset(course, leg))
+    emitted = {name: getattr(built.structure, name).__doc__ for name in functions if hasattr(built.structure, name)}
+    docs = {name: " ".join(text.partition("\n\n")[0].split()) for name, text in emitted.items()} | _OWN
     entries = dict(zip(kind.entries, reference.tolist(), strict=True))
     fields, states = loaded.fields, dict.fromkeys(built.state)
     units = {name: fields[name].unit or "1" for name in entries} | _OF_SCALES
@@ -191,6 +203,7 @@ def equations(
         functions=functions,
         states=tuple(states),
         outputs=outputs,
+        docs=docs,
         entries=entries,
         groups=dict(zip(names, numbers[: len(names)].tolist(), strict=True)),
         scales=dict(zip(SCALES, numbers[len(names) :].tolist(), strict=True)),

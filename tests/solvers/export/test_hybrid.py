@@ -17,7 +17,10 @@ def test_the_text_has_everything_with_its_unit():
     assert "orbital_momentum [a^2 Omega]" in text
     assert [phase.event for phase in found.phases] == [event.kind for event in collide("granulation").events]
     assert all(phase.name in text for phase in found.phases)
-    assert "rates_K, events_K, event_K, reset_K" in text
+    assert "  rates_K:(state[4],groups[13])->(rates[4])\n      Rates of the states per v0/x0." in text
+    assert "->(energies)\n      Energies of the state over m v0^2.\n" in text
+    of_phases = {f"{name}_{k}" for name in ("rates", "events", "event", "reset") for k in range(3)}
+    assert {*found.functions} - of_phases == {*found.docs} - {"rates_K", "events_K", "event_K", "reset_K"}
     assert found.units["liquid.viscosity"] == "Pa s"
     assert found.units["final_spin"] == "Omega" and found.units["kinetic"] == "m v0^2"
 
