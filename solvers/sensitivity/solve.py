@@ -106,11 +106,11 @@ def solve(
     if entry not in MEETING:
         loaded.need_impact()
     search = Search(loaded, entry, low, high, name, value, held_quantity(loaded, hold), max(rtol * _SHARP, _SHARPEST))
-    with warnings.catch_warnings(record=True) as told:  # by all samples
+    with warnings.catch_warnings(record=True) as remarks:  # by all samples
         warnings.simplefilter("always", ModelWarning)
         result = search.solutions()
-    for each in {re.sub(r"-?[\d.]+(e[-+]\d+)?", "", str(each.message)): each for each in reversed(told)}.values():
-        warnings.warn(each.message, each.category, stacklevel=2)
+    for remark in {re.sub(r"-?[\d.]+(e[-+]\d+)?", "", str(told.message)): told for told in reversed(remarks)}.values():
+        warnings.warn(remark.message, remark.category, stacklevel=2)
     return result
 
 
@@ -179,8 +179,8 @@ class Search(Question):
             Brackets.between(np.zeros(place.size, int), place, known.astype(int)),
             _SEEN, at_once=4 * _FINER,
         )  # fmt: skip
-        last = np.where(edges.before == 1, edges.low, edges.high)
-        columns = np.hstack([[place[known], result[known], label[known]], [last, *self.sampled(last)]])
+        ends = np.where(edges.before == 1, edges.low, edges.high)
+        columns = np.hstack([[place[known], result[known], label[known]], [ends, *self.sampled(ends)]])
         columns = columns[:, np.argsort(columns[0])]
         place, result, label = columns[0], columns[1], columns[2].astype(int)
         defined = result[~np.isnan(result) & ((label // _SIDES // _KINDS > 0) | (self.of in OF_IMPACT))]
