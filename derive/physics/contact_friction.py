@@ -13,10 +13,10 @@ from functools import cache
 import sympy as sp
 
 from ..vocabulary import quantities as q
-from .mechanics import F_t, arm, equations_of_motion
+from .mechanics import arm
 from .partners import bodies, pair, wall
 from .partners.pair import LEVER, ORBITAL_RATE
-from .scaling import DISTANCE, nondimensional
+from .scaling import DISTANCE, EQUAL, nondimensional
 
 
 @dataclass(frozen=True)
@@ -53,12 +53,11 @@ class Answer:
 
 @cache
 def equal_spheres() -> Answer:
-    """Two equal spheres with one spin, the force at `arm` from the centres."""
-    motion = equations_of_motion()
-    moment = motion.orbital_momentum_rate.diff(F_t)  # virtual work per angle of the line of centres
-    turning = motion.spin_momentum.diff(q.xi) * motion.spin_acceleration.diff(F_t)  # per spin angle
-    rates = {q.omega: motion.orbital_acceleration.diff(F_t), q.xi: motion.spin_acceleration.diff(F_t)}
-    return Answer(sp.expand(-moment * q.omega - turning * q.xi), rates)
+    """Two equal spheres with one spin, the force at `arm` from the centres: the pair of ratio 1."""
+    answer, one = unequal_spheres(), dict.fromkeys((q.radius_ratio, q.mass_ratio), 1)
+    equal = {**one, bodies.CENTRES: EQUAL, LEVER: arm / q.R, q.partner_spin_rate: q.xi}
+    rates = {rate: sp.expand(answer.rates[rate].subs(equal)) for rate in (q.omega, q.xi)}
+    return Answer(sp.expand(answer.slip.subs(equal)), rates)
 
 
 @cache
