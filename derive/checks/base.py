@@ -50,15 +50,15 @@ def check(name: str, statement: str) -> Callable[[Callable[P, Evidence]], Callab
     def checked(function: Callable[P, Evidence]) -> Callable[P, Check]:
         @wraps(function)
         def run(*args: P.args, **kwargs: P.kwargs) -> Check:
-            left, false, figure = list[sp.Expr](), list[str](), ""
+            residuals, false, figure = list[sp.Expr](), list[str](), ""
             for part in function(*args, **kwargs):
                 if isinstance(part, str):
                     figure = part
                 elif isinstance(part, tuple):
                     false += [] if part[0] else [part[1]]
                 else:
-                    left.append(part)
-            result = vanishing(name, statement, left, figure)
+                    residuals.append(part)
+            result = vanishing(name, statement, residuals, figure)
             return replace(result, ok=False, figure=false[0]) if false and result.ok else result
 
         return checks(run)
@@ -72,17 +72,21 @@ def run(several: Iterable[Several]) -> tuple[Check, ...]:
     return tuple(chain.from_iterable([each] if isinstance(each, Check) else each for each in results))
 
 
-def vanishing(name: str, statement: str, left: list[sp.Expr], figure: str = "", *, holds: bool | None = True) -> Check:
+def vanishing(
+    name: str, statement: str, residuals: list[sp.Expr], figure: str = "", *, holds: bool | None = True
+) -> Check:
     """A check that every expression of `left` vanishes identically; the first that does not is the figure.
 
     Arguments:
         holds: the value of `ok` if they do; None for a known violation, which is reported but not required to pass.
     """
-    rest = next((value for value in map(settled, left) if value != 0), None)  # the others may be expensive to simplify
-    shown = figure or (f"{len(left)} identities" if len(left) > 1 else "identity")
+    rest = next(
+        (value for value in map(settled, residuals) if value != 0), None
+    )  # the others may be expensive to simplify
+    text = figure or (f"{len(residuals)} identities" if len(residuals) > 1 else "identity")
     if rest is not None:
         return Check(name, statement, False, f"left over: {readable(rest)}")
-    return Check(name, statement, holds, shown)
+    return Check(name, statement, holds, text)
 
 
 def settled(expression: sp.Expr) -> sp.Expr:

@@ -19,9 +19,9 @@ from .base import Check, Evidence, check, checks, slope_along, vanishing
 def inertia_is_rigid_rotation() -> Evidence:
     """I(x) from the parallel-axis theorem gives the kinetic energy of a doublet in rigid rotation."""
     rigid = equations_of_motion().kinetic_energy.subs({q.u: 0, q.xi: q.omega})
-    left = sp.expand(2 * rigid / q.omega**2 - doublet_inertia())
+    residual = sp.expand(2 * rigid / q.omega**2 - doublet_inertia())
     left_paper = sp.expand(doublet_inertia() - q.m * q.a**2 * ((4 + q.x / q.a) ** 2 + sp.Rational(32, 5)))
-    yield from (left, left_paper)
+    yield from (residual, left_paper)
 
 
 def strings_are_conservative(laws: Iterable[Law]) -> tuple[Check, ...]:
@@ -37,16 +37,16 @@ def _conservative(law: Law) -> Check:
     potentials = [4 * q.m * q.g * q.a * rise(q.l_s / q.a, swing)]
     if LAWS["strings"].get(law.name) is law:
         potentials.append(strings.potential(law.name == "small-angle"))
-    left = []
+    residuals = []
     for potential in potentials:
         normal, sideways = string_forces(potential, strings.r, q.beta)
-        left += [
+        residuals += [
             sp.simplify(filled(force_laws()[force], {"strings": law}) - expected.subs(strings.r, q.r))
             for force, expected in ((S_n, normal), (S_t, sideways))
         ]
     arguments = rise.arguments
-    left.append(sp.simplify(2 * rise(*arguments).diff(arguments[1]) - stiffness(*arguments)))
-    return vanishing(f"strings: {law.name}", "S_n = dU/dr, S_t = (1/r) dU/dbeta", left)
+    residuals.append(sp.simplify(2 * rise(*arguments).diff(arguments[1]) - stiffness(*arguments)))
+    return vanishing(f"strings: {law.name}", "S_n = dU/dr, S_t = (1/r) dU/dbeta", residuals)
 
 
 _FULL = tuple(structure for structure in structures() if not structure.reduced)

@@ -139,15 +139,17 @@ def number_of_groups() -> Evidence:
 @checks
 def groups_span_the_nullspace() -> Check:
     """St, Ca and Ce are combinations of the dimensionless monomials of their quantities (nullspace)."""
-    left, shown = [], []
+    residuals, texts = [], []
     for group, label in ((q.stokes, "St"), (q.capillary, "Ca"), (q.centrifugal, "Ce")):
         definition = scaling.group_definitions()[group]
         used = _dimensional(definition.free_symbols)
         powers = sp.Matrix([sp.simplify(definition.diff(s) * s / definition) for s in used])
         basis = scaling.dimension_matrix(used).nullspace()
-        left.append(sp.Integer(sp.Matrix.hstack(*basis, powers).rank() - len(basis)))
-        shown.append(f"{label} = {readable(definition)}")
-    return vanishing("St, Ca, Ce", "each in the span of the nullspace of its dimension matrix", left, "; ".join(shown))
+        residuals.append(sp.Integer(sp.Matrix.hstack(*basis, powers).rank() - len(basis)))
+        texts.append(f"{label} = {readable(definition)}")
+    return vanishing(
+        "St, Ca, Ce", "each in the span of the nullspace of its dimension matrix", residuals, "; ".join(texts)
+    )
 
 
 @check("paper's groups", "St = m v0/(6 pi mu a^2), Ca = 3 mu a v0/(sigma x0), Ce = m omega0^2/sigma")

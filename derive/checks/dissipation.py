@@ -67,7 +67,7 @@ def conserved(lever: Law, structure: Structure = FREE) -> tuple[Invariant, ...]:
 
 def angular_momentum(lever: Law) -> Check:
     """dL/dt for an arm along the emitted equations, for any tangential and bridge law: zero, or a failure."""
-    name, left = f"angular momentum, {lever.name} arm", []
+    name, residuals = f"angular momentum, {lever.name} arm", []
     expected = torque(lever)
     per_time = q.x0 / (q.v0 * q.m * q.a**2 * q.rate_scale)
     lost = nondimensional(expected.subs(F_t, force_laws()[F_t]) * per_time) if expected != 0 else expected
@@ -76,51 +76,55 @@ def angular_momentum(lever: Law) -> Check:
             model = derive(structure)
             rates = model.by_state("right_hand_side")
             change = filled(rates[q.orbital_momentum] + sp.Rational(32, 5) * rates[q.spin], {"arm": lever})
-            left.append(change - model.expanded(lost))
+            residuals.append(change - model.expanded(lost))
     if conserves(lever):
         words = "; ".join(each.describe() for each in conserved(lever))
         return vanishing(
-            name, "dL/dt = 0 without strings, for every tangential and bridge law", left, f"found: {words}"
+            name, "dL/dt = 0 without strings, for every tangential and bridge law", residuals, f"found: {words}"
         )
     return Check(name, "dL/dt = 0 without strings", False, f"dL/dt = {readable(expected)}")
 
 
 def arms(levers: Iterable[Law], shears: Iterable[Law]) -> tuple[Check, ...]:
     """For each arm dL/dt, and for each tangential law with it the sign of the shear's power."""
-    tangential, found = [*shears], []
+    tangential, checks = [*shears], []
     for lever in levers:
-        found += [angular_momentum(lever), *(shear_dissipates(law, lever) for law in tangential)]
-    return tuple(found)
+        checks += [angular_momentum(lever), *(shear_dissipates(law, lever) for law in tangential)]
+    return tuple(checks)
 
 
 @checks
 @cache
 def bridge_does_work() -> Check:
     """The bridge force depends on the gap only, so it has a potential W_c(x), the same while closing and opening."""
-    left = []
+    residuals = []
     for structure in structures():
         if structure.bridge:
             model = derive(structure)
             force = model.expanded(BRIDGE_FORCE)
             power = model["energy_rates"]["capillary"]
-            left += [force.diff(state) for state in (q.normal_velocity, q.orbital_momentum, q.spin, q.beta)]
-            left.append(model.expanded(power) - force * q.normal_velocity)
-    return vanishing("bridge does work only", "F_c = F_c(x): its work W_c(x) is a potential, for any bridge law", left)
+            residuals += [force.diff(state) for state in (q.normal_velocity, q.orbital_momentum, q.spin, q.beta)]
+            residuals.append(model.expanded(power) - force * q.normal_velocity)
+    return vanishing(
+        "bridge does work only", "F_c = F_c(x): its work W_c(x) is a potential, for any bridge law", residuals
+    )
 
 
 @checks
 @cache
 def rebound_dissipates() -> tuple[Check, ...]:
     """A rebound loses exactly the kinetic energy of `rebound_loss`, which is not negative for 0 <= e_dry <= 1."""
-    left, charged = [], sp.Integer(0)
+    residuals, charged = [], sp.Integer(0)
     for structure in structures():
         model = derive(structure)
         before = model.expanded(model["energies"]["kinetic"])
         jump = model.by_state("rebound")
         charged = model.expanded(model["rebound_loss"]["dry_contact"])
-        left.append(before - before.subs(jump, simultaneous=True) - charged)
+        residuals.append(before - before.subs(jump, simultaneous=True) - charged)
     sign = nonnegative(charged, q.e_dry, sp.Integer(1))
     return (
-        vanishing("rebound's energy", "kinetic energy before - after = (1 - e_dry^2) u^2/2, all else continuous", left),
+        vanishing(
+            "rebound's energy", "kinetic energy before - after = (1 - e_dry^2) u^2/2, all else continuous", residuals
+        ),
         Check("rebound dissipates", "(1 - e_dry^2) u^2/2 >= 0 for 0 < e_dry <= 1", sign.proved, sign.shown),
     )

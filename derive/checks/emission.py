@@ -126,10 +126,10 @@ def _by_kernel(function: LawFunction, moving: tuple[sp.Symbol, ...]) -> _Values:
 
     def values(at: Mapping[sp.Symbol, float]) -> list[float]:
         try:
-            found = [complex(number) for number in space["values"](*at.values())]
+            values = [complex(number) for number in space["values"](*at.values())]
         except (ArithmeticError, ValueError):
             return [math.nan] * (1 + len(at))
-        return [number.real if number.imag == 0 else math.nan for number in found]
+        return [number.real if number.imag == 0 else math.nan for number in values]
 
     return values
 

@@ -130,21 +130,21 @@ def in_space() -> tuple[Check, ...]:
     twist = [RADIUS * TWIST + PARTNER_RADIUS * PARTNER_TWIST]
     slips = [dict(model.definitions)[each] for each in DRY_SLIPS]
     flat = dict(pair.definitions)[DRY_SLIP].subs(midgap)
-    size, left = sp.sqrt(dot(DRY_SLIPS, DRY_SLIPS) + LEAST_DIRECTION**2), []
+    size, residuals = sp.sqrt(dot(DRY_SLIPS, DRY_SLIPS) + LEAST_DIRECTION**2), []
     twists = {TWIST: dot(SLIPS, q.normal), PARTNER_TWIST: dot(PARTNER_SLIPS, q.normal)}
     across = on_the_sphere(dot(slips, q.normal).subs(twists), q.normal, q.orbital_momenta)
     planes = {q.orbital_momentum: q.orbital_momenta, q.spin: q.spins, q.partner_spin: q.partner_spins}
     for k, slip in enumerate(slips):
         rate = SLIPS[k] + q.spins[k]
         of_plane = {ORBITAL_RATE: rate, q.spin: q.spins[k], q.partner_spin: rate - PARTNER_SLIPS[k]}
-        there = sp.expand(flat.subs(of_plane, simultaneous=True) - midgap[LEVER] * twist[0] * q.normal[k])
-        left.append((slip - there).subs(CENTRES, RADIUS + PARTNER_RADIUS))
+        expected = sp.expand(flat.subs(of_plane, simultaneous=True) - midgap[LEVER] * twist[0] * q.normal[k])
+        residuals.append((slip - expected).subs(CENTRES, RADIUS + PARTNER_RADIUS))
         for state, vector in planes.items():
             change = (planar[state.name] - state) * DRY_SLIPS[k] / size
-            left.append(jump[vector[k].name] - vector[k] - change)
+            residuals.append(jump[vector[k].name] - vector[k] - change)
     part = sp.factor(1 - dot(DRY_SLIPS, DRY_SLIPS) / size**2)
     return (
         vanishing("friction in space: direction", "the slip lies across the line of centres", [across]),
-        vanishing("friction in space: answer", "each component of slip and impulse is the plane's", left),
+        vanishing("friction in space: answer", "each component of slip and impulse is the plane's", residuals),
         Check("friction in space: cone", "|impulse| <= Coulomb's limit", part.is_nonnegative, str(part)),
     )

@@ -34,14 +34,14 @@ def film_ends(films: Iterable[Law], shears: Iterable[Law]) -> tuple[Check, ...]:
     """The film force vanishes at the rim x = x0, the tangential force at its own edge."""
     checks = []
     for law in films:
-        left = filled(force_laws()[F_n], {"film": law}).subs(q.x, q.x0)
-        check = vanishing(f"film's rim: {law.name}", "x -> x0: no film force", [left])
+        residual = filled(force_laws()[F_n], {"film": law}).subs(q.x, q.x0)
+        check = vanishing(f"film's rim: {law.name}", "x -> x0: no film force", [residual])
         if law.name == "infinite":  # by definition this law has no rim in the pressure
-            check = replace(check, ok=None, figure=f"ends at {left}: known, the film has no rim")
+            check = replace(check, ok=None, figure=f"ends at {residual}: known, the film has no rim")
         checks.append(check)
     for law in shears:
-        left = [law["log_factor"](law["edge"](q.aspect), q.aspect)]
-        checks.append(vanishing(f"shear's edge: {law.name}", "no tangential force at its edge", left))
+        residual = [law["log_factor"](law["edge"](q.aspect), q.aspect)]
+        checks.append(vanishing(f"shear's edge: {law.name}", "no tangential force at its edge", residual))
     return tuple(checks)
 
 
@@ -50,14 +50,14 @@ def long_strings_vanish(laws: Iterable[Law]) -> tuple[Check, ...]:
     swing = sp.Symbol("swing", positive=True)  # (d/a)^2
     checks = []
     for law in laws:
-        left = []
+        residuals = []
         for force in (S_n, S_t):
             whole = force_laws()[force]
             calls = {node: node.func(node.args[0], swing) for node in slot_calls(whole)}
-            left.append(sp.limit(filled(whole.xreplace(calls), {"strings": law}), q.l_s, sp.oo))
-        left.append(sp.limit(law["rise"](q.string_ratio, swing), q.string_ratio, sp.oo))
+            residuals.append(sp.limit(filled(whole.xreplace(calls), {"strings": law}), q.l_s, sp.oo))
+        residuals.append(sp.limit(law["rise"](q.string_ratio, swing), q.string_ratio, sp.oo))
         statement = "l -> oo: S_n, S_t, U_s -> 0 at fixed weight and swing"
-        checks.append(vanishing(f"infinite strings: {law.name}", statement, left))
+        checks.append(vanishing(f"infinite strings: {law.name}", statement, residuals))
     return tuple(checks)
 
 
@@ -81,12 +81,16 @@ def head_on_closed_form(laws: Iterable[Law]) -> tuple[Check, ...]:
         integral = film_integral(law)
         speed = -(1 - integral / stokes)
         rate = filled(model.expanded(model["right_hand_side"]["normal_velocity"]), {"film": law})
-        left = [speed * speed.diff(q.gap) - rate.subs({closing: speed, film_flag: 1}), speed.subs(q.gap, 1) + 1]
-        left += [integral - each(q.gap) for each in law.functions if each.name == "stopping"]
+        residuals = [speed * speed.diff(q.gap) - rate.subs({closing: speed, film_flag: 1}), speed.subs(q.gap, 1) + 1]
+        residuals += [integral - each(q.gap) for each in law.functions if each.name == "stopping"]
         figure = f"Lf(s) = {integral}".replace("gap", "s")
         if law.name == "finite" and not integral.has(sp.Integral):
-            left.append(sp.expand_log(integral - (sp.log(1 / q.gap) - sp.Rational(3, 2) + 2 * q.gap - q.gap**2 / 2)))
-        checks.append(vanishing(f"head-on closed form: {law.name}", "-u/v0 = 1 - Lf(s)/St solves it", left, figure))
+            residuals.append(
+                sp.expand_log(integral - (sp.log(1 / q.gap) - sp.Rational(3, 2) + 2 * q.gap - q.gap**2 / 2))
+            )
+        checks.append(
+            vanishing(f"head-on closed form: {law.name}", "-u/v0 = 1 - Lf(s)/St solves it", residuals, figure)
+        )
     return tuple(checks)
 
 

@@ -62,7 +62,7 @@ def midgap_takes() -> Check:
 def midgap_ends() -> Check:
     """Beyond the edge of the shear: the same exchange, zero once omega = xi at the edge, and positive before."""
     within = orbital.transferable_within_edge(_FAR, _EDGE, _P**2, _Q**2)
-    left = [_change(within) - _change(_midgap()), within.subs(_P, _EDGE * _Q)]
+    residuals = [_change(within) - _change(_midgap()), within.subs(_P, _EDGE * _Q)]
     # on the way to the edge J grows while xi > J/e^2, and each step transfers xi - J/d^2
     to_spin = 1 / orbital.exchanged(_NEAR, MIDGAP["arm"]["lever"](_NEAR))
     slope = within.diff(_P) / (2 * _P) - to_spin * within.diff(_Q) / (2 * _Q)
@@ -70,7 +70,7 @@ def midgap_ends() -> Check:
     top, bottom = sp.fraction(sp.cancel(sp.together(-slope.subs(ahead))))
     falls = no_negative(top) and no_negative(bottom)
     statement = "nothing is left once omega = xi at the edge of the shear"
-    same = vanishing("exchange ends, midgap", statement, [_settled(each) for each in left])
+    same = vanishing("exchange ends, midgap", statement, [_settled(each) for each in residuals])
     return replace(same, ok=same.ok and falls)
 
 
@@ -86,7 +86,7 @@ def transferable_bounds() -> tuple[Check, ...]:
     momentum, turning = sp.symbols("momentum turning", real=True)
     rigid = orbital.rigid_momentum(_FAR, momentum, turning)
     energy = (momentum - rigid) ** 2 * (1 / _FAR**2 + 1 / inertia) / 2
-    left = [energy - orbital.midgap_slip_energy(_FAR, momentum, turning)]  # for every sign: no square roots
+    residuals = [energy - orbital.midgap_slip_energy(_FAR, momentum, turning)]  # for every sign: no square roots
     margin = momentum**2 / 2 * (1 / _NEAR**2 - 1 / _FAR**2) + orbital.midgap_slip_energy(_FAR, momentum, turning)
     rate = orbital.exchanged(_NEAR, MIDGAP["arm"]["lever"](_NEAR))
     change = margin.diff(turning) - rate * margin.diff(momentum)
@@ -94,10 +94,10 @@ def transferable_bounds() -> tuple[Check, ...]:
     whole, excess = sp.symbols("whole excess", nonnegative=True)
     closer = 4 + _CLOSER
     share = orbital.rigid_momentum(sp.Symbol("r", positive=True), whole, sp.Integer(0))
-    here, there = (share.subs(sp.Symbol("r", positive=True), d) for d in (closer, closer + _BEYOND))
-    products = [(there + excess) * (there + excess - here), -excess * (-excess - here)]
+    here, beyond = (share.subs(sp.Symbol("r", positive=True), d) for d in (closer, closer + _BEYOND))
+    products = [(beyond + excess) * (beyond + excess - here), -excess * (-excess - here)]
     fall = all(no_negative(part) for value in products for part in sp.fraction(sp.cancel(sp.together(value))))
-    same = vanishing("exchange takes, any sign", "d(margin) = -c (omega - xi) dxi for momenta of any sign", left)
+    same = vanishing("exchange takes, any sign", "d(margin) = -c (omega - xi) dxi for momenta of any sign", residuals)
     bounded = Check(
         "what can be transferred",
         "J (J - J_r) >= 0 for J >= J_d and for J <= 0 <= L: |J| falls, and G with it",

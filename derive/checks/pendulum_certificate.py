@@ -293,8 +293,8 @@ def impulse_as_emitted() -> Evidence:
 def taken_by(law: Law, name: str) -> Check:
     """A film's `stopping` or `braking` is the integral of its resistance between a gap and x0."""
     taken, resistance = (law[each](*law[each].arguments) for each in (name, "resistance"))
-    left = [taken.diff(q.gap) + resistance, taken.subs(q.gap, 1)]
-    return vanishing(f"{name}: {law.name}", "dB/dx = -resistance, B(x0) = 0", left)
+    residuals = [taken.diff(q.gap) + resistance, taken.subs(q.gap, 1)]
+    return vanishing(f"{name}: {law.name}", "dB/dx = -resistance, B(x0) = 0", residuals)
 
 
 @checks
@@ -317,10 +317,10 @@ def closing_speed() -> Evidence:
     resistance = sp.Function("film.resistance", real=True)(*pendulum.braking(PENDULUM, q.gap).args)
     yield film - FILM * q.normal_velocity * resistance / q.stokes
     yield inward.subs(q.orbital_momentum, 0) - model.expanded(pull_at(q.gap, q.beta))
-    pull, depth, left = sp.symbols("pull depth left", positive=True)
-    straight, rooted = pull * depth / left, sp.sqrt(2 * pull * depth)
-    yield from (straight.diff(depth) * left - pull, rooted.diff(depth) * rooted - pull)
-    yield straight.subs(left, sp.sqrt(pull * depth / 2)) - rooted
+    pull, depth, remainder = sp.symbols("pull depth left", positive=True)
+    straight, rooted = pull * depth / remainder, sp.sqrt(2 * pull * depth)
+    yield from (straight.diff(depth) * remainder - pull, rooted.diff(depth) * rooted - pull)
+    yield straight.subs(remainder, sp.sqrt(pull * depth / 2)) - rooted
 
 
 @check("approach: as emitted", "the step is the bound")

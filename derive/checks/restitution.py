@@ -43,7 +43,7 @@ def ceiling_is_the_published() -> Check:
     start_distance, inertia = q.r.subs(q.x, q.x0), doublet_inertia().subs(q.x, _final)
     oblique = (start_distance * sp.tan(q.theta0) / (4 * q.a)) ** 2
     published = 1 + oblique * (1 - q.m * start_distance**2 / inertia) - 2 * _work / (q.m * q.v0**2)
-    left, grows = [result.subs(q.impact_spin, 0) - published], True
+    residuals, grows = [result.subs(q.impact_spin, 0) - published], True
     first = {sp.tan(q.theta0): q.obliquity * q.initial_turning, q.impact_spin: q.rate_scale * q.initial_spin}
     turned = result.subs({_final: q.x, **first})
     scaled = nondimensional(turned + 2 * _work / (q.m * q.v0**2))
@@ -52,16 +52,16 @@ def ceiling_is_the_published() -> Check:
             continue
         model = derive(structure)
         emitted = model.expanded(model["restitution_ceiling"]["squared"])
-        left.append(emitted - (model.expanded(scaled) if structure.oblique else 1))
+        residuals.append(emitted - (model.expanded(scaled) if structure.oblique else 1))
         if structure.oblique:  # from 1 upwards with the angle and, since I(x) grows, with the gap
-            left.append(emitted.subs({q.obliquity: 0}) - 1)
+            residuals.append(emitted.subs({q.obliquity: 0}) - 1)
             slope = sp.factor(emitted.diff(q.gap) / q.obliquity**2)  # a square, of L, times what is positive
             grows &= slope.subs({q.initial_spin: 0, q.initial_turning: 1}).is_positive is True
             grows &= slope.subs(q.initial_spin, sp.Symbol("any", positive=True)).is_nonnegative is True
     check = vanishing(
         "ceiling of e_n^2",
         "e_n^2 <= 1 + (r0 tan(theta0)/4a)^2 (1 - m r0^2/I(x_f)) - 2 W_c/(m v0^2), from L and the ledger",
-        left,
+        residuals,
         "minimum of T over (omega_f, xi_f) at the L of the start; equal to the published form",
     )
     return check if grows else replace(check, ok=False, figure="it does not grow with the gap")

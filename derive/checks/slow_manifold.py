@@ -23,15 +23,15 @@ def _models() -> list[tuple[Model, dict[str, sp.Expr]]]:
 @checks
 def rates_have_the_form() -> Check:
     """du/dt = c J^2 - A - f u and dJ/dt = -s (J - J_r), with the coefficients that are emitted."""
-    left = []
+    residuals = []
     for model, result in _models():
         rates = model.by_state("right_hand_side")
         push = result["centrifugal"] * orbital_momentum**2 - result["attractions"] - result["slowing"] * normal_velocity
         turn = -result["relaxation"] * (orbital_momentum - result["rigid"])
         for state, rate in ((normal_velocity, push), (orbital_momentum, turn)):
-            left.append(sp.simplify(rates[state].subs({FILM: 1, SHEAR: 1}) - model.expanded(rate)))
-    assert left
-    return vanishing("slow manifold: rates", "du/dt = c J^2 - A - f u, dJ/dt = -s (J - J_r)", left)
+            residuals.append(sp.simplify(rates[state].subs({FILM: 1, SHEAR: 1}) - model.expanded(rate)))
+    assert residuals
+    return vanishing("slow manifold: rates", "du/dt = c J^2 - A - f u, dJ/dt = -s (J - J_r)", residuals)
 
 
 @check("slow manifold: difference", "two solutions over the gap differ by the Jacobian at secants")

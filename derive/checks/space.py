@@ -47,8 +47,8 @@ def momenta_in_space_are_found() -> Check:
         return Check(name, statement, False, str(error))
     model = derive(_SPACE)
     momenta = [dict(model.definitions)[momentum] for momentum in space.MOMENTA]
-    left = [model.expanded(one.expression - momentum) for one, momentum in zip(result, momenta, strict=True)]
-    return vanishing(name, statement, left)
+    residuals = [model.expanded(one.expression - momentum) for one, momentum in zip(result, momenta, strict=True)]
+    return vanishing(name, statement, residuals)
 
 
 @checks
@@ -93,8 +93,8 @@ def friction_in_space_dissipates() -> Evidence:
     along = dict(zip((space.ALONG, space.PARTNER_ALONG), space.torques(turned), strict=True))
     slips = zip(turned, (space.SLIPS, space.PARTNER_SLIPS), strict=True)
     twists = {twist: vectors.dot(slip, q.normal) for twist, slip in slips}
-    left = lost.subs(torque).subs(along) - space.STRENGTH * parts
-    yield _on_the_surface(sp.expand(left.subs(twists)))
+    residual = lost.subs(torque).subs(along) - space.STRENGTH * parts
+    yield _on_the_surface(sp.expand(residual.subs(twists)))
     yield positive, "not positive definite"
 
 
@@ -125,8 +125,8 @@ def excess_of_orbital_momentum() -> Evidence:
     apart = sp.Matrix(q.spins) - sp.Matrix(q.partner_spins)
     bound = 2 * space.slip_energy() * DISTANCE**2 * sum(inertias) / INERTIA_RATIO
     spare = DISTANCE**2 * sp.Mul(*inertias) / INERTIA_RATIO * vectors.dot(apart, apart)
-    kept = (DISTANCE.name, *(each.name for each in inertias))
-    yield model.expanded(bound - vectors.dot(excess, excess) - spare, kept)
+    names = (DISTANCE.name, *(each.name for each in inertias))
+    yield model.expanded(bound - vectors.dot(excess, excess) - spare, names)
     rigid = DISTANCE**2 * sp.sqrt(space.MOMENTUM_SQUARE) / INERTIA_RATIO
     yield space.outward_at_most() - space.centrifugal((rigid + sp.sqrt(bound)) ** 2)
 
@@ -144,11 +144,11 @@ def outward_at_smaller_gaps() -> Evidence:
     far = near + apart
     added = space.centrifugal(DISTANCE**2 * 2 * work / space.energy_unit())
     inertia = dict(derive(_SPACE).definitions)[INERTIA_RATIO]
-    here, there = inertia.subs(DISTANCE, far), inertia.subs(DISTANCE, near)
+    here, inner = inertia.subs(DISTANCE, far), inertia.subs(DISTANCE, near)
     falls = [
-        sp.expand(far**2 * there - near**2 * here),  # I/I' <= (r/r')^2, and sqrt(r') <= sqrt(r)
-        sp.expand(far**3 * there - near**3 * here),  # r I/(r' I') <= (r/r')^4
-        sp.expand(here - there),  # L^2/(2 I) is no smaller at r'
+        sp.expand(far**2 * inner - near**2 * here),  # I/I' <= (r/r')^2, and sqrt(r') <= sqrt(r)
+        sp.expand(far**3 * inner - near**3 * here),  # r I/(r' I') <= (r/r')^4
+        sp.expand(here - inner),  # L^2/(2 I) is no smaller at r'
     ]
     positive = all(each.is_positive for each in falls)
     yield added - 2 * work * q.aspect / DISTANCE

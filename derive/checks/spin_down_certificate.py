@@ -141,9 +141,9 @@ def film_takes() -> tuple[Check, ...]:
     worst = sp.expand(q.e_dry * speed - now - excess)
     for law in LAWS["film"].values():
         if any(each.name == "stopping" for each in law.functions):
-            left = [law["stopping"].result.diff(q.gap) + law["resistance"].result, worst - (1 + q.e_dry) * deeper]
+            residuals = [law["stopping"].result.diff(q.gap) + law["resistance"].result, worst - (1 + q.e_dry) * deeper]
             statement = "S' = -resistance; rebounds from deeper are slower"
-            checks.append(vanishing(f"spin-down: film, {law.name}", statement, left))
+            checks.append(vanishing(f"spin-down: film, {law.name}", statement, residuals))
     return tuple(checks)
 
 

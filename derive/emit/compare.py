@@ -47,8 +47,8 @@ def _named(room: str, function: Read) -> Equations:
     prefix = f"{room}: " if room else ""
     named = {f"{prefix}{name}": value for name, value in function.definitions}
     for name, value in function.outputs:
-        kept = (function.name.startswith("jump_") and str(value) == name) or name.startswith(MARK)
-        if kept or (function.name.startswith("release_") and value == 0):
+        identity = (function.name.startswith("jump_") and str(value) == name) or name.startswith(MARK)
+        if identity or (function.name.startswith("release_") and value == 0):
             continue  # what a declared event leaves as it is, and whether it has happened
         if function.name == "right_hand_side":
             named[f"{prefix}d {name}/dt"] = value
@@ -81,12 +81,12 @@ def same(one: sp.Expr, other: sp.Expr) -> bool:
     draw, compared = Random(1), 0
     for _ in range(5 * _POINTS):
         try:
-            left, right = (float(value) for value in compiled(*(draw.uniform(0.05, 0.95) for _ in free)))
+            first, second = (float(value) for value in compiled(*(draw.uniform(0.05, 0.95) for _ in free)))
         except (ArithmeticError, ValueError, TypeError):
             continue
-        if not abs(left - right) <= _SAME * max(abs(left), abs(right)):
+        if not abs(first - second) <= _SAME * max(abs(first), abs(second)):
             return False
-        compared += math.isfinite(left)
+        compared += math.isfinite(first)
         if compared >= _POINTS:
             return True
     return compared > 0

@@ -57,7 +57,7 @@ def describe(model: Model, additions: Own) -> str:
         "space": "Spatial",
     }
     words = {"a liquid bridge": shape.bridge, "pendulum strings": shape.strings, "another attraction": shape.attraction}
-    extras = [word for word, there in words.items() if there]
+    extras = [word for word, present in words.items() if present]
     title = f"{what[shape.partner]} doublet" + (f" with {' and '.join(extras)}" if extras else " with a film only")
     if shape.spread:
         title += ", a film whose rim follows the bridge's volume"

@@ -109,8 +109,8 @@ def check(folder: Path = GENERATED) -> list[str]:
         if not path.is_file():
             lines.append(f"missing: {name}")
         elif (result := path.read_bytes()) != text.encode():
-            shown, titles = result.decode(errors="replace").splitlines(), (f"generated/{name}", f"derived/{name}")
-            lines += [f"differs: {name}", *difflib.unified_diff(shown, text.splitlines(), *titles, lineterm="")]
+            old, titles = result.decode(errors="replace").splitlines(), (f"generated/{name}", f"derived/{name}")
+            lines += [f"differs: {name}", *difflib.unified_diff(old, text.splitlines(), *titles, lineterm="")]
     files = (path for path in folder.rglob("*") if path.is_file() and "__pycache__" not in path.parts)
     present = {path.relative_to(folder).as_posix() for path in files}
     lines += [f"extra: {name}" for name in sorted(present - expected.keys())]

@@ -104,8 +104,8 @@ def fill(expression: sp.Expr, laws: Mapping[str, Law]) -> sp.Expr:
 def filled(expression: sp.Expr, laws: Mapping[str, Law]) -> sp.Expr:
     """`fill` for the slots in `laws` only; the remaining calls stand for any law."""
     open_calls = (node for node in slot_calls(expression) if node.func.__name__.split(".")[0] not in laws)
-    kept = {node: sp.Dummy(node.func.__name__.replace(".", "_")) for node in open_calls}
-    return fill(expression.xreplace(kept), laws).xreplace({dummy: node for node, dummy in kept.items()})
+    calls = {node: sp.Dummy(node.func.__name__.replace(".", "_")) for node in open_calls}
+    return fill(expression.xreplace(calls), laws).xreplace({dummy: node for node, dummy in calls.items()})
 
 
 def needed(outputs: Sequence[sp.Expr], definitions: Sequence[Definition]) -> tuple[list[Definition], set[sp.Symbol]]:
@@ -113,9 +113,9 @@ def needed(outputs: Sequence[sp.Expr], definitions: Sequence[Definition]) -> tup
     used: set[sp.Symbol] = set()
     for expression in outputs:
         used |= sp.sympify(expression).free_symbols
-    kept: list[Definition] = []
+    needs: list[Definition] = []
     for symbol, expression in reversed(definitions):
         if symbol in used:
-            kept.append((symbol, expression))
+            needs.append((symbol, expression))
             used |= expression.free_symbols
-    return kept[::-1], used
+    return needs[::-1], used

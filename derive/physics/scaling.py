@@ -194,8 +194,8 @@ def nondimensional(expression: sp.Expr, centres: sp.Expr = EQUAL) -> sp.Expr:
     calls = {node: _substituted(node, rules) for node in expression.atoms(AppliedUndef)}
     body = sp.sympify(expression).xreplace(calls)
     result = sp.simplify(_substituted(body, {**rules, q.x: q.a * (DISTANCE - centres)}))
-    if left := dimensional(result):
-        raise ScalingError(f"{', '.join(left)} did not cancel from {expression}")
+    if remainder := dimensional(result):
+        raise ScalingError(f"{', '.join(remainder)} did not cancel from {expression}")
     return result
 
 
@@ -211,8 +211,8 @@ def cancelled(label: str, by_term: sp.Expr, whole: sp.Expr) -> sp.Expr:
     """
     result = sp.simplify(whole) if dimensional(by_term) else by_term
     result = result.subs(dict.fromkeys((q.a, q.v0, q.mu), sp.Integer(1)))
-    if left := dimensional(result):
-        raise ScalingError(f"{label}: {', '.join(left)} did not cancel from {result}")
+    if remainder := dimensional(result):
+        raise ScalingError(f"{label}: {', '.join(remainder)} did not cancel from {result}")
     return result
 
 

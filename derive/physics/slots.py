@@ -96,8 +96,8 @@ def places() -> dict[str, Place]:
 
 def place_of(slot: str, function: str, spread: bool = False) -> Place:
     """A function of a slot, for a law whose film has its rim as `spread` says."""
-    found = places()[f"{slot}.{function}"]
-    return found.spread if spread else found
+    place = places()[f"{slot}.{function}"]
+    return place.spread if spread else place
 
 
 def _scaled() -> dict[str, dict[str, Any]]:

@@ -71,9 +71,9 @@ def dataset(
     import xarray as xr
 
     dims, shape = tuple(axes), tuple(axis.size for axis in axes.values())
-    found = {name: _averaged(each, columns) for name, each in _TABLE.items()}
+    means = {name: _averaged(each, columns) for name, each in _TABLE.items()}
     variables: dict[str, Any] = {}
-    for name, (value, error, *_) in found.items():
+    for name, (value, error, *_) in means.items():
         variables[name] = dims, value.reshape(shape), {"units": "1", "long_name": _TABLE[name].meaning}
         meaning = f"estimated error of the quadrature of {name}"
         variables[f"{name}_error"] = dims, error.reshape(shape), {"units": "1", "long_name": meaning}
@@ -84,7 +84,7 @@ def dataset(
     }
     if wrt:
         over, sizes = (*dims, "quantity", "parameter"), (*shape, len(QUANTITIES), len(wrt))
-        slope, slope_error = (np.stack([found[name][k] for name in QUANTITIES], axis=1) for k in (2, 3))
+        slope, slope_error = (np.stack([means[name][k] for name in QUANTITIES], axis=1) for k in (2, 3))
         variables["gradient"] = over, slope.reshape(sizes), {"long_name": "derivatives by entries of the scene, SI"}
         variables["gradient_error"] = over, slope_error.reshape(sizes), {"long_name": "estimated errors of gradient"}
         coordinates |= {"quantity": list(QUANTITIES), "parameter": list(wrt)}

@@ -128,11 +128,11 @@ class _Matrix:
         return {name: values[self.asked] for name, values in self.columns.items()}
 
     def _compute(self, which: np.ndarray) -> None:
-        left = np.unique(which)
-        left = left[~self.done[left]]
-        total = int(np.count_nonzero(self.done)) + left.size
-        self.progress(total - left.size, total)
-        for where, block in self._blocks([left[k : k + _BLOCK] for k in range(0, left.size, _BLOCK)]):
+        rest = np.unique(which)
+        rest = rest[~self.done[rest]]
+        total = int(np.count_nonzero(self.done)) + rest.size
+        self.progress(total - rest.size, total)
+        for where, block in self._blocks([rest[k : k + _BLOCK] for k in range(0, rest.size, _BLOCK)]):
             fill(self.columns, where, block)
             self.done[where] = True
             self.progress(int(np.count_nonzero(self.done)), total)
@@ -165,13 +165,13 @@ class _Matrix:
             apart = 2 * np.abs(value[first[checks]] - mean[checks]).max(axis=0)
             of_nodes = error[nodes].reshape(-1, COLUMNS).max(axis=0)
             if (apart <= np.maximum(self.request.tolerance / 2, of_nodes)).all():  # nor where any is NaN
-                left = wanted[~self.done[wanted]]
+                rest = wanted[~self.done[wanted]]
                 try:
-                    scenes = [self.request.scene_of(sizes) for sizes in self.sizes[left]]
+                    scenes = [self.request.scene_of(sizes) for sizes in self.sizes[rest]]
                 except InputError:
                     return False
-                mean[left], error[left] = value[first[left]], of_nodes + apart
-                self.columns["rate"][left] = [self.request.speeds.mean * target(each) for each in scenes]
+                mean[rest], error[rest] = value[first[rest]], of_nodes + apart
+                self.columns["rate"][rest] = [self.request.speeds.mean * target(each) for each in scenes]
                 self.progress(int(np.count_nonzero(self.done)), int(np.count_nonzero(self.done)))
                 return True
         return False

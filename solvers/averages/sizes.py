@@ -89,21 +89,21 @@ def collide(
     events = np.where(outcome == BOUNCES, np.minimum(answers["events"], _EVENTS - 1), 0)
     label = ((outcome * _CRITERIA + answers["reversal"] + 1) * _EVENTS + events) * 2 + (answers["smallest_gap"] >= 1)
     label = np.where(decided, np.where(outcome > 0, label, 0), UNDECIDED)
-    found = np.where(outcome > 0, answers["shown"][:, :2].T, 0.0)
+    results = np.where(outcome > 0, answers["shown"][:, :2].T, 0.0)
     spins = np.zeros((2, angle.size))
     if not locating:
         rates = rates_of(answers, experiment.impacts(pair, normal, within))
         spins = np.stack([rates[name] for name in _RESULTS[2:]])
-        found[:, ~decided] = spins[:, ~decided] = np.nan
+        results[:, ~decided] = spins[:, ~decided] = np.nan
         outcome[~decided] = UNDECIDED
-    found[0] *= flatter
+    results[0] *= flatter
     if locating:
-        return Collided(label, found)
-    left = (found[0] * np.cos(angle)) ** 2
+        return Collided(label, results)
+    normal_energy = (results[0] * np.cos(angle)) ** 2
     turning, stretch = _turning(experiment, pair, normal, within, outcome, spins)
     sliding = (stretch * np.sin(angle)) ** 2
-    lost = (np.cos(angle) ** 2 + sliding * (1 - found[1] ** 2) - left - turning) / ((1 + stretch**2) / 2)
-    return Collided(label, np.stack([*found, left, turning, lost]))
+    lost = (np.cos(angle) ** 2 + sliding * (1 - results[1] ** 2) - normal_energy - turning) / ((1 + stretch**2) / 2)
+    return Collided(label, np.stack([*results, normal_energy, turning, lost]))
 
 
 def _turning(

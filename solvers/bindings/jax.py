@@ -88,8 +88,8 @@ def law(
     def function(speed: Any, angle: Any, entries: Mapping[str, Any] | None = None) -> Any:
         ordered = dict(sorted((entries or {}).items()))
         columns = jnp.broadcast_arrays(*(jnp.asarray(each, float) for each in (speed, angle, *ordered.values())))
-        found = of_columns(tuple(ordered))(*columns)
-        results = {name: found[..., k] for k, name in enumerate(names)}
+        answers = of_columns(tuple(ordered))(*columns)
+        results = {name: answers[..., k] for k, name in enumerate(names)}
         if OUTCOME in results:
             results[OUTCOME] = jax.lax.stop_gradient(results[OUTCOME]).astype("int32")
         return results[names[0]] if isinstance(of, str) else results

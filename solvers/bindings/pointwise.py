@@ -45,13 +45,13 @@ class Pointwise:
         if not flat.shape[1]:
             return np.zeros((*columns.shape[1:], len(self.of)))
         speed, angle, *entries = flat
-        found = collide_many(
+        data = collide_many(
             self.scene, speed=speed, angle=angle, vary=dict(zip(self.entries, entries)), rtol=self.rtol,
             of=tuple(name for name in self.of if name != OUTCOME) or ("restitution",),
         )  # fmt: skip
-        results = np.stack([found[name].values.astype(float) for name in self.of], axis=-1)
-        if self.undifferentiable == "raise" and (found[OUTCOME].values == FAILED).any():
-            self._refuse(flat, int(np.argmax(found[OUTCOME].values == FAILED)), str(found["reason"].values.max()))
+        results = np.stack([data[name].values.astype(float) for name in self.of], axis=-1)
+        if self.undifferentiable == "raise" and (data[OUTCOME].values == FAILED).any():
+            self._refuse(flat, int(np.argmax(data[OUTCOME].values == FAILED)), str(data["reason"].values.max()))
         return results.reshape(*columns.shape[1:], len(self.of))
 
     def slopes(self, columns: np.ndarray, by: Sequence[int]) -> np.ndarray:
@@ -65,14 +65,14 @@ class Pointwise:
         for k, material in enumerate(materials) if names and wrt else ():
             rows = np.flatnonzero(which.ravel() == k)
             scene = self.scene.with_si(dict(zip(self.entries, material)), "speed") if self.entries else self.scene
-            found = gradients_many(
+            gradients = gradients_many(
                 scene, speed=flat[0, rows], angle=flat[1, rows], wrt=wrt, of=names, rtol=self.rtol, hold="speed"
             )
-            gradient = found["gradient"].transpose("collision", "quantity", "parameter").values
+            gradient = gradients["gradient"].transpose("collision", "quantity", "parameter").values
             missing = np.isnan(gradient)
             if self.undifferentiable == "raise" and missing.any():
                 bad = int(np.argmax(missing.any(axis=(1, 2))))
-                self._refuse(flat, int(rows[bad]), str(found["reason"].values[bad]) or "it is undefined")
+                self._refuse(flat, int(rows[bad]), str(gradients["reason"].values[bad]) or "it is undefined")
             elif self.undifferentiable == "zero":
                 gradient = np.where(missing, 0.0, gradient)
             slopes[rows[:, None], places] = gradient

@@ -228,11 +228,11 @@ class Experiment:
         if run is None:
             raise _without_derivatives()
         answers, slopes = run.answers, run.slopes
-        late = np.flatnonzero(answers["status"] > LAST_ANSWER)
-        if back and late.size:
-            again = run_tangent(impacts.part(late), oblique, rtol, rotation, moved, None, budget, False, False)
+        failures = np.flatnonzero(answers["status"] > LAST_ANSWER)
+        if back and failures.size:
+            again = run_tangent(impacts.part(failures), oblique, rtol, rotation, moved, None, budget, False, False)
             assert again is not None
-            answers[late], slopes[late] = again.answers, again.slopes[:, :, :1]
+            answers[failures], slopes[failures] = again.answers, again.slopes[:, :, :1]
         done = answers["status"] <= LAST_ANSWER
         results.outcome[which] = np.where(done, answers["outcome"], UNDECIDED)
         for k, name in enumerate(names):

@@ -111,12 +111,14 @@ def normals(experiment: Experiment, lines: Lines, changes: Brackets, approximate
     sound = (outcome == np.maximum(changes.before, changes.after)).all(axis=0)
     sound &= (growth > _GROWTH[0]) & (growth < _GROWTH[1])
     free, speed, angle, along = (np.where(sound.reshape(-1, *[1] * (each.ndim - 1)), each, np.nan) for each in parts)
-    late = np.flatnonzero((outcome < 0).any(axis=0)) if approximate else np.zeros(0, int)
-    if late.size:
-        far = np.maximum(_FAR, 4 * changes.error[late])
-        free[late], speed[late], angle[late] = _by_times(experiment, lines, line[late], y[late], side[late], far)
-        by_speed, by_angle = lines.slopes(line[late], y[late])
-        along[late] = speed[late] * by_speed + angle[late] * by_angle
+    failures = np.flatnonzero((outcome < 0).any(axis=0)) if approximate else np.zeros(0, int)
+    if failures.size:
+        far = np.maximum(_FAR, 4 * changes.error[failures])
+        free[failures], speed[failures], angle[failures] = _by_times(
+            experiment, lines, line[failures], y[failures], side[failures], far
+        )
+        by_speed, by_angle = lines.slopes(line[failures], y[failures])
+        along[failures] = speed[failures] * by_speed + angle[failures] * by_angle
     return Normals(free, speed, angle, along)
 
 
@@ -217,15 +219,15 @@ def _again(
     def label(which: np.ndarray, places: np.ndarray) -> np.ndarray:
         return labels(every, rows[which], *lines.at(line[which], places))
 
-    places, left = np.full(y.size, np.nan), np.arange(y.size)
+    places, rest = np.full(y.size, np.nan), np.arange(y.size)
     for reach in _REACH:
-        limits = lines.low[line[left]], lines.high[line[left]]
-        low, high = (np.clip(y[left] + side * reach * step, *limits) for side in (-1, 1))
-        there = (label(left, low) == before[left]) & (label(left, high) == after[left])
-        which = left[there]
+        limits = lines.low[line[rest]], lines.high[line[rest]]
+        low, high = (np.clip(y[rest] + side * reach * step, *limits) for side in (-1, 1))
+        same = (label(rest, low) == before[rest]) & (label(rest, high) == after[rest])
+        which = rest[same]
         if which.size:
             is_before = partial(lambda which, at: label(which, at) == before[which], which)
-            ends = bisect(is_before, low[there], high[there], _ENCLOSED * step)
+            ends = bisect(is_before, low[same], high[same], _ENCLOSED * step)
             places[which] = (ends[0] + ends[1]) / 2
-        left = left[~there]
+        rest = rest[~same]
     return places

@@ -28,8 +28,8 @@ def command(data: str | None, request: options.EntriesRequest, output: options.W
         request, data = replace(request, source=data), source
     if data is None:
         raise InputError("DATA.csv", None, "a CSV file with a row for each impact")
-    found = check_data(data, request.scene(remark=True))
-    output.put(str(found), found.to_dict())
-    if found.findings:
-        count = len(found.findings)
-        raise CheckFailed(f"{count} finding{'s' * (count > 1)}, the first: {found.findings[0].text}")
+    report = check_data(data, request.scene(remark=True))
+    output.put(str(report), report.to_dict())
+    if report.findings:
+        count = len(report.findings)
+        raise CheckFailed(f"{count} finding{'s' * (count > 1)}, the first: {report.findings[0].text}")

@@ -51,8 +51,8 @@ def command(
     if wrt is not None:
         chosen["wrt"] = "all" if wrt == ["all"] else wrt
     with Bar("materials", "fewer materials or angles take less") as progress:
-        found = critical(materials, progress=progress, **chosen)
-    output.show(found)
-    failed = [one for one in found.rows if one.failed]
+        result = critical(materials, progress=progress, **chosen)
+    output.show(result)
+    failed = [one for one in result.rows if one.failed]
     if failed:
-        raise CheckFailed(f"{len(failed)} of {len(found.rows)} rows have no answer, first: {failed[0].sentences[0]}")
+        raise CheckFailed(f"{len(failed)} of {len(result.rows)} rows have no answer, first: {failed[0].sentences[0]}")

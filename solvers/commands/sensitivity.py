@@ -107,8 +107,8 @@ def _band(
     columns = (data[of[0]], data.first_order, data.low, data.high)
     for k, value in enumerate(values):
         cells = [f"{float(column[k]):.6g}" for column in columns]
-        shown = math.degrees(value) if name == "angle" else value
-        lines.append(f"{shown:<20.6g} {cells[0]:>16} {cells[1]:>16} {cells[2]:>12} {cells[3]:>12}")
+        number = math.degrees(value) if name == "angle" else value
+        lines.append(f"{number:<20.6g} {cells[0]:>16} {cells[1]:>16} {cells[2]:>12} {cells[3]:>12}")
     return data, "\n".join(lines)
 
 

@@ -48,5 +48,5 @@ def command(
     if film is None:
         raise InputError("FILM.csv", None, "a tracker's table, such as a CSV file with a row for each frame")
     options_of = passed(rate=rate, scale=scale, scale_sd=scale_sd, noise=noise, near=near, particles=particles)
-    found = tracks(film, request.scene(), **options_of)
-    output.show(found)
+    impacts = tracks(film, request.scene(), **options_of)
+    output.show(impacts)

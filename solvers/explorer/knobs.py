@@ -94,14 +94,14 @@ class Knob:
 
 def knobs(scene: Scene, entries: Sequence[Number], impact: Sequence[Number]) -> list[dict[str, Any]]:
     """The knobs of a scene, as the page reads them; those of the impact first."""
-    made = {each.name: _of_entry(scene, each) for each in map(_dotted, entries) if each.name != "liquid.density"}
+    knobs = {each.name: _of_entry(scene, each) for each in map(_dotted, entries) if each.name != "liquid.density"}
     if scene.partner is None:  # equal spheres have one size, one density and one coating
-        for name in [each for each in made if each.startswith("partner.")]:
+        for name in [each for each in knobs if each.startswith("partner.")]:
             twin = name.replace("partner.coating", "liquid.coating").replace("partner.", "particles.")
-            own, partner = made[twin], made.pop(name)
-            made[twin] = Knob(**(asdict(own) | {"members": (*own.members, *partner.members)}))
-    first = [made.pop(name) for name in _FIRST if name in made]
-    rest = [Knob(**(asdict(each) | {"first": False})) for each in made.values()]
+            own, partner = knobs[twin], knobs.pop(name)
+            knobs[twin] = Knob(**(asdict(own) | {"members": (*own.members, *partner.members)}))
+    first = [knobs.pop(name) for name in _FIRST if name in knobs]
+    rest = [Knob(**(asdict(each) | {"first": False})) for each in knobs.values()]
     return [asdict(each) | {"hint": _HINTS.get(each.name, "")} for each in (*_of_impact(scene, impact), *first, *rest)]
 
 
@@ -161,7 +161,7 @@ def _of_impact(scene: Scene, impact: Sequence[Number]) -> list[Knob]:
     unit, factor = _unit(scene, entry, "1" if entry.endswith("stokes") else "m/s")
     value = float(scene.entries[entry]) / factor
     low, high, logarithmic = _rounded(value / 50), _rounded(value * 50), True
-    made = [
+    knobs = [
         Knob("impact.speed", "Speed", unit, factor, value, low, high, logarithmic),
         Knob("impact.angle", "Impact angle", "deg", math.pi / 180, math.degrees(angle), 0.0, _STEEPEST, False),
     ]
@@ -171,5 +171,5 @@ def _of_impact(scene: Scene, impact: Sequence[Number]) -> list[Knob]:
         number = next(each for each in impact if each.name == name)
         if number.range.high > 0:
             value = float(material.get(f"impact_{name}", 0.0))
-            made.append(Knob(f"impact.{name}", label, "rad/s", 1.0, value, -most, most, False))
-    return made
+            knobs.append(Knob(f"impact.{name}", label, "rad/s", 1.0, value, -most, most, False))
+    return knobs

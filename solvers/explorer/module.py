@@ -101,20 +101,20 @@ def limits(scene: Scene, material: Sequence[str], entries: Sequence[str]) -> tup
     known = {**si_values(scene, None, None), **members, **others}
     if not dense:
         del known["density"]
-    found, numbers = [], []
+    limits, numbers = [], []
     for limit in (*LIMITS, *law_limits(scene)):
         number = limit.number(scene, known)
         if isinstance(number, float) and math.isnan(number):
             continue  # the question does not arise for this scene
         numbers.append(number)
-        found.append(limit)
+        limits.append(limit)
     code = CodeGenerator(_LIMITS)
     code.add(Function(_LIMITS, [vertcat(*members.values()), vertcat(*others.values())], [vertcat(*numbers)]))
     given = [f"impacts[k].{name}" for name in results[:2]] + [f"collisions[k].{name}" for name in results[2:-1]]
     given.append("pair_entries.liquid_density" if dense else "0.0")
     least, most = (
         ", ".join(f"{bound!r}".replace("inf", "INFINITY") for bound in bounds)
-        for bounds in zip(*(limit.bounds for limit in found), strict=True)
+        for bounds in zip(*(limit.bounds for limit in limits), strict=True)
     )
-    shim = _OUTSIDE.format(count=len(found), other=", ".join(given), name=_LIMITS, least=least, most=most)
-    return str(code.dump()) + shim, [WORDS.get(limit.flag, limit.flag) for limit in found]
+    shim = _OUTSIDE.format(count=len(limits), other=", ".join(given), name=_LIMITS, least=least, most=most)
+    return str(code.dump()) + shim, [WORDS.get(limit.flag, limit.flag) for limit in limits]

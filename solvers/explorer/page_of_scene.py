@@ -251,17 +251,17 @@ def _tables(scene: Scene, law: LawSource) -> list[list[str | None]]:
     """Rows of the scene's TOML: table, key, and its text; for a number of the law that number's name, and its unit."""
     rows: list[list[str | None]] = []
     members = {each.name for each in law.entries}
-    kept = {name: raw for name, raw in scene.given if name.partition(".")[0] != "impact"}
+    entries = {name: raw for name, raw in scene.given if name.partition(".")[0] != "impact"}
     for each in law.entries:
         table, _, key = each.name.partition("_")
         if table == "partner" and scene.partner is None:
             continue  # equal to the first
         unit = "m^3" if f"{table}.{key}" == "bridge.volume" and scene.ways.volume == "absolute" else each.unit
         rows.append([table, key, None, each.name, "" if unit == "1" else unit])
-    for name, raw in kept.items():
+    for name, raw in entries.items():
         table, _, key = name.partition(".")
         if name.replace(".", "_", 1) not in members and key not in _SIZES:
             text = "true" if raw is True else json.dumps(raw, ensure_ascii=False)
             rows.append([table, key, text, None, None])
-    order = [*dict.fromkeys(name.partition(".")[0] for name in kept)]
+    order = [*dict.fromkeys(name.partition(".")[0] for name in entries)]
     return sorted(rows, key=lambda row: order.index(row[0] or ""))

@@ -21,7 +21,7 @@ def texts(scene: Scene) -> dict[str, str]:
 
     laws = dict(select_model(scene, oblique=True, full=True).laws)
     parts = (("bridge", scene.bridge), ("strings", scene.pendulum), ("glass", scene.liquid.glass_transition_pressure))
-    lacking = [slot for slot, there in parts if there is None]
+    lacking = [slot for slot, table in parts if table is None]
     title = f"Oblique collisions of wet particles: {name_of(scene)}"
     rendered = document(title, laws, user_model(scene.package), lacking, scene.particles.friction is not None)
     return {f"{file_name(scene)}.tex": rendered.tex()}

@@ -189,8 +189,8 @@ def _units(experiment: Experiment, data: Measurements, share: float) -> list[Fin
         other = speed / np.cos(angle) if data.relative else speed * np.cos(angle)
         either = ("the magnitude of the relative velocity", "the normal component")[:: -1 if data.relative else 1]
         others.append((f"these speeds as {either[0]}", f"Are they not {either[1]}?", other, angle))
-    found = [(_predicted(experiment, data, v, a).agreement, words, question) for words, question, v, a in others]
-    best, words, question = max(found)
+    agreements = [(_predicted(experiment, data, v, a).agreement, words, question) for words, question, v, a in others]
+    best, words, question = max(agreements)
     if best < max(_GOOD, share + _BETTER):
         return []
     text = (
@@ -227,8 +227,8 @@ def _beyond(experiment: Experiment, data: Measurements, seen: _Predicted) -> lis
     speed = np.geomspace(low, high, _SPEEDS) / experiment.scene.stokes_per_speed
     rows, speeds = np.repeat(np.tile(row, 2), _SPEEDS), np.tile(speed, 2 * row.size)
     angles = np.repeat(np.concatenate([data.angle[row], steeper]), _SPEEDS)
-    found = experiment.plain(("restitution",), rows, speeds, angles)[0].reshape(2, row.size, _SPEEDS)
-    most = np.nan_to_num(found).max(axis=(0, 2))
+    predictions = experiment.plain(("restitution",), rows, speeds, angles)[0].reshape(2, row.size, _SPEEDS)
+    most = np.nan_to_num(predictions).max(axis=(0, 2))
     wrong = np.flatnonzero(values[row] - _NOISE * sd[row] > most)
     if not wrong.size:
         return []
@@ -278,12 +278,12 @@ def _outliers(experiment: Experiment, data: Measurements, seen: _Predicted) -> l
 
 def _within_scatter(experiment: Experiment, data: Measurements) -> np.ndarray:
     """Mask of the rows whose outcome the scene gives at the impact or within three deviations in speed and angle."""
-    found = np.zeros(data.size, bool)
+    matches = np.zeros(data.size, bool)
     for side, turn in ((0, 0), (_WIDE, 0), (-_WIDE, 0), (0, _WIDE), (0, -_WIDE), (2, 2), (2, -2), (-2, 2), (-2, -2)):
         angle = np.clip(data.angle + turn * data.angle_sd, 0, STEEPEST)
         speed = np.maximum(data.normal_speed * (1 + side * data.speed_sd / data.speed), 1e-3 * data.normal_speed)
-        found |= _predicted(experiment, data, speed, angle).outcome == data.outcome
-    return found
+        matches |= _predicted(experiment, data, speed, angle).outcome == data.outcome
+    return matches
 
 
 def _duplicates(data: Measurements) -> list[Finding]:

@@ -150,9 +150,9 @@ def problem(
         names = parts[-1].names
         told = {name: priors[each] for name in names for each in (entries[name], name) if each in priors}
         unused -= {*entries.values(), *names}
-        found = free_entries(first, names, table, told, rtol).entries if names else ()
-        found += tuple(_noise_entry(name, table) for name in entries if name not in names)
-        for each in found:
+        entries_free = free_entries(first, names, table, told, rtol).entries if names else ()
+        entries_free += tuple(_noise_entry(name, table) for name in entries if name not in names)
+        for each in entries_free:
             key = entries[each.name]
             merged[key] = _both(merged[key], each) if key in merged else replace(each, name=key)
     for name in unused:

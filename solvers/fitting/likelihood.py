@@ -130,10 +130,10 @@ class Likelihood:
             row = np.flatnonzero(data.separated & np.isfinite(data.observed[name][0]))
             lines = ScatterLines.through(data, self.direction, 1)
             at = lines.at(row, np.zeros(row.size))
-            there = experiment.results(self.measured, row, *at)
-            by = in_deviations(data, row, *at, there.speed[k], there.angle[k])
-            steep = np.hypot(there.speed[k] * data.speed_sd[row], there.angle[k] * data.angle_sd[row])
-            turned = (steep > data.observed[name][1][row]) & by.any(axis=1) & (there.outcome > 0)
+            at_point = experiment.results(self.measured, row, *at)
+            by = in_deviations(data, row, *at, at_point.speed[k], at_point.angle[k])
+            steep = np.hypot(at_point.speed[k] * data.speed_sd[row], at_point.angle[k] * data.angle_sd[row])
+            turned = (steep > data.observed[name][1][row]) & by.any(axis=1) & (at_point.outcome > 0)
             self.direction[row[turned]] = np.arctan2(by[turned, 1], by[turned, 0])
             if turned.any():
                 break
@@ -166,12 +166,12 @@ class Likelihood:
         experiment, resolution, noise = self._experiment(values), resolution or Resolution(), self._factors(values)
         if experiment is None:
             return None
-        found = self.evaluate(experiment, resolution, noise)
+        terms = self.evaluate(experiment, resolution, noise)
         for k, name in enumerate(self.noise, len(experiment.rows.names)):
             if name in SCATTER:  # the lines move with it
                 sides = [self.evaluate(experiment, resolution, noise | {name: noise[name] * (1 + h)}) for h in _SIDES]
-                found.scores[:, k] = (sides[1].rows - sides[0].rows) / (_SIDES[1] - _SIDES[0]) / noise[name]
-        return found
+                terms.scores[:, k] = (sides[1].rows - sides[0].rows) / (_SIDES[1] - _SIDES[0]) / noise[name]
+        return terms
 
     def _experiment(self, values: np.ndarray) -> Experiment | None:
         return self.experiments.at(values[: len(self.experiments.names)])
@@ -255,24 +255,24 @@ class Likelihood:
             none = dict.fromkeys(self.measured, np.zeros(0))
             return _Narrow(centre, width, row, none, none)
         at = ScatterLines.through(data, self.direction, 1).at(row, np.zeros(row.size))
-        there = experiment.results(self.measured, row, *at)
+        at_point = experiment.results(self.measured, row, *at)
         precision, pull = np.tile(np.eye(2), (row.size, 1, 1)), np.zeros((row.size, 2))
         spread = {}
         for k, name in enumerate(self.measured):
             values, sd = (each[row] for each in data.observed[name])
-            by = in_deviations(data, row, *at, there.speed[k], there.angle[k])
+            by = in_deviations(data, row, *at, at_point.speed[k], at_point.angle[k])
             spread[name] = np.linalg.norm(by, axis=1)
-            known = np.isfinite(values - there.value[k])
+            known = np.isfinite(values - at_point.value[k])
             steep = np.where(known, 1.0, 0.0)[:, None] * np.nan_to_num(by) / sd[:, None]
             precision += steep[:, :, None] * steep[:, None]
-            pull += steep * np.where(known, (values - np.nan_to_num(there.value[k])) / sd, 0.0)[:, None]
+            pull += steep * np.where(known, (values - np.nan_to_num(at_point.value[k])) / sd, 0.0)[:, None]
         across = np.column_stack([-np.sin(self.direction[row]), np.cos(self.direction[row])])
-        left = np.linalg.inv(precision)
-        size = _ROOM * np.sqrt(np.einsum("ni,nij,nj->n", across, left, across))
-        less = np.flatnonzero((size < _NARROW) & (there.outcome > 0))
-        mean = np.einsum("ni,nij,nj->n", across, left, pull)
+        covariance = np.linalg.inv(precision)
+        size = _ROOM * np.sqrt(np.einsum("ni,nij,nj->n", across, covariance, across))
+        less = np.flatnonzero((size < _NARROW) & (at_point.outcome > 0))
+        mean = np.einsum("ni,nij,nj->n", across, covariance, pull)
         centre[row[less]], width[row[less]] = np.clip(mean, -REACH, REACH)[less], size[less]
-        values_there = {name: there.value[k][less] for k, name in enumerate(self.measured)}
+        values_there = {name: at_point.value[k][less] for k, name in enumerate(self.measured)}
         return _Narrow(centre, width, row[less], values_there, {name: each[less] for name, each in spread.items()})
 
     def _resolved(
@@ -327,8 +327,8 @@ class Likelihood:
             gradient += np.einsum("sn,snp->sp", (share * pull) @ mapping.interpolate, of_result)
         for name in self.noise:
             gradient = np.column_stack([gradient, (share * squares[name]).sum(axis=1) / noise[name]])
-        kept = integral > 0
-        return row[kept], logs[kept], gradient[kept]
+        positive = integral > 0
+        return row[positive], logs[positive], gradient[positive]
 
 
 def _widened(slopes: np.ndarray, width: int) -> np.ndarray:

@@ -287,14 +287,14 @@ class _Table:
             gaps: cells may be missing; NaN there.
         """
         column, factor = self.by_name[name], 1.0
-        shown = {"rad": "deg", "": "1"}.get(si, si)
+        unit = {"rad": "deg", "": "1"}.get(si, si)
         if si and column.unit is None and any(isinstance(cell, str) for cell in column.cells):
-            raise InputError(self.header, name, f"the unit in brackets, such as {name} [{shown}]", "has no unit")
+            raise InputError(self.header, name, f"the unit in brackets, such as {name} [{unit}]", "has no unit")
         if column.unit == "%":
             factor = 0.01
         elif column.unit is not None and (column.unit or si):
             written = f"{name} [{column.unit}]"
-            factor = units.factor(column.unit, si or None, self.header, f"{name} in {shown}", written)
+            factor = units.factor(column.unit, si or None, self.header, f"{name} in {unit}", written)
         numbers = np.full(self.size, np.nan)
         for row, cell in enumerate(column.cells):
             value = self._cell(cell, row, name, words)
@@ -356,9 +356,9 @@ class _Table:
             accepted = "outcome, restitution or another result in at least one row"
             raise InputError(self.label, None, accepted, "says nothing of any impact")
         if not observation.all():
-            left = np.flatnonzero(~observation)
-            named, more = ", ".join(labels[k] for k in left[:_NAMED]), f" ... ({left.size} rows)"
-            more = more if left.size > _NAMED else ""
+            rest = np.flatnonzero(~observation)
+            named, more = ", ".join(labels[k] for k in rest[:_NAMED]), f" ... ({rest.size} rows)"
+            more = more if rest.size > _NAMED else ""
             self.remarks.append(f"Left out, for neither outcome nor result is given: {named}{more}.")
             data = data.part(np.flatnonzero(observation))
         return replace(data, remarks=tuple(self.remarks))
@@ -480,9 +480,9 @@ class _Table:
                 if self.by_name[error].unit == "%":
                     sd = sd * np.abs(values)
             if name in RESULT_SD and (np.isnan(sd) & np.isfinite(values)).any():
-                shown = f"{100 * RESULT_SD[name]:g} %" if relative else f"{RESULT_SD[name]:.4g}"
-                shown = f"{math.degrees(RESULT_SD[name]):.3g} deg" if UNITS[name] == "rad" else shown
-                self.remarks.append(f"Standard deviation of {name}, where it is not given: {shown}.")
+                text = f"{100 * RESULT_SD[name]:g} %" if relative else f"{RESULT_SD[name]:.4g}"
+                text = f"{math.degrees(RESULT_SD[name]):.3g} deg" if UNITS[name] == "rad" else text
+                self.remarks.append(f"Standard deviation of {name}, where it is not given: {text}.")
                 sd = np.where(np.isnan(sd), RESULT_SD[name] * (np.abs(values) if relative else 1.0), sd)
             bad = ~(sd > 0) & np.isfinite(values) & (values != 0)
             self._refuse(bad, error, sd, "a standard deviation > 0")

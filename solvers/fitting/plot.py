@@ -226,8 +226,8 @@ def _profile(axes: Axes, fit: Fit, k: int) -> None:
         axes.set_xscale("log")
     axes.set_ylim(max(min(min(heights), -objective.drop) * 1.1, min(-5.0, -1.5 * objective.drop)), 0.4)
     name, _, owner = entry.name.partition("@")
-    shown = f"{'noise of ' * name.startswith('noise.')}{name.rpartition('.')[2].replace('_', ' ')}"
-    axes.set_xlabel(plain_text(f"{owner}: {shown}" if owner else shown) + (f" ({unit})" if unit else ""))
+    label = f"{'noise of ' * name.startswith('noise.')}{name.rpartition('.')[2].replace('_', ' ')}"
+    axes.set_xlabel(plain_text(f"{owner}: {label}" if owner else label) + (f" ({unit})" if unit else ""))
     axes.set_title(f"{estimate.verdict} {estimate.precision}".rstrip(), fontsize=8)
 
 
@@ -249,11 +249,11 @@ def _residuals(axes: Axes, fit: Fit) -> None:
     axes.axhline(0, color=NOTE, linewidth=0.8)
     for name, residual in rows.residual.items():
         for code, mark in _MARKS.items():
-            shown = np.isfinite(residual) & (data.outcome == code)
-            if shown.any():
+            points = np.isfinite(residual) & (data.outcome == code)
+            if points.any():
                 outcome = LETTERS[OUTCOMES[code]] if code >= 0 else "outcome not recorded"
                 fill = EDGES[OUTCOMES[code]] if code >= 0 else INK
-                axes.plot(data.speed[shown], residual[shown], mark, color=INK, markerfacecolor=fill, markersize=5,
+                axes.plot(data.speed[points], residual[points], mark, color=INK, markerfacecolor=fill, markersize=5,
                           label=f"{outcome}, {name.replace('_', ' ')}")  # fmt: skip
     stuck = ~data.separated
     if stuck.any():

@@ -57,8 +57,8 @@ def draws(objective: Objective, best: np.ndarray, count: int, seed: int) -> tupl
         covariance = (weight[:, None] * (inner - centre)).T @ (inner - centre)
         values, vectors = np.linalg.eigh(covariance + 1e-6 * free.size * np.diag(np.diag(covariance)))
         spread = vectors * np.sqrt(np.maximum(values, 1e-30))
-    kept = weight > 0
-    return np.array([free.values(each) for each in inner[kept]]), weight[kept]
+    positive = weight > 0
+    return np.array([free.values(each) for each in inner[positive]]), weight[positive]
 
 
 def predicted(
@@ -97,8 +97,8 @@ def predicted(
     own = {name: values[:, names.index(part.entries[name])] for name in part.names}
     vary = {name: part.scene.as_given(name, np.repeat(each, cells)) for name, each in own.items()}
     given = {kind: v, "angle": a}
-    found = collide_many(part.scene, vary=vary, of=("outcome",), **given).outcome.values
-    outcome = found.reshape(weight.size, across.size, along.size)
+    outcomes = collide_many(part.scene, vary=vary, of=("outcome",), **given).outcome.values
+    outcome = outcomes.reshape(weight.size, across.size, along.size)
     share = np.stack([np.tensordot(weight, outcome == code, 1) for code in range(len(OUTCOMES))])
     columns = {"probability": (("outcome", "angle", kind), share, {"units": "1", "long_name": "probability"})}
     axes = {"angle": (("angle",), across, attributes("angle")), kind: ((kind,), along, attributes(kind))}

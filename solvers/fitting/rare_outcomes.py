@@ -112,13 +112,13 @@ def _misfit(
     half, slope = np.zeros(line.size), np.zeros(moves.shape)
     if not measured:
         return half, slope
-    there = experiment.results(measured, row, *lines.at(line, y))
+    at_point = experiment.results(measured, row, *lines.at(line, y))
     by_speed, by_angle = lines.slopes(line, y)
     for k, name in enumerate(measured):
         values, sd = (each[row] for each in data.observed[name])
-        known = np.isfinite(values) & np.isfinite(there.value[k]) & data.separated[row]
-        pull = np.where(known, (values - np.nan_to_num(there.value[k])) / sd, 0.0)
-        by_y = there.speed[k] * by_speed + there.angle[k] * by_angle
+        known = np.isfinite(values) & np.isfinite(at_point.value[k]) & data.separated[row]
+        pull = np.where(known, (values - np.nan_to_num(at_point.value[k])) / sd, 0.0)
+        by_y = at_point.speed[k] * by_speed + at_point.angle[k] * by_angle
         half += pull**2 / 2
-        slope[known] -= ((pull / sd)[:, None] * (there.free[k] + by_y[:, None] * moves))[known]
+        slope[known] -= ((pull / sd)[:, None] * (at_point.free[k] + by_y[:, None] * moves))[known]
     return half, slope

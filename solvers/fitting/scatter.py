@@ -262,9 +262,11 @@ class Segments:
         row, impacts = lines.row[line], lines.at(line, y)
         budget = _SHORT if resolution.approximate else KERNEL_STEPS
         at_nodes = experiment.results(names, row, *impacts, budget=budget)
-        late = np.flatnonzero(at_nodes.outcome < 0)
-        if late.size:
-            at_nodes.value[:, late] = experiment.plain(names, row[late], impacts[0][late], impacts[1][late])
+        failures = np.flatnonzero(at_nodes.outcome < 0)
+        if failures.size:
+            at_nodes.value[:, failures] = experiment.plain(
+                names, row[failures], impacts[0][failures], impacts[1][failures]
+            )
         by_speed, by_angle = lines.slopes(line, y)
         by_y = at_nodes.speed * by_speed + at_nodes.angle * by_angle
         first = 0
@@ -333,9 +335,9 @@ def _extension(known: tuple[bool, ...], degree: int) -> np.ndarray:
     Arguments:
         known: which of the nodes have a value.
     """
-    nodes, kept = len(known), np.flatnonzero(known)
-    basis = np.polynomial.chebyshev.chebvander(2 * _chebyshev_nodes(nodes) - 1, min(degree, kept.size - 1))
+    nodes, places = len(known), np.flatnonzero(known)
+    basis = np.polynomial.chebyshev.chebvander(2 * _chebyshev_nodes(nodes) - 1, min(degree, places.size - 1))
     matrix = np.zeros((nodes, nodes))
-    matrix[:, kept] = basis @ np.linalg.pinv(basis[kept])
-    matrix[kept] = np.eye(nodes)[kept]
+    matrix[:, places] = basis @ np.linalg.pinv(basis[places])
+    matrix[places] = np.eye(nodes)[places]
     return matrix

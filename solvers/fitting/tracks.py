@@ -199,7 +199,7 @@ def tracks(
         path = Flight(times, (positions[:, 2:] - positions[:, :2])[which[first]], names)
         try:
             with np.errstate(divide="raise", over="raise", invalid="raise"):
-                values, sigma, said = _impact(
+                values, sigma, remark = _impact(
                     f"impact {label}", path, repeated, reaches, given, scale_sd, gap, per_frame, rounding
                 )
         except (InputError, FloatingPointError, ZeroDivisionError) as reason:
@@ -211,7 +211,7 @@ def tracks(
         labels.append(label)
         rows.append(values)
         sigmas.append(sigma / math.sqrt(2))
-        remarks += [f"impact {label}: {each}" for each in said]
+        remarks += [f"impact {label}: {each}" for each in remark]
     if not rows:
         raise left_out[0]
     remarks.append(paths.remark)
@@ -227,8 +227,8 @@ def tracks(
     )
     results = {name: [row[name] for row in rows] for name in rows[0]}
     always = ("speed", "angle", "speed_sd", "angle_sd", "outcome", CORRELATION)
-    kept = {name: each for name, each in results.items() if name in always or any(one == one for one in each)}
-    return Tracks(tuple(labels), kept, tuple(sigmas), tuple(remarks))
+    chosen = {name: each for name, each in results.items() if name in always or any(one == one for one in each)}
+    return Tracks(tuple(labels), chosen, tuple(sigmas), tuple(remarks))
 
 
 def _impact(
@@ -373,12 +373,12 @@ def _impact(
         lines = (1 + parameters[-1]) * parameters[:-1].reshape(-1, 2, 2)
         at, normal, sideways, since = _state(lines[0], touch, -1)
         # the angle of the model, whose rotation rate is v0 tan(theta0)/(4a): that of touching solids
-        found = [normal, math.atan2(abs(sideways) * solids / touch, normal)]
+        row = [normal, math.atan2(abs(sideways) * solids / touch, normal)]
         if not sticks:
             then, opening, along, until = _state(lines[1], apart, 1)
             turn = then - at - 2 * math.pi * round((then - at - (turned[last + 1] - turned[first - 1])) / (2 * math.pi))
             tangential = along / sideways if sideways else math.nan
-            found += [-opening / normal, tangential, until - since, turn * math.copysign(1, sideways)]
+            row += [-opening / normal, tangential, until - since, turn * math.copysign(1, sideways)]
         speed, parameter, time_before, direction = _flight(lines[0])
         free = [speed, sense * parameter]
         if not sticks:
@@ -386,7 +386,7 @@ def _impact(
             coming = math.remainder(at - direction - math.pi, 2 * math.pi)
             going = math.remainder(direction_after - then, 2 * math.pi)
             free += [exit_speed, sense * exit_parameter, time_after - time_before, sense * (coming + turn + going)]
-        return np.array([*free, *found])
+        return np.array([*free, *row])
 
     centre = np.array([*(each for one in lines for each in one[0].ravel()), 0.0])
     blocks = [np.linalg.cholesky(covariance) * sigma for _, covariance, *_ in lines]

@@ -75,12 +75,12 @@ def _delivered(descriptor: int, most: int, unopened: float, silent: float) -> by
     begun = time.monotonic()
     content, met = b"", False  # met: a writer has opened the pipe
     while len(content) <= most:
-        left = (silent if met else unopened) - (time.monotonic() - begun)
-        ready = bool(select.select([descriptor], [], [], max(0.0, left))[0])
+        seconds = (silent if met else unopened) - (time.monotonic() - begun)
+        ready = bool(select.select([descriptor], [], [], max(0.0, seconds))[0])
         try:
             part = os.read(descriptor, _PART)
         except BlockingIOError:  # the writer has not written yet
-            if met and left <= 0:
+            if met and seconds <= 0:
                 raise NotRead(f"did not deliver everything within {silent:g} s") from None
             met = True
             continue

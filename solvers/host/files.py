@@ -59,9 +59,9 @@ def save(figure: Figure, path: str | Path, dpi: int) -> None:
 
 def write_all(descriptor: int, data: bytes | memoryview) -> None:
     """Write all bytes to a descriptor. OSError if the system refuses."""
-    left = memoryview(data)
-    while left:
-        left = left[os.write(descriptor, left) :]
+    rest = memoryview(data)
+    while rest:
+        rest = rest[os.write(descriptor, rest) :]
 
 
 def _replaceable(target: Path) -> bool:

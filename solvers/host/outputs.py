@@ -32,8 +32,8 @@ def check_file(
         raise InputError(label, text, accepted, "is in a folder that does not exist")
     if not folder and bounded.is_folder(file):
         raise InputError(label, text, accepted, "is a folder")
-    there = bounded.exists(file)
-    if (there and not os.access(file, os.W_OK)) or ((replaced or not there) and not _takes_files(meant.parent)):
+    exists = bounded.exists(file)
+    if (exists and not os.access(file, os.W_OK)) or ((replaced or not exists) and not _takes_files(meant.parent)):
         raise InputError(label, text, accepted, "cannot be written")
     return file
 
@@ -45,12 +45,12 @@ def check_folder(path: object, label: str) -> Path:
     folder = Path(text)
     if any(len(os.fsencode(part)) > _LONGEST for part in folder.parts):
         raise InputError(label, text, accepted, "is too long a name")
-    there = next(parent for parent in (folder, *folder.absolute().parents) if bounded.exists(parent))
-    if not bounded.is_folder(there):
-        problem = "is a file" if there == folder else f"cannot be made: {there} is a file"
+    nearest = next(parent for parent in (folder, *folder.absolute().parents) if bounded.exists(parent))
+    if not bounded.is_folder(nearest):
+        problem = "is a file" if nearest == folder else f"cannot be made: {nearest} is a file"
         raise InputError(label, text, accepted, problem)
-    if not _takes_files(there):
-        problem = "cannot be written to" if there == folder else f"cannot be made: {there} cannot be written to"
+    if not _takes_files(nearest):
+        problem = "cannot be written to" if nearest == folder else f"cannot be made: {nearest} cannot be written to"
         raise InputError(label, text, accepted, problem)
     return folder
 

@@ -24,13 +24,13 @@ def forecast(
     """
     if seconds < _SAMPLE or done <= before:
         return None
-    left = seconds * (total - done) / (done - before)
-    if left < _WORTH:
+    rest = seconds * (total - done) / (done - before)
+    if rest < _WORTH:
         return None
-    bounds = f" ({duration(left / factor)} to {duration(left * factor)})" if factor > 1 else ""
+    bounds = f" ({duration(rest / factor)} to {duration(rest * factor)})" if factor > 1 else ""
     word, about = "at least" if at_least else "about", "about " if factor > 1 else ""
     sample = f"{done - before} of {about}{total - before} {unit} in {seconds:.1f} s"
-    line = f"{word} {duration(left)} more{bounds}: {sample}"
+    line = f"{word} {duration(rest)} more{bounds}: {sample}"
     return line + (f"; {cheaper}" if cheaper else "")
 
 

@@ -49,12 +49,12 @@ def in_workers(cores: int, run: Callable[..., R], parts: Iterable[tuple[K, tuple
     from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Future, wait
 
     waiting: dict[Future[R], K] = {}
-    left = iter(parts)
+    queue = iter(parts)
     try:
         with workers(cores) as pool:
             while True:
                 with undisturbed():  # only this process handles an interrupt; it then stops its workers
-                    for key, arguments in left:
+                    for key, arguments in queue:
                         waiting[pool.submit(run, *arguments)] = key
                         if len(waiting) > 2 * cores:
                             break

@@ -89,20 +89,20 @@ class Problem:
         if "normal velocity" in error.state:
             return error
         state = dict(error.state)
-        shown: dict[str, float] = {}
+        values: dict[str, float] = {}
         if "gap" in state:
-            shown |= {"gap": state["gap"] * self.length, "normal velocity": state["normal_velocity"] * self.speed}
+            values |= {"gap": state["gap"] * self.length, "normal velocity": state["normal_velocity"] * self.speed}
         if "orbital_momentum" in state:
             ratio = self.groups.get("radius_ratio", 1.0)
             distance = (1 + ratio) ** 2 / ratio + self.groups["aspect"] * state["gap"]
-            shown["rotation rate"] = state["orbital_momentum"] / distance**2 * self.rate
+            values["rotation rate"] = state["orbital_momentum"] / distance**2 * self.rate
         for name, label in (("spin", "spin"), ("partner_spin", "partner's spin")):
             if name in state:
-                shown[label] = state[name] * self.rate
+                values[label] = state[name] * self.rate
         if "decay" in state:
-            shown["e-foldings of sliding"] = state["decay"]
+            values["e-foldings of sliding"] = state["decay"]
         time = None if error.time is None else error.time * self.time
-        return ComputationError(error.message, error.phase, time, shown, error.advice)
+        return ComputationError(error.message, error.phase, time, values, error.advice)
 
 
 def nondimensionalise(scene: Scene, speed: float, angle: float) -> Problem:

@@ -116,8 +116,8 @@ def fig4b(folder: Path) -> Part:
     edges = np.array([change.stokes for line in lines for change in line if change.stokes < _SHOWN])
     even = np.linspace(0, _SHOWN, _POINTS + 1)[1:]
     stokes = np.unique(np.concatenate([even, edges * (1 - _BESIDE), edges * (1 + _BESIDE)]))
-    found = collide_many(scene, stokes=xr.DataArray(stokes, dims="stokes"), angle=xr.DataArray([*CURVES], dims="angle"))
-    outcome, restitution = (found[name].transpose("angle", "stokes").values for name in ("outcome", "restitution"))
+    data = collide_many(scene, stokes=xr.DataArray(stokes, dims="stokes"), angle=xr.DataArray([*CURVES], dims="angle"))
+    outcome, restitution = (data[name].transpose("angle", "stokes").values for name in ("outcome", "restitution"))
     with sheet(folder / "fig4b.png", 8.2) as figure:
         axes = figure.add_subplot()
         _against_stokes(axes, stokes, outcome, restitution)

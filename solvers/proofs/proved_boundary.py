@@ -122,8 +122,8 @@ def prove_boundary(scene: Scene | str | Path, *, angle: float | str, stokes: tup
     points = [(number, at(number).outcome) for number in numbers]
     known = [(number, outcome) for number, outcome in points if outcome is not None]
     pairs: list[tuple[Stretch, tuple[str, str]]] = []
-    for (left, one), (right, other) in itertools.pairwise(known):
-        pairs += _between(at, left, one, right, other) if one != other else ()
+    for (begin, one), (end, other) in itertools.pairwise(known):
+        pairs += _between(at, begin, one, end, other) if one != other else ()
     assert loaded.angle is not None
     return ProvedBoundary(loaded, loaded.angle, *_cover(loaded, numbers, pairs))
 
@@ -172,25 +172,25 @@ def _cover(
     return tuple(changes), tuple(proved), tuple(each for each in gaps if all(each != one.within for one in changes))
 
 
-def _between(at: Any, left: float, one: str, right: float, other: str) -> Iterator[tuple[Stretch, tuple[str, str]]]:
+def _between(at: Any, begin: float, one: str, end: float, other: str) -> Iterator[tuple[Stretch, tuple[str, str]]]:
     """The changes between two points with different outcomes: halved as long as the middle is proved.
 
     Where it is not, both ends move towards it as far as they can be proved.
     """
     for _ in range(_MOST):
-        middle = math.sqrt(left * right)
-        if not left < middle < right:
+        middle = math.sqrt(begin * end)
+        if not begin < middle < end:
             break
         outcome = at(middle).outcome
         if outcome is None:
-            left, right = _towards(at, left, one, middle), _towards(at, right, other, middle)
+            begin, end = _towards(at, begin, one, middle), _towards(at, end, other, middle)
             break
         if outcome not in (one, other):  # a third one lies between
-            yield from _between(at, left, one, middle, outcome)
-            yield from _between(at, middle, outcome, right, other)
+            yield from _between(at, begin, one, middle, outcome)
+            yield from _between(at, middle, outcome, end, other)
             return
-        left, right = (middle, right) if outcome == one else (left, middle)
-    yield (left, right), (one, other)
+        begin, end = (middle, end) if outcome == one else (begin, middle)
+    yield (begin, end), (one, other)
 
 
 def _towards(at: Any, start: float, outcome: str, end: float) -> float:

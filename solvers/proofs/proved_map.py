@@ -84,8 +84,8 @@ class ProvedMap:
         return xarray.Dataset({"outcome": outcome, **ends}, attrs=attributes)
 
     def __str__(self) -> str:
-        shown = [f"{100 * part:8.3f} %  {name}" for name, part in self.shares.items()]
-        return "\n".join([f"{len(self.cells)} cells, {self.proofs} boxes enclosed; shares of the area:", *shown])
+        lines = [f"{100 * part:8.3f} %  {name}" for name, part in self.shares.items()]
+        return "\n".join([f"{len(self.cells)} cells, {self.proofs} boxes enclosed; shares of the area:", *lines])
 
     def to_dict(self) -> dict[str, Any]:
         """The JSON object of `wetdoublet prove --map --json`."""
@@ -157,24 +157,24 @@ def prove_map(
     guide = _Guide.of(loaded, stokes, angle)
     asked = 0
 
-    def decided(cell: Cell, left: int) -> Iterator[tuple[Cell, bool]]:
+    def decided(cell: Cell, levels: int) -> Iterator[tuple[Cell, bool]]:
         expected, spread = guide.expected(cell), ""
-        if expected is not None or not left:
+        if expected is not None or not levels:
             ranges = inputs.ranges | {"stokes": cell.stokes, "angle": cell.angle}  # type: ignore[operator]
             narrow = cell.stokes[1] < cell.stokes[0] * _BOUNDED
             settings = BOX._replace(funnels=1) if narrow or expected == _ROTATE else BOX
-            if expected is not None and left:
+            if expected is not None and levels:
                 settings = settings._replace(expected=expected + 1)
-            found = enclose(engine, ranges, inputs.moving, settings)
-            number, spread = found.outcome - 1, ""
-            if found.rebounds and found.spread >= 0:
-                spread = inputs.moving[found.spread]
-            yield cell._replace(outcome=number), number >= 0 or not left
+            enclosures = enclose(engine, ranges, inputs.moving, settings)
+            number, spread = enclosures.outcome - 1, ""
+            if enclosures.rebounds and enclosures.spread >= 0:
+                spread = inputs.moving[enclosures.spread]
+            yield cell._replace(outcome=number), number >= 0 or not levels
             if number >= 0:
                 return
-        if left:
+        if levels:
             for half in _halves(cell, spread):
-                yield from decided(half, left - 1)
+                yield from decided(half, levels - 1)
 
     def whole(cell: Cell) -> list[tuple[Cell, bool]]:
         return list(decided(cell, depth))
@@ -183,9 +183,9 @@ def prove_map(
     start = [Cell(one, other, UNDECIDED) for one in pairs[0] for other in pairs[1]]
     cells: list[Cell] = []
     with ThreadPoolExecutor(usable_cores()) as pool:  # the engine is called without the interpreter's lock
-        for done, found in enumerate(pool.map(whole, start), 1):
-            asked += len(found)
-            cells += [cell for cell, kept in found if kept]
+        for done, decisions in enumerate(pool.map(whole, start), 1):
+            asked += len(decisions)
+            cells += [cell for cell, decides in decisions if decides]
             if progress is not None:
                 progress(done, len(start))
     return ProvedMap(loaded, tuple(cells), asked)

@@ -110,11 +110,11 @@ def _of_material(
         if row.stokes is not None and uncertainty:
             row = _with_interval(scene, row, uncertainty, samples, rtol, traced.range_text)
         if row.stokes is not None and names:
-            found = moving(scene, at, changes[0], names, rtol)
-            gradient, elasticity = (each.get("relative_speed", {}) for each in (found.gradient, found.elasticity))
-            said = [f"no derivatives: {found.reason}"] if found.reason else []
-            said += [text for name in names if wrt != "all" for text in _extremes(scene, row, name, rtol)]
-            row = replace(row, gradient=gradient, elasticity=elasticity, sentences=(*row.sentences, *said))
+            slopes = moving(scene, at, changes[0], names, rtol)
+            gradient, elasticity = (each.get("relative_speed", {}) for each in (slopes.gradient, slopes.elasticity))
+            sentences = [f"no derivatives: {slopes.reason}"] if slopes.reason else []
+            sentences += [text for name in names if wrt != "all" for text in _extremes(scene, row, name, rtol)]
+            row = replace(row, gradient=gradient, elasticity=elasticity, sentences=(*row.sentences, *sentences))
         rows.append(row)
     return rows
 
@@ -126,19 +126,19 @@ def _row(scene: Scene, row: CriticalSpeed, changes: Sequence[Change], slowest: s
     ends = [each * per_stokes for each in (row.searched[0], *(one.stokes for one in changes), row.searched[1])]
     sticks = tuple((ends[k], ends[k + 1]) for k, outcome in enumerate(outcomes) if outcome == STICK)
     above = ends[-2] if changes and outcomes[-1] == BOUNCE else None
-    row, said = replace(row, slowest=slowest, sticks=sticks, bounces_above=above), []
+    row, sentences = replace(row, slowest=slowest, sticks=sticks, bounces_above=above), []
     if not changes:
-        said = [f"no change in the range that was searched: {slowest} for all of {searched}"]
+        sentences = [f"no change in the range that was searched: {slowest} for all of {searched}"]
     elif slowest == STICK:
         speed = changes[0].stokes / scene.stokes_per_speed
         row = replace(row, stokes=changes[0].stokes, speed=speed, relative_speed=ends[1], to=changes[0].after)
     else:
-        said = [f"the slowest do not stick: {slowest} from the lower end of the range on, {searched}"]
+        sentences = [f"the slowest do not stick: {slowest} from the lower end of the range on, {searched}"]
     if changes:
         again = "again " if slowest == STICK else ""
-        said += [f"sticks {again}from {a:.4g} to {b:.4g} m/s (relative speed)" for a, b in sticks[bool(again) :]]
-        said += [] if above else [f"no speed from which on all bounce, {searched}"]
-    return replace(row, sentences=tuple(said))
+        sentences += [f"sticks {again}from {a:.4g} to {b:.4g} m/s (relative speed)" for a, b in sticks[bool(again) :]]
+        sentences += [] if above else [f"no speed from which on all bounce, {searched}"]
+    return replace(row, sentences=tuple(sentences))
 
 
 def _slowest(scene: Scene, row: CriticalSpeed, changes: Sequence[Change], rtol: float) -> tuple[str, str]:
@@ -173,13 +173,13 @@ def _with_interval(
     speeds = speeds[~np.isnan(speeds)]
     below, above = (float(np.quantile(speeds, LEVELS[0], method="lower")),
                     float(np.quantile(speeds, LEVELS[1], method="higher")))  # fmt: skip
-    interval, said = (below or None, above if np.isfinite(above) else None), list(row.sentences)
+    interval, sentences = (below or None, above if np.isfinite(above) else None), list(row.sentences)
     if None in interval:
         which = "all stick" if interval[1] is None else "not even the slowest stick"
-        said.append(f"in more than 2.5 % of the draws {which} in the range, {searched}")
+        sentences.append(f"in more than 2.5 % of the draws {which} in the range, {searched}")
     if lost := samples - speeds.size:
-        said.append(f"{lost} of {samples} draws make no scene and are left out")
-    return replace(row, interval=interval, sentences=tuple(said))
+        sentences.append(f"{lost} of {samples} draws make no scene and are left out")
+    return replace(row, interval=interval, sentences=tuple(sentences))
 
 
 def _speeds(at: Scene, row: CriticalSpeed, columns: dict[str, np.ndarray], count: int, rtol: float) -> np.ndarray:

@@ -90,8 +90,8 @@ class Critical(Drawn):
              _number(one.speed), _number(one.stokes), one.to or "-", _number(one.bounces_above)]
             for one in self.rows
         ]  # fmt: skip
-        kept = [k for k in range(len(head)) if any(row[k] for row in rows)]
-        return [head[k] for k in kept], [[row[k] for k in kept] for row in rows]
+        columns = [k for k in range(len(head)) if any(row[k] for row in rows)]
+        return [head[k] for k in columns], [[row[k] for k in columns] for row in rows]
 
     def __str__(self) -> str:
         head, rows = self.table()

@@ -149,12 +149,12 @@ def gradients_many(
         reason=np.full(size, "", object),
         engine=np.full(size, "", object),
     )
-    left = np.arange(size)
+    rest = np.arange(size)
     oblique = set(request.oblique.tolist())
     offered = by in (None, "taylor") and kernel.offers(loaded, names, oblique)
     if offered:
-        left = _by_kernel(request)
-    for k in left:
+        rest = _by_kernel(request)
+    for k in rest:
         _alone(request, int(k), held, by or ("taylor" if offered else "rosenbrock"))
     return _dataset(request, held)
 
@@ -163,15 +163,15 @@ def _by_kernel(request: _Gradients) -> np.ndarray:
     """Compute collisions by the kernel; returns the indices of those left to CasADi."""
     moves = request.oblique
     turns = any(DEFINITIONS[name].odd for name in request.of) and bool({*request.wrt} & {*SIDEWAYS})
-    parts, left = [], [np.flatnonzero(~moves) if turns else np.zeros(0, int)]
+    parts, rest = [], [np.flatnonzero(~moves) if turns else np.zeros(0, int)]
     for which in (np.flatnonzero(request.angle > 0), np.flatnonzero((request.angle == 0) & (moves | (not turns)))):
         parts += [which[k : k + _STRETCH] for k in range(0, which.size, _STRETCH)]
     if len(parts) > 1:
         with ThreadPoolExecutor(usable_cores()) as pool:  # the kernel releases the interpreter's lock
-            left += pool.map(lambda part: _stretch(request, part), parts)
+            rest += pool.map(lambda part: _stretch(request, part), parts)
     else:
-        left += [_stretch(request, part) for part in parts]
-    return np.sort(np.concatenate(left))
+        rest += [_stretch(request, part) for part in parts]
+    return np.sort(np.concatenate(rest))
 
 
 def _stretch(request: _Gradients, which: np.ndarray) -> np.ndarray:
@@ -190,13 +190,13 @@ def _stretch(request: _Gradients, which: np.ndarray) -> np.ndarray:
     if answered is None:
         return which
     answers, measures = answered.run.answers, answered.run.near
-    late = np.flatnonzero(answers["status"] > LAST_ANSWER)
-    if back and late.size:  # forward tangents of long trajectories, as these also limit the step
-        held = run_part(which[late], request.rtol, _SOON, False)
+    failures = np.flatnonzero(answers["status"] > LAST_ANSWER)
+    if back and failures.size:  # forward tangents of long trajectories, as these also limit the step
+        held = run_part(which[failures], request.rtol, _SOON, False)
         if held is None:
             return which
-        answers[late], measures[late] = held.run.answers, held.run.near
-        answered.value[:, late], answered.first[:, late] = held.value, held.first
+        answers[failures], measures[failures] = held.run.answers, held.run.near
+        answered.value[:, failures], answered.first[:, failures] = held.value, held.first
     near, least = measures[:, 0], limit(request.rtol)
     far = (answers["outcome"] > 0) & (near >= NEAR)
     _keep(request, which, answered, far)

@@ -52,7 +52,7 @@ def materials_of(source: Any, changes: Mapping[str, Any] | None = None) -> list[
         if name in FIELDS and FIELDS[name].unit and column.unit is None and isinstance(source, (str, Path)):
             accepted = f"the unit in brackets, such as {name} [{FIELDS[name].unit}]"
             raise InputError("materials, header", column.name, accepted, "has no unit")
-    found = []
+    rows = []
     for k, line in enumerate(lines):
         cells = {column.name: _cell(column.unit, column.cells[k]) for column in columns}
         entries = {name: value for name, value in cells.items() if name in FIELDS and value is not None}
@@ -64,8 +64,8 @@ def materials_of(source: Any, changes: Mapping[str, Any] | None = None) -> list[
         except InputError as error:
             where = f"materials, {label}{f' (line {line})' * bool(names)}, {error.field}"
             raise InputError(where, error.value, error.accepted, error.problem) from None
-        found.append(Material(label, scene, spread))
-    return found
+        rows.append(Material(label, scene, spread))
+    return rows
 
 
 def _scene(base: Any, entries: Mapping[str, Any]) -> Scene:

@@ -174,15 +174,15 @@ def _of_one_pair(
     p, by_g, by_x = (each.full() for each in maps.groups(g, x, axes, scale))
     p, dp = p.ravel(), by_g @ dg + by_x @ dx
     n = replace(n, groups={**n.groups, **dict(zip(model.groups, p.tolist(), strict=True))})
-    found, courses = _followed(pair, n)
+    followed, courses = _followed(pair, n)
     try:
-        path = found(RECORDED)
+        path = followed(RECORDED)
         if not path.separated:
             return OUTCOMES.index(path.outcome), None
         near = checked(courses, True, rtol)
         last = tuple(STATE + name for name in model.state)
         query = Query((*last, "contact_time"), "forward", rtol, near)
-        end, by_p, dp = differentiated(found, model.choice, query, "rosenbrock", path.parting, p, dp)
+        end, by_p, dp = differentiated(followed, model.choice, query, "rosenbrock", path.parting, p, dp)
     except ComputationError as error:
         raise n.in_si(error) from None
     value, *slopes = (each.full() for each in maps.results(end, p, g, x, axes, scale))

@@ -122,18 +122,18 @@ def _of_spheres(
 ) -> SX:
     """Results of two spheres, as `space.ends.after` has them."""
     y, rate, speed = end[:-1], _rate(quantities, scale), quantities["speed"]
-    shown = dict(zip(model.names("outputs"), _parts(model.function("outputs")(y, groups)), strict=True))
+    values = dict(zip(model.names("outputs"), _parts(model.function("outputs")(y, groups)), strict=True))
 
     def vector(name: str) -> SX:
-        return axes.T @ vertcat(*(shown[f"{name}_{axis}"] for axis in AXES))
+        return axes.T @ vertcat(*(values[f"{name}_{axis}"] for axis in AXES))
 
     contact, share = _sizes(quantities)
     gap, normal = y[0] * quantities["film_thickness"], vector("final_normal")
     turning = vector("final_rotation_rate") * rate
-    relative = (contact + gap) * cross(turning, normal) + shown["restitution"] * speed * normal
+    relative = (contact + gap) * cross(turning, normal) + values["restitution"] * speed * normal
     centre = share * inputs.velocities[0] + (1 - share) * inputs.velocities[1]
     return vertcat(
-        shown["restitution"],
+        values["restitution"],
         end[-1] * quantities["film_thickness"] / speed,
         gap,
         normal,

@@ -277,9 +277,9 @@ class Search(Question):
         else:
             scene = self.scene.with_si({self.free: root}, self.hold)
         one, (of, _, term) = collide(scene, rtol=self.rtol), self.of.partition(".")
-        found = getattr(one.energy, term) if term else getattr(one, of)
-        if found is None or not abs(found - self.value) <= allowed:
-            message = f"the collision with {self.free} = {root!r} has {self.of} {found}, not {self.value:g}"
+        result = getattr(one.energy, term) if term else getattr(one, of)
+        if result is None or not abs(result - self.value) <= allowed:
+            message = f"the collision with {self.free} = {root!r} has {self.of} {result}, not {self.value:g}"
             raise ComputationError(message, advice="it lies within the error of a boundary; try a smaller rtol")
         if self.of not in DIFFERENTIATED:
             return Solution(root, one.outcome)

@@ -29,8 +29,8 @@ _NAMES = {
 @picture
 def draw(result: Any) -> Figure:
     """A panel per quantity and a bar per parameter of `Sensitivities`; below it those without a visible elasticity."""
-    shown = [name for name in result.value if any(result.elasticity[name].values())]
-    panels = shown[:_LONG] or list(result.value)[:1]
+    names = [name for name in result.value if any(result.elasticity[name].values())]
+    panels = names[:_LONG] or list(result.value)[:1]
     order = _ranked(result, panels)
     rows = max(len(order), 1)
     figure = Figure(figsize=(2.3 + 3.1 * len(panels), 1.5 + 0.3 * rows), layout="constrained")
@@ -97,10 +97,12 @@ def _short(names: Sequence[str]) -> list[str]:
     return [_label(name) for name in names if name != "impact.stokes"]
 
 
-def draw_boundaries(found: Any) -> Figure:
+def draw_boundaries(boundaries: Any) -> Figure:
     """A panel for each change (at most six), a bar for each parameter; of Ce* where there is one, else of the speed."""
-    parameters = found.parameters
-    panels = [(angle, one) for angle, line in zip(found.angles, found.changes, strict=True) for one in line][:_PANELS]
+    parameters = boundaries.parameters
+    panels = [(angle, one) for angle, line in zip(boundaries.angles, boundaries.changes, strict=True) for one in line][
+        :_PANELS
+    ]
     across = max(1, min(_ACROSS, len(panels)))
     down = max(1, -(-len(panels) // across))
     height = 1.1 + 0.22 * len(parameters)

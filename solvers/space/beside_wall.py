@@ -79,10 +79,10 @@ def _by_replay(impacts: Impacts, plugin: str, rtol: float, ledger: bool) -> Plan
             result.reason[k] = str(error)
             continue
         p = model.group_values(n.groups)
-        shown = model.values("outputs", replay.y, p)
+        outputs = model.values("outputs", replay.y, p)
         outcome[k], result.certified[k] = OUTCOMES.index(path.outcome), path.certified
-        time[k], gap[k], opening[k] = replay.time, float(replay.y[0]), shown["restitution"]
-        slide[k], roll[k] = shown["tangential_restitution"], shown["final_spin"]
+        time[k], gap[k], opening[k] = replay.time, float(replay.y[0]), outputs["restitution"]
+        slide[k], roll[k] = outputs["tangential_restitution"], outputs["final_spin"]
         if ledger:
             terms[k] = of_replay(model, replay, p)
     return result

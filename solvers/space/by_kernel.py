@@ -91,8 +91,10 @@ def _in_planes(pairs: Pairs, axis: np.ndarray, along: np.ndarray, rtol: float, t
     rest = pairs.spins - along[:, 1:, None] * axis[:, None]
     axis, rate, oblique = sense[:, None] * axis, impacts.rates, impacts.oblique
     ends.slip[:] = np.where(oblique, np.abs(ends.slip), np.nan)  # a ratio of lengths, as in space
-    shown = {name: answers["shown"][:, k] for k, name in enumerate(load(select_model(scene, True)).names("outputs"))}
-    moved = {name: np.where(oblique, values * rate, 0.0) for name, values in shown.items() if name.startswith("final")}
+    outputs = {name: answers["shown"][:, k] for k, name in enumerate(load(select_model(scene, True)).names("outputs"))}
+    moved = {
+        name: np.where(oblique, values * rate, 0.0) for name, values in outputs.items() if name.startswith("final")
+    }
     moved.setdefault("final_spin_partner", moved["final_spin"])
     turned = np.where(known, answers["turned"], 0.0)[:, None]
     across = np.cross(axis, pairs.normal)

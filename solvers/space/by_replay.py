@@ -95,16 +95,16 @@ def _end(pair: Pairs, plugin: str, rtol: float, ledger: bool) -> Ends:
     except Stopped as stopped:
         raise n.in_si(stopped.error(plugin, model)) from None
     p, y = model.group_values(n.groups), replay.y
-    shown = model.values("outputs", y, p)
+    outputs = model.values("outputs", y, p)
     ends = Ends.blank(1)
     ends.outcome[0], ends.certified[0] = OUTCOMES.index(path.outcome), path.certified
     ends.time[0], ends.gap[0] = replay.time * n.time, float(y[0]) * n.length
-    ends.opening[0] = shown["restitution"] * n.speed
+    ends.opening[0] = outputs["restitution"] * n.speed
     ends.normal[:], ends.turning[:], ends.spins[:] = pair.normal, 0.0, pair.spins
     if turns:
         axes = _turned_back(model, replay, p) @ axes
         names = ("final_normal", "final_rotation_rate", "final_spin", "final_spin_partner")
-        vectors = [np.array([shown[f"{name}_{axis}"] for axis in AXES]) @ axes for name in names]
+        vectors = [np.array([outputs[f"{name}_{axis}"] for axis in AXES]) @ axes for name in names]
         ends.normal[0], ends.turning[0], ends.spins[0] = vectors[0], vectors[1] * n.rate, np.array(vectors[2:]) * n.rate
     if turns and path.separated:
         first, last = (model.values("surface_slip", state, p)["surface_slip"] for state in (model.start(p), y))

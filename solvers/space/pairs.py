@@ -25,9 +25,9 @@ def components(**vectors: np.ndarray) -> dict[str, np.ndarray]:
     return {f"{name}_{axis}": rows[..., k] for name, rows in vectors.items() for k, axis in enumerate(AXES)}
 
 
-def dot(left: np.ndarray, right: np.ndarray) -> np.ndarray:
+def dot(first: np.ndarray, second: np.ndarray) -> np.ndarray:
     """Scalar products of vectors along the last axis, kept as an axis of length 1."""
-    products: np.ndarray = np.sum(left * right, axis=-1, keepdims=True)
+    products: np.ndarray = np.sum(first * second, axis=-1, keepdims=True)
     return products
 
 

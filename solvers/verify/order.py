@@ -88,10 +88,10 @@ def _judged(tolerances: Sequence[float], errors: Sequence[float]) -> _Judged:
 
 def fit(tolerances: Sequence[float], errors: Sequence[float]) -> tuple[float, float]:
     """Least-squares slope of log error over log rtol above rounding, and the largest rise between neighbours."""
-    kept = [(math.log10(rtol), math.log10(error)) for rtol, error in zip(tolerances, errors) if error > _FLOOR]
-    if not all(map(math.isfinite, errors)) or len(kept) < 3:
+    points = [(math.log10(rtol), math.log10(error)) for rtol, error in zip(tolerances, errors) if error > _FLOOR]
+    if not all(map(math.isfinite, errors)) or len(points) < 3:
         return math.nan, math.inf  # too few points for a fit
-    x, y = np.array(kept).T
+    x, y = np.array(points).T
     return float(np.polyfit(x, y, 1)[0]), max(
         max(after, _FLOOR) / max(before, _FLOOR) for before, after in pairwise(errors)
     )

@@ -119,9 +119,9 @@ class WorkPrecision:
         priced = []
         for engine in self.engines:
             rows = sorted((row for row in self.rows if row.engine == engine), key=lambda row: row.rtol)
-            kept = list(takewhile(lambda row: row.keeps(error), rows))
-            if kept and (spent := cost(kept[-1])) is not None:
-                priced.append((spent, kept[-1]))
+            first = list(takewhile(lambda row: row.keeps(error), rows))
+            if first and (spent := cost(first[-1])) is not None:
+                priced.append((spent, first[-1]))
         if not priced:
             reached = [row.error for row in self.rows if row.keeps(math.inf) and row.error is not None]
             least = f"the least error reached is {min(reached):.1e}" if reached else "no setting has all outcomes right"

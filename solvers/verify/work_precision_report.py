@@ -87,14 +87,14 @@ def draw(bench: WorkPrecision, error: float, path: str | Path | None = None) -> 
         path: file to write (.png, .pdf or .svg); None only draws.
     """
     figure = Figure(figsize=(9.2, 4.4), layout="constrained")
-    left, right = figure.subplots(1, 2, sharex=True, sharey=True)
+    first, second = figure.subplots(1, 2, sharex=True, sharey=True)
     recommended = bench.recommend(error)
     for axes, title, best in zip(
-        (left, right), ("one collision", f"one of a batch of {bench.batch}"), recommended, strict=True
+        (first, second), ("one collision", f"one of a batch of {bench.batch}"), recommended, strict=True
     ):
         for engine in bench.engines:
             colour, marker = _STYLES[engine]
-            costs = [(row, row.single if axes is left else row.batch) for row in bench.rows if row.engine == engine]
+            costs = [(row, row.single if axes is first else row.batch) for row in bench.rows if row.engine == engine]
             points = [(row.error, 1e3 * cost, row) for row, cost in costs if row.error and cost is not None]
             bad = [each for each in points if not each[2].keeps(math.inf)]
             ringed = [each for each in points if (engine, each[2].rtol) == (best.engine, best.rtol)]
@@ -115,9 +115,9 @@ def draw(bench: WorkPrecision, error: float, path: str | Path | None = None) -> 
         axes.xaxis.set_minor_locator(NullLocator())
         ticks.plain(axes.yaxis, (1,))
         axes.tick_params(labelleft=True)
-    _limits(left, right, bench, error)
-    left.set_ylabel("CPU time a collision (ms)")
-    handles, labels = left.get_legend_handles_labels()
+    _limits(first, second, bench, error)
+    first.set_ylabel("CPU time a collision (ms)")
+    handles, labels = first.get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside upper center", ncols=5)
     signs = "ringed: recommended for the error wanted; hollow: outcomes wrong or missing"
     note = f"{name_of(bench.scene)}: {bench.sample}\n{signs}"
@@ -127,13 +127,13 @@ def draw(bench: WorkPrecision, error: float, path: str | Path | None = None) -> 
     return figure
 
 
-def _limits(left: Axes, right: Axes, bench: WorkPrecision, error: float) -> None:
+def _limits(first: Axes, second: Axes, bench: WorkPrecision, error: float) -> None:
     """Set axis limits, large errors on the left; grey where an error is below the references' uncertainty."""
     errors = [row.error for row in bench.rows if row.error] + [error]
     uncertainty = bench.uncertainty
     least = min([*errors, *([uncertainty] if uncertainty else [])]) / 4
-    left.set_xlim(4 * max(errors), least)
-    for axes in (left, right):
+    first.set_xlim(4 * max(errors), least)
+    for axes in (first, second):
         if not bench.separate:
             style: Any = {"ha": "center", "transform": axes.transAxes, "bbox": {"color": "white"}}
             axes.text(0.5, 0.5, "all collisions stick:\nno error to draw", **style)

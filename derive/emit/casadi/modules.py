@@ -32,14 +32,14 @@ def law_module(law: Law) -> str:
     printer = Printer()
     body: list[str] = []
     for function in law.functions:
-        kept, _ = needed([function.result], function.definitions)
+        definitions, _ = needed([function.result], function.definitions)
         arguments = ", ".join(f"{argument.name}: Any" for argument in function.arguments)
         sides = {side: f"sides[{k}] if sides else " for k, (_, side) in enumerate(function.kinks)}
         more = ", sides: Any = None" if sides else ""
         body += ["", f"def {function.name}({arguments}{more}) -> Any:"]
-        count = _operations([function.result, *(expression for _, expression in kept)])
+        count = _operations([function.result, *(expression for _, expression in definitions)])
         body += _docstring(f"{function.doc}\n\nTotal operations: {count}", _INDENT)
-        for symbol, expression in kept:
+        for symbol, expression in definitions:
             body += _assignment(symbol.name, expression, printer, sides.get(symbol, ""))
         lines = [*_assignment("result", function.result, printer), f"{_INDENT}return result"]
         body += [f"{_INDENT}return {printer(function.result)}"] if len(lines) == 2 else lines
@@ -148,20 +148,20 @@ def _tuple(names: Sequence[str]) -> str:
 def function_lines(model: Model, name: str, printer: Printer) -> list[str]:
     """Lines of one function of a structure's module; `printer` records the CasADi names that it needs."""
     function = model[name]
-    kept, used = needed([expression for _, expression in function.outputs], model.definitions)
+    definitions, used = needed([expression for _, expression in function.outputs], model.definitions)
     region = [flag.name for flag in (FILM, SHEAR)] if function.regional else []
     flags = "".join(f", {flag}: int = 1" for flag in region)
     flags += "".join(f", {symbol.name}: Any = 0" for symbol in function.further)
     lines = ["", f"def {name}(state: Values, groups: Values, laws: Any{flags}) -> dict[str, Any]:"]
-    count = _operations([*(e for _, e in function.outputs), *(e for _, e in kept)])
+    count = _operations([*(e for _, e in function.outputs), *(e for _, e in definitions)])
     doc = function.doc
     if region:
         doc += "\n\nRegion: film is 1 inside the film, shear 1 inside the tangential edge, else 0."
     lines += _docstring(f"{doc}\n\nTotal operations: {count}", _INDENT)
-    defined = {symbol for symbol, _ in kept}
+    defined = {symbol for symbol, _ in definitions}
     lines += [f'{_INDENT}{s.name} = state["{s.name}"]' for s in model.states if s in used and s not in defined]
     lines += [f'{_INDENT}{s.name} = groups["{s.name}"]' for s in model.groups if s in used]
-    for symbol, expression in kept:
+    for symbol, expression in definitions:
         lines += _assignment(symbol.name, expression, printer)
     lines.append(f"{_INDENT}return {{")
     lines += [f'{_INDENT * 2}"{key}": {printer(expression)},' for key, expression in function.outputs]

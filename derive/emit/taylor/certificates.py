@@ -35,12 +35,12 @@ def margins(model: Model, constants: Constants, prepared: Mapping[tuple[str, str
         body: list[str] = []
         required = set(row.premises(model.structure))
         for each in functions:
-            kept, _ = needed(list(each.by_name.values()), model.definitions)
-            calls = [slot_calls(sp.sympify(value)) for _, value in (*kept, *each.outputs)]
+            definitions, _ = needed(list(each.by_name.values()), model.definitions)
+            calls = [slot_calls(sp.sympify(value)) for _, value in (*definitions, *each.outputs)]
             names = {tuple(call.func.__name__.split(".")) for several in calls for call in several}
             optional = {name for name in names - prepared.keys() if any(moves(places()[".".join(name)].arguments))}
             required |= {"_".join(name).upper() for name in optional}
-            body += margin_function(each.name, each.doc, kept, each.by_name, moving, constants, prepared)
+            body += margin_function(each.name, each.doc, definitions, each.by_name, moving, constants, prepared)
         holds = ["MIDGAP_ARM"] * ("arm" in model.slots) + ["LIBRARY_LAWS"] * row.library_only
         condition, macro = " && ".join(f"defined({name})" for name in sorted(required)), f"{row.name.upper()}_MARGINS"
         body = [f"#define {macro} ({' && '.join(holds) or 1})", *body, ""]
@@ -53,7 +53,7 @@ def margins(model: Model, constants: Constants, prepared: Mapping[tuple[str, str
 def margin_function(
     name: str,
     doc: str,
-    kept: Sequence[Definition],
+    definitions: Sequence[Definition],
     outputs: Mapping[str, sp.Expr],
     moving: Mapping[sp.Symbol, str],
     constants: Constants,
@@ -73,13 +73,13 @@ def margin_function(
     }
     text = Text(lambda symbol: local.get(symbol) or constants.name(symbol), calls)
     body = []
-    for symbol, expression in kept:
+    for symbol, expression in definitions:
         if expression.free_symbols & set(local) or expression.atoms(AppliedUndef):
             body.append(f"vec {symbol.name} = {text.vector(expression)};")
             local[symbol] = symbol.name
         else:
             constants.define(symbol, expression)
-    names = {symbol.name for symbol, _ in kept}
+    names = {symbol.name for symbol, _ in definitions}
     results = {key: f"{key}_margin" if key in names else key for key in outputs}
     body += [f"*{results[key]} = {text.vector(expression)};" for key, expression in outputs.items()]
     pointers = ", ".join(f"vec *{result}" for result in results.values())

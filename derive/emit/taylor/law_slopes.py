@@ -58,9 +58,9 @@ def _plain(name: str, each: LawFunction) -> list[str]:
     lines = []
     for argument in each.arguments:
         slope = sp.simplify(chain.by(each.result, argument))
-        kept, _ = needed([slope], (*each.definitions, *chain.named))
+        definitions, _ = needed([slope], (*each.definitions, *chain.named))
         body = [f"(void){other.name};" for other in each.arguments]
-        body += [f"vec {symbol.name} = {text.vector(value)};" for symbol, value in kept]
+        body += [f"vec {symbol.name} = {text.vector(value)};" for symbol, value in definitions]
         lines += function(f"static inline vec {name}_{_by(argument)}({head})", [*body, f"return {text.vector(slope)};"])
         lines += [""]
     return lines
@@ -100,13 +100,15 @@ def slope_program(
     each: LawFunction, moving: tuple[sp.Symbol, ...]
 ) -> tuple[Program, str | sp.Expr, Program, dict[sp.Symbol, str | sp.Expr]]:
     """The program of a function and its result, its continuation by the slopes, and these by argument."""
-    kept, _ = needed([each.result, *(kink for kink, _ in each.kinks)], each.definitions)
-    value, result = cheapest(each.result, kept, moving)
-    program, chain = value.continued(), Chain(kept)
+    definitions, _ = needed([each.result, *(kink for kink, _ in each.kinks)], each.definitions)
+    value, result = cheapest(each.result, definitions, moving)
+    program, chain = value.continued(), Chain(definitions)
     slopes = {argument: chain.by(each.result, argument) for argument in each.arguments}
     for symbol, expression in chain.named:
         program.define(symbol, expression)
-    rounds = any(value.is_Number for _, value in kept)  # a kink's width: sympy factors such expressions for minutes
+    rounds = any(
+        value.is_Number for _, value in definitions
+    )  # a kink's width: sympy factors such expressions for minutes
     forms = {argument: (slope,) if rounds else (slope, sp.factor(slope)) for argument, slope in slopes.items()}
     results = {argument: shortest(program, each, _by(argument)) for argument, each in forms.items()}
     return value, result, program, results
@@ -157,8 +159,8 @@ def _clearance(name: str, each: LawFunction) -> list[str]:
     body = [f"(void){argument.name};" for argument in (*each.arguments, LIMIT)]
     result = LIMIT - each.result
     slopes = {argument: chain.by(result, argument) for argument in (*each.arguments, LIMIT)}
-    kept, _ = needed(list(slopes.values()), (*each.definitions, *chain.named))
-    body += [f"vec {symbol.name} = {text.vector(value)};" for symbol, value in kept]
+    definitions, _ = needed(list(slopes.values()), (*each.definitions, *chain.named))
+    body += [f"vec {symbol.name} = {text.vector(value)};" for symbol, value in definitions]
     body += [f"*by_{argument.name} = {text.vector(slope)};" for argument, slope in slopes.items()]
     outputs = ", ".join(f"vec *by_{argument.name}" for argument in slopes)
     head = f"static inline void {name}_margin_slopes({head}, {outputs})"

@@ -86,9 +86,9 @@ class Program:
             beside: operations that are ignored.
         """
         counted = [operation for operation in self.operations if operation.name not in beside]
-        kept = {part for operation in counted if operation.kind != "linear" for part in operation.series}
+        series = {part for operation in counted if operation.kind != "linear" for part in operation.series}
         plain = ("linear", "product", "square")  # coefficients of the other operations use all preceding ones
-        return frozenset(each.name for each in self.operations if each.kind in plain and each.name not in kept)
+        return frozenset(each.name for each in self.operations if each.kind in plain and each.name not in series)
 
     def give(self, symbol: sp.Symbol) -> None:
         """Declare `symbol` as a series computed elsewhere."""

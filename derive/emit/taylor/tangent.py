@@ -194,9 +194,9 @@ class Tangent(LinearFlow):
         head = f"static inline void rebound_along({_ALONG}vec *after)"
         lines += self._directed("rebound", head, states, True, "Derivative of the state just after a rebound.")
         lines += self._friction(states) if self.model.structure.friction else []
-        shown = {key: f"shown[{place}]" for place, key in enumerate(self.model["outputs"].by_name)}
+        places = {key: f"shown[{place}]" for place, key in enumerate(self.model["outputs"].by_name)}
         head = f"static inline void outputs_along({_ALONG}vec *shown)"
-        lines += self._directed("outputs", head, shown, True, "Derivative of the results for a separated doublet.")
+        lines += self._directed("outputs", head, places, True, "Derivative of the results for a separated doublet.")
         if self.model.structure.oblique:
             lines += self._edge()
         return lines

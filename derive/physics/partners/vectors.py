@@ -25,14 +25,14 @@ FORCE, LINE_RATE = named("F"), named("omega")
 APART = sp.Symbol("r", positive=True)
 
 
-def dot(left: Vector | sp.Matrix, right: Vector | sp.Matrix) -> sp.Expr:
+def dot(first: Vector | sp.Matrix, second: Vector | sp.Matrix) -> sp.Expr:
     """Scalar product."""
-    return sp.Add(*(one * other for one, other in zip(left, right, strict=True)))
+    return sp.Add(*(one * other for one, other in zip(first, second, strict=True)))
 
 
-def cross(left: Vector | sp.Matrix, right: Vector | sp.Matrix) -> sp.Matrix:
+def cross(first: Vector | sp.Matrix, second: Vector | sp.Matrix) -> sp.Matrix:
     """Vector product."""
-    return sp.Matrix(left).cross(sp.Matrix(right))
+    return sp.Matrix(first).cross(sp.Matrix(second))
 
 
 def on_the_sphere(expression: sp.Expr, normal: Vector = n, across: Vector = LINE_RATE) -> sp.Expr:

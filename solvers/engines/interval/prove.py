@@ -124,24 +124,24 @@ def prove(
 def prove_inputs(inputs: Inputs, digits: bool = True) -> Proof:
     """The proof for inputs that are checked; with `digits` the restitution is enclosed narrowly where that is quick."""
     start, x0 = perf_counter(), inputs.ranges["film_thickness"][0]
-    found: Enclosure | None = None
+    enclosure: Enclosure | None = None
     try:
         engine = inputs.engine()
         for settings in (BOX,) if inputs.moving else (SHARP, OUTCOME) if digits else (OUTCOME,):
-            found = enclose(engine, inputs.ranges, inputs.moving, settings)
-            if found.outcome:
+            enclosure = enclose(engine, inputs.ranges, inputs.moving, settings)
+            if enclosure.outcome:
                 break
-        reason = REASONS.get(found.why, "") if found else ""
+        reason = REASONS.get(enclosure.why, "") if enclosure else ""
     except NotProvable as error:
         reason = str(error)
-    proved = found is not None and found.outcome > 0
+    proved = enclosure is not None and enclosure.outcome > 0
     return Proof(
-        outcome=OUTCOMES[found.outcome - 1] if found and proved else None,
-        restitution=found.restitution if found and proved else None,
+        outcome=OUTCOMES[enclosure.outcome - 1] if enclosure and proved else None,
+        restitution=enclosure.restitution if enclosure and proved else None,
         reason=reason,
-        smallest_gap=math.nextafter(found.smallest_gap * x0, 0.0) if found and found.outcome > 1 else None,
-        steps=found.steps if found else 0,
-        rebounds=found.rebounds if found else 0,
+        smallest_gap=math.nextafter(enclosure.smallest_gap * x0, 0.0) if enclosure and enclosure.outcome > 1 else None,
+        steps=enclosure.steps if enclosure else 0,
+        rebounds=enclosure.rebounds if enclosure else 0,
         ranges=inputs.ranges,
         box=inputs.box,
         scene=inputs.scene,

@@ -135,8 +135,8 @@ def _reached(kernel: _Kernel, roots: Iterable[str]) -> list[Item]:
             if id(item) not in reached:
                 reached.add(id(item))
                 waiting += item.uses | {*item.defines}
-    kept = ("condition", "include")
-    return _without_empty([item for item in kernel.items if item.kind in kept or id(item) in reached])
+    kinds = ("condition", "include")
+    return _without_empty([item for item in kernel.items if item.kind in kinds or id(item) in reached])
 
 
 def _without_empty(parts: list[Item]) -> list[Item]:

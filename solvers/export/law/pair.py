@@ -71,8 +71,8 @@ def pair_function(scene: Scene, entries: Sequence[Number], of_material: Sequence
 def _computed(scene: Scene, entries: Sequence[Number], of_material: Sequence[Number]) -> list[str]:
     """Lines of C that set the members of `m` from those of `e`; what is used more than once has a name."""
     symbols = {each.name.replace("_", ".", 1): SX.sym(each.name) for each in entries}
-    made = quantities(symbols, Ways(scene.wall, scene.ways.volume))
-    function = Function("f", [*symbols.values()], [SX(made[each.name]) for each in of_material])
+    values = quantities(symbols, Ways(scene.wall, scene.ways.volume))
+    function = Function("f", [*symbols.values()], [SX(values[each.name]) for each in of_material])
     places: dict[int, int] = {}  # of the work vector, and the instruction whose result is there
     operands: list[tuple[int, ...]] = []
     for k in range(function.n_instructions()):

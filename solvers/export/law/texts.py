@@ -111,7 +111,7 @@ def texts(scene: Scene, rtol: float = RTOL) -> dict[str, str]:
         f"{name}.c": law.c,
         "vectors.h": table(scene, law_kernels),
     }
-    files |= {shown: _filled(file, scene, declared) for shown, file in _files(scene).items()}
+    files |= {path: _filled(file, scene, declared) for path, file in _files(scene).items()}
     return {file: _named(name, text) for file, text in files.items()}
 
 

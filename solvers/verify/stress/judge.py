@@ -107,16 +107,16 @@ def _judged(case: Case, engines: dict[str, Run]) -> Verdict:
         for name, each in results.items()
         if each.failure
     ]
-    there = {name: each for name, each in results.items() if not each.failure}
-    first = next(iter(there), None)
+    answers = {name: each for name, each in results.items() if not each.failure}
+    first = next(iter(answers), None)
     error = slope = None
-    if first is not None and len(there) > 1:
-        reference = there[first]
+    if first is not None and len(answers) > 1:
+        reference = answers[first]
         slope = _conditioning(engines[first], case.scene, reference)
         bound = (SHARE * RTOL + FLOOR) * slope
-        same = [each.restitution for each in there.values() if each.outcome == reference.outcome]
+        same = [each.restitution for each in answers.values() if each.outcome == reference.outcome]
         error = max(same) - min(same)
-        for name, each in there.items():
+        for name, each in answers.items():
             if each.outcome != reference.outcome:
                 kind, text = "outcome", f"{first} says {reference.outcome}, {name} {each.outcome}"
             elif reference.apart(each) > bound:
@@ -125,9 +125,9 @@ def _judged(case: Case, engines: dict[str, Run]) -> Verdict:
             else:
                 continue
             issues.append(Issue(kind, (first, name), text, change_nearby(case, engines, first, name)))
-    for name, each in there.items():
+    for name, each in answers.items():
         issues += _each(name, each, case)
-    if first is not None and there[first].certified:
+    if first is not None and answers[first].certified:
         issues += _audited(case, first)
     return Verdict(case, results, tuple(issues), error, slope)
 
@@ -156,12 +156,12 @@ def _conditioning(run: Run, scene: Scene, here: Result) -> float:
     """|d/d ln St| of e_n and spins over a small step, the largest of both sides; at least 1. inf at a change."""
     largest = 1.0
     for factor in (1 - _STEP, 1 + _STEP):
-        there = _result(run, _at(scene, factor), RTOL)
-        if there.failure:
+        neighbour = _result(run, _at(scene, factor), RTOL)
+        if neighbour.failure:
             continue
-        if there.outcome != here.outcome:
+        if neighbour.outcome != here.outcome:
             return math.inf
-        largest = max(largest, there.apart(here) / _STEP)
+        largest = max(largest, neighbour.apart(here) / _STEP)
     return largest
 
 

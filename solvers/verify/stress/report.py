@@ -48,7 +48,7 @@ def record(stress: Stress) -> dict[str, Any]:
 
 def _case(one: Verdict) -> dict[str, Any]:
     case, results = one.case, one.results.items()
-    shown = ("outcome", "restitution", "certified", "failure")
+    columns = ("outcome", "restitution", "certified", "failure")
     return {
         **{name: getattr(case, name) for name in ("name", "kind", "distance", "change")},
         "scene": case.scene.to_dict() if one.issues else None,  # the others can be reproduced from seed and number
@@ -58,7 +58,7 @@ def _case(one: Verdict) -> dict[str, Any]:
         "outcome": next((each.outcome for _, each in results if each.outcome), ""),
         "error": one.error,
         "conditioning": one.conditioning if one.conditioning != math.inf else None,
-        "found": {name: {key: getattr(each, key) for key in shown} | each.more for name, each in results},
+        "found": {name: {key: getattr(each, key) for key in columns} | each.more for name, each in results},
         "issues": [asdict(issue) for issue in one.issues],
     }
 

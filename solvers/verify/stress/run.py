@@ -121,11 +121,11 @@ def _blocks(cases: Sequence[Case]) -> list[list[int]]:
     alike: dict[Any, list[int]] = {}
     for k, case in enumerate(cases):
         alike.setdefault(_kernel_of(case), []).append(k)
-    left, blocks = len(cases), []
+    rest, blocks = len(cases), []
     for group in sorted(alike.values(), key=lambda group: -sum(_COSTS[cases[k].kind] for k in group)):
-        size = len(group) if left > _LAST * len(cases) else _SMALL
+        size = len(group) if rest > _LAST * len(cases) else _SMALL
         blocks += [group[k : k + size] for k in range(0, len(group), size)]
-        left -= len(group)
+        rest -= len(group)
     return blocks
 
 
