@@ -141,12 +141,12 @@ class Sign:
     """The result of a proof about the sign of an expression on a region.
 
     Arguments:
-        proved: True if the expression is never negative, False if it is negative at `shown`, None if undecided.
-        shown: the product that proves it, or the point that refutes it.
+        proved: True if the expression is never negative, False if it is negative at `witness`, None if undecided.
+        witness: the product that proves it, or the point that refutes it.
     """
 
     proved: bool | None
-    shown: str
+    witness: str
 
 
 def nonnegative(expression: sp.Expr, variable: sp.Symbol, edge: sp.Expr) -> Sign:

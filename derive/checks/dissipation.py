@@ -33,7 +33,7 @@ def film_dissipates(law: Law) -> Check:
     """The power of the film, F_n u, is not negative at any gap inside it."""
     rate = filled(_taken("normal_lubrication"), {"film": law})
     sign = nonnegative(rate, q.gap, sp.Integer(1))
-    return Check(f"film dissipates: {law.name}", "F_n u >= 0 for 0 < x <= x0", sign.proved, sign.shown)
+    return Check(f"film dissipates: {law.name}", "F_n u >= 0 for 0 < x <= x0", sign.proved, sign.witness)
 
 
 @cache
@@ -42,7 +42,7 @@ def shear_dissipates(law: Law, lever: Law) -> Check:
     rate = filled(_taken("tangential_lubrication"), {"shear": law, "arm": lever})
     sign = nonnegative(rate, q.gap, law["edge"](q.aspect))
     statement = "F_t (r omega - 2 arm xi) >= 0 inside the edge of the tangential force"
-    return Check(f"shear dissipates: {law.name}, {lever.name} arm", statement, sign.proved, sign.shown)
+    return Check(f"shear dissipates: {law.name}, {lever.name} arm", statement, sign.proved, sign.witness)
 
 
 @cache
@@ -126,5 +126,5 @@ def rebound_dissipates() -> tuple[Check, ...]:
         vanishing(
             "rebound's energy", "kinetic energy before - after = (1 - e_dry^2) u^2/2, all else continuous", residuals
         ),
-        Check("rebound dissipates", "(1 - e_dry^2) u^2/2 >= 0 for 0 < e_dry <= 1", sign.proved, sign.shown),
+        Check("rebound dissipates", "(1 - e_dry^2) u^2/2 >= 0 for 0 < e_dry <= 1", sign.proved, sign.witness),
     )

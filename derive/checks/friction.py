@@ -69,7 +69,7 @@ def never_gains() -> Check:
     part = _share * (1 + 1 / (1 + _beyond)) * DRY_SLIP / COMPLIANCE  # beta_0 = 1/(1 + z)
     sign = nonnegative(sp.factor(lost.subs(IMPULSE, part)), _share, sp.Integer(1))
     statement = "friction_loss >= 0 for any part of the impulse that sticks and 0 <= beta_0 <= 1"
-    return Check("friction dissipates", statement, sign.proved, sign.shown)
+    return Check("friction dissipates", statement, sign.proved, sign.witness)
 
 
 @check("friction: angular momentum", "an impulse keeps L (midgap arm)")

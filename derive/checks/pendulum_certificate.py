@@ -131,7 +131,7 @@ def _bounds() -> dict[str, tuple[sp.Expr, str]]:
     fastest = sp.sqrt(sp.Min(q.normal_velocity, 0) ** 2 + most)
     reach = sp.Max(contact_gap, slot_call("glass", "reach", fastest, q.glass_number))
 
-    def left(velocity: sp.Expr, at: sp.Expr = q.gap) -> sp.Expr:
+    def margin(velocity: sp.Expr, at: sp.Expr = q.gap) -> sp.Expr:
         return q.stokes * velocity - slot_call("film", "stopping", at)
 
     speed = -q.normal_velocity
@@ -139,14 +139,14 @@ def _bounds() -> dict[str, tuple[sp.Expr, str]]:
     return {
         "outward": (outward, "J_max^2/r^3, J_max of r_f, r in contact"),
         "pull": (pull_at(contact_gap, q.beta), "S_n in contact at the present beta"),
-        "film": (left(q.normal_velocity), "u St/v0 - Lf(x)"),
+        "film": (margin(q.normal_velocity), "u St/v0 - Lf(x)"),
         "recoil": (
-            left(q.e_dry * fastest, reach),
+            margin(q.e_dry * fastest, reach),
             "e_dry u_max St/v0 - Lf(x_R), u_max^2 = min(u, 0)^2 + 2 S_n(x0, pi) x0/m, x_R = max(contact, reach(u_max))",
         ),
-        "rebound": (left(q.e_dry * speed), "e_dry |u| St/v0 - Lf(x)"),
+        "rebound": (margin(q.e_dry * speed), "e_dry |u| St/v0 - Lf(x)"),
         "beneath": (
-            left(q.e_dry * (speed + sp.sqrt(most * q.gap))),
+            margin(q.e_dry * (speed + sp.sqrt(most * q.gap))),
             "the same with |u| + sqrt(2 S_n(x0, pi) x/m), the most that closing from x adds",
         ),
     }

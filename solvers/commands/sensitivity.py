@@ -48,7 +48,7 @@ def command(
     from ..results import check_differentiated
     from ..sensitivity.parameters import check_wrt
     from ..sensitivity.sensitivities import check_method, sensitivities
-    from ..sensitivity.uncertainty import deviations, first_order, spoken
+    from ..sensitivity.uncertainty import deviations, first_order, in_words
 
     if method is not None:
         check_method(method)
@@ -78,7 +78,7 @@ def command(
     gradients = sensitivities(scene, wrt=names, **chosen)
     spread = first_order(gradients, deviation) if deviation else {}
     record = gradients.to_dict() | ({"standard_deviation": spread} if deviation else {})
-    output.put(str(gradients) + ("\n" + spoken(gradients, spread) if deviation else ""), record)
+    output.put(str(gradients) + ("\n" + in_words(gradients, spread) if deviation else ""), record)
     if output.picture is not None:
         gradients.plot(output.picture)
 

@@ -120,7 +120,7 @@ def _stress_test(count: int, folder: Path) -> None:
         result = stress(count, tell=progress)
     files = write_report(result, folder)
     for one, issue in result.unexplained:
-        click.echo(f"unexplained ({issue.kind}): {one.case.name}: {issue.said}")
+        click.echo(f"unexplained ({issue.kind}): {one.case.name}: {issue.message}")
     if result.remarks:
         outside = sum(bool(one.remarks) for one in result.verdicts)
         click.echo(f"outside the range that a bridge law was made for: {outside} scenes, counted in stress.md")

@@ -89,22 +89,22 @@ class Joint:
 
     def __call__(self, values: np.ndarray, resolution: Resolution | None = None) -> Evaluation | None:
         """The log-likelihoods of all impacts; None where the values make a scene impossible."""
-        found = []
+        evaluations = []
         for part, own in zip(self.parts, self.values(values), strict=True):
             evaluation = part(own, resolution)
             if evaluation is None:
                 return None
-            found.append(evaluation)
+            evaluations.append(evaluation)
         scores = np.zeros((self.size, self._width))
         at = np.cumsum([0, *(each.size for each in self.parts)])
-        for places, each, first, last in zip(self._places, found, at[:-1], at[1:], strict=True):
+        for places, each, first, last in zip(self._places, evaluations, at[:-1], at[1:], strict=True):
             scores[first:last, places] = each.scores
         rows, plain, probability, undecided = (
-            np.concatenate([getattr(each, name) for each in found])
+            np.concatenate([getattr(each, name) for each in evaluations])
             for name in ("rows", "plain", "probability", "undecided")
         )
         sizes = [each.size for each in self.parts]
-        mean, spread = (stacked([getattr(each, name) for each in found], sizes) for name in ("mean", "spread"))
+        mean, spread = (stacked([getattr(each, name) for each in evaluations], sizes) for name in ("mean", "spread"))
         return Evaluation(rows, scores, plain, probability, undecided, mean, spread)
 
 

@@ -263,9 +263,9 @@ def _impact(
     nearest = int(np.argmin(distance))
     nearly = distance[nearest] + _RESTING * solids  # a tracker may never see them touch
     met = np.append(np.flatnonzero(distance[:nearest] <= max(touch, nearly) + _CLEAR * sigma), nearest)
-    left = np.append(nearest, nearest + np.flatnonzero(distance[nearest:] <= max(apart, nearly) + _CLEAR * sigma))
+    nearby = np.append(nearest, nearest + np.flatnonzero(distance[nearest:] <= max(apart, nearly) + _CLEAR * sigma))
     rest = _rests_from(time, distance, max(_CLEAR * sigma, _RESTING * solids))
-    first, last = int(min(met[0], rest)), int(left[-1])
+    first, last = int(min(met[0], rest)), int(nearby[-1])
     before, after = np.arange(time.size) < first, (np.arange(time.size) > last) & (rest == time.size)
     sticks, rests, apart_still = not after.any(), rest < time.size, distance[nearest] > touch + _CLEAR * sigma
 

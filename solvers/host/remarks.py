@@ -31,11 +31,11 @@ def say(line: str, only_here: bool = False) -> None:
 def say_after(seconds: float, line: str) -> Iterator[None]:
     """Write a remark on a terminal, once in a process, if what is done here takes longer than that."""
 
-    def late() -> None:
+    def remark() -> None:
         if sys.stderr is not None and sys.stderr.isatty():
             say_once(line)
 
-    timer = threading.Timer(seconds, late)
+    timer = threading.Timer(seconds, remark)
     timer.daemon = True  # an interrupt is not held up by it
     timer.start()
     try:

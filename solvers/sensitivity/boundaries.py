@@ -55,7 +55,7 @@ class Moving:
     reason: str = ""
 
     @property
-    def shown(self) -> tuple[str, ...]:
+    def results(self) -> tuple[str, ...]:
         """Quantities that texts and pictures show, the preferred one last; Ce* vanishes head-on."""
         return ("stokes", "speed", "centrifugal") if self.change.centrifugal else ("stokes", "speed")
 
@@ -139,9 +139,9 @@ class BoundarySensitivities(Drawn):
                 if one.reason:
                     tables.append(f"{title}: {one.reason}")
                     continue
-                symbols = [_SYMBOLS[of] for of in one.shown]
+                symbols = [_SYMBOLS[of] for of in one.results]
                 rows = [["", *(f"d ln {symbol}" for symbol in symbols)]]
-                rows += [[name, *(_cell(one, of, name) for of in one.shown)] for name in self.parameters]
+                rows += [[name, *(_cell(one, of, name) for of in one.results)] for name in self.parameters]
                 what = "elasticities by p (where it is zero *: dSt*/dp, dv*/dp, dCe*/dp, SI); v* is the normal speed"
                 tables.append("\n  ".join([f"{title}: {what}", *map(str.rstrip, numbers_aligned(rows))]))
         return tables

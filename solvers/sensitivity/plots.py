@@ -86,13 +86,13 @@ def draw_band(data: xarray.Dataset) -> Figure:
 @picture
 def draw_critical(critical: Any) -> Figure:
     """Relative speed up to which impacts stick, over the angle; by material where each has one angle."""
-    found = critical.rows
-    labels = list(dict.fromkeys(one.material for one in found))
-    by_material = len(labels) == len(found) > 1
+    lines = critical.rows
+    labels = list(dict.fromkeys(one.material for one in lines))
+    by_material = len(labels) == len(lines) > 1
     figure = Figure(figsize=(6.4, 4.0), layout="constrained")
     axes = figure.subplots()
     for label in [""] if by_material else labels:
-        rows = [one for one in found if by_material or one.material == label]
+        rows = [one for one in lines if by_material or one.material == label]
         x = [float(k) if by_material else math.degrees(one.angle) for k, one in enumerate(rows)]
         y = [math.nan if one.relative_speed is None else one.relative_speed for one in rows]
         (line,) = axes.plot(x, y, "o" if by_material else "o-", label=label or None)

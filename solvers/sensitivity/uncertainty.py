@@ -79,7 +79,7 @@ def first_order(gradients: Sensitivities, deviation: Mapping[str, float]) -> dic
     }  # fmt: skip
 
 
-def spoken(gradients: Sensitivities, spread: Mapping[str, float | None]) -> str:
+def in_words(gradients: Sensitivities, spread: Mapping[str, float | None]) -> str:
     """The standard deviations as text, one line each."""
     known = {name: value for name, value in gradients.value.items() if value is not None and spread[name] is not None}
     return "\n".join(f"{name} = {value:.6g} ± {spread[name]:.2g} (first order)" for name, value in known.items())

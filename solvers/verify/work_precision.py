@@ -133,7 +133,7 @@ class WorkPrecision:
         if best.error is not None:
             why = f"largest error {best.error:.1e} in e_n, and none above {error:.1e} at tighter tolerances"
         others = [f"{row.engine} at {row.rtol:.0e} costs {dear / spent:.3g} times as much" for dear, row in priced[1:]]
-        return Recommendation(use, best.engine, best.rtol, "; ".join([f"{shown(spent)} each, {why}", *others]))
+        return Recommendation(use, best.engine, best.rtol, "; ".join([f"{duration(spent)} each, {why}", *others]))
 
     @property
     def engines(self) -> tuple[str, ...]:
@@ -287,6 +287,6 @@ def _cheapest(run: Callable[[], Result]) -> tuple[float, Result]:
     return min(times), result
 
 
-def shown(seconds: float) -> str:
+def duration(seconds: float) -> str:
     """A time as text in ms or us, with three digits."""
     return f"{seconds * 1e3:.3g} ms" if seconds >= 1e-3 else f"{seconds * 1e6:.3g} us"

@@ -15,7 +15,7 @@ from ..formatting.markdown import table
 from ..formatting.style import NOTE, picture, plain_text
 from ..host.environment import environment
 from ..host.files import save
-from .work_precision import WorkPrecision, shown
+from .work_precision import WorkPrecision, duration
 
 _STYLES = {  # Okabe-Ito colours and a marker for each engine
     "cvodes": ("#0072B2", "o"),
@@ -53,7 +53,7 @@ def text(bench: WorkPrecision, error: float) -> str:
     rows = []
     for row in bench.rows:
         errors = ["-" if each is None else f"{each:.1e}" for each in (row.error, row.time_error)]
-        costs = ["-" if each is None else shown(each) for each in (row.single, row.batch)]
+        costs = ["-" if each is None else duration(each) for each in (row.single, row.batch)]
         rows.append([row.engine, f"{row.rtol:.0e}", *errors, *costs, str(row.wrong), str(row.failed)])
     counted = f"Errors of {len(bench.impacts)} of them, of which {bench.separate} separate."
     if bench.left_out:

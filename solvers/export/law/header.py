@@ -148,7 +148,7 @@ def _frame(scene: Scene) -> str:
 
 def _structure(name: str, numbers: Iterable[Number]) -> list[str]:
     fields = [
-        f"    double {each.name}; /* {'' if each.unit == '1' else each.unit + ', '}{each.said}: {each.meaning} */"
+        f"    double {each.name}; /* {'' if each.unit == '1' else each.unit + ', '}{each.in_words}: {each.meaning} */"
         for each in numbers
     ]
     return ["typedef struct {", *fields, f"}} {name};", ""]

@@ -47,7 +47,7 @@ class Number:
         return f"BAD_{self.name.upper()}"
 
     @property
-    def said(self) -> str:
+    def in_words(self) -> str:
         """The interval in words, in the unit of the number."""
         if self.range.low == -math.inf and self.range.high == math.inf:
             return "any finite number"
@@ -152,7 +152,7 @@ def results(numbers: Iterable[Number], entries: Iterable[Number] = ()) -> tuple[
     for first, those in ((200, numbers), (300, entries)):
         for k, number in enumerate(those, first):
             unit = "" if number.unit == "1" else f", {number.unit}"
-            statuses.append(Result(k, number.status, f"{number.name} must be {number.said}{unit}"))
+            statuses.append(Result(k, number.status, f"{number.name} must be {number.in_words}{unit}"))
     return tuple(statuses)
 
 

@@ -123,7 +123,7 @@ def pair_header(scene: Scene, entries: Sequence[Number]) -> list[str]:
     if scene.pendulum is not None:
         rules.append("The spheres on strings are equal.")
     rows = [
-        f"    double {each.name}; /* {'' if each.unit == '1' else each.unit + ', '}{each.said}: {each.meaning} */"
+        f"    double {each.name}; /* {'' if each.unit == '1' else each.unit + ', '}{each.in_words}: {each.meaning} */"
         for each in entries
     ]
     return [

@@ -78,8 +78,8 @@ def worst(stress: Stress, folder: Path) -> list[Path]:
     failed = sorted(stress.issues("failure"), key=lambda pair: bool(pair[1].explained))
     erring = sorted((one for one in stress.verdicts if one.error), key=lambda one: -(one.error or 0.0))
     sorts: dict[str, list[tuple[Verdict, str]]] = {
-        "disagreement": [(one, f"{issue.kind}: {issue.said}") for one, issue in stress.unexplained],
-        "failure": [(one, f"{', '.join(issue.between)}: {issue.said}") for one, issue in failed],
+        "disagreement": [(one, f"{issue.kind}: {issue.message}") for one, issue in stress.unexplained],
+        "failure": [(one, f"{', '.join(issue.between)}: {issue.message}") for one, issue in failed],
         "error": [(one, f"e_n differs by {one.error:.2e} between engines") for one in erring[:5]],
     }
     for earlier in folder.glob("*-[0-9][0-9].toml"):
@@ -119,7 +119,7 @@ def _counted(head: Sequence[str], keys: Iterable[tuple[str, ...]], none: str) ->
 def _disagreements(stress: Stress) -> str:
     issues = stress.issues(*DISAGREEMENTS)
     keys = ((issue.kind, issue.explained or "**unexplained**") for _, issue in issues)
-    lines = [f"* {one.case.name}: {issue.said}" for one, issue in issues if not issue.explained]
+    lines = [f"* {one.case.name}: {issue.message}" for one, issue in issues if not issue.explained]
     counted = _counted(["kind", "explanation"], keys, "None.")
     return "\n\n".join([counted, *(["\n".join(lines)] if lines else [])])
 
@@ -127,7 +127,7 @@ def _disagreements(stress: Stress) -> str:
 def _failures(stress: Stress) -> str:
     def key(issue: Issue) -> tuple[str, str, str]:
         """Engines, message without its numbers, and explanation."""
-        words = re.split(r" in phase | at t = |; state|: the collision", issue.said)[0]
+        words = re.split(r" in phase | at t = |; state|: the collision", issue.message)[0]
         return ", ".join(issue.between), re.sub(r"[-+]?\d[\d.e+-]*", "#", words), issue.explained or "unexplained"
 
     keys = (key(issue) for _, issue in stress.issues("failure"))

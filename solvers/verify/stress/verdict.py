@@ -67,13 +67,13 @@ class Issue:
     Arguments:
         kind: one of DISAGREEMENTS, or "failure".
         between: the engines concerned.
-        said: description.
+        message: description.
         explained: the explanation; empty if there is none.
     """
 
     kind: str
     between: tuple[str, ...]
-    said: str
+    message: str
     explained: str = ""
 
 
