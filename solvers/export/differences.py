@@ -7,7 +7,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -53,18 +53,11 @@ class Probe:
     results: tuple[tuple[str, float] | None, tuple[str, float] | None]
 
 
-@dataclass(frozen=True)
-class OnMap:
-    """What differs on a map over St and angle (rad), of which the ends are given.
+class OnMap(NamedTuple):
+    """What differs on a map: impacts by outcome with either model, and the largest other change of e_n, with place."""
 
-    Attributes:
-        impacts: their number, those that failed left out.
-        moved: outcome by the first model, by the second, and the number of such impacts.
-        farthest: largest difference of e_n where the outcome is the same, with St and angle; None if it nowhere is.
-    """
-
-    stokes: tuple[float, float]
-    angle: tuple[float, float]
+    stokes: tuple[float, float]  # lowest and highest
+    angle: tuple[float, float]  # rad
     impacts: int
     moved: tuple[tuple[str, str, int], ...]
     farthest: tuple[float, float, float] | None
