@@ -207,12 +207,7 @@ def _formulas(wall: bool, pair: bool, law: str | None, package: Package | None) 
 
 
 def _own_rupture_gap(
-    package: Package | None,
-    law: str,
-    reduced_radius: Any,
-    film_thickness: Any,
-    volume: Any,
-    contact_angle: Any,
+    package: Package | None, law: str, reduced_radius: Any, film_thickness: Any, volume: Any, contact_angle: Any
 ) -> Any:
     """The gap at which a bridge ruptures by its own law, whose module is read here, when numbers are at hand."""
     distance = _law(package, "bridge", law).rupture_distance(volume, contact_angle)
