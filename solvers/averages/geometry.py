@@ -23,6 +23,7 @@ STICKS, ROTATES, BOUNCES, NORMAL, TANGENTIAL, ENERGY, TURNING, LOST = range(8)  
 COLUMNS = 8
 SLOPES = 5  # columns that have derivatives
 _FIRST, _DOUBLINGS = 8, 6  # parts of an interval whose ends are the first places, and numbers of them that are tried
+_ASYMPTOTIC = 3  # the doubling from which on changes of an integral fall, but for noise
 _MOST = 64  # changes of a line within one bracket; more are those of chatter, and are left to the quadrature
 _HINTS = 4  # angles of a line that are kept to sample another one
 _EVEN, _GRAZING = 30, 22  # angles at which a line is sampled: evenly, and evenly in ln cos(angle)
@@ -75,9 +76,12 @@ def integrals(
         if not doubling:
             sums, known = np.stack([value, np.full(value.shape, np.inf), error]), columns
             continue
-        sums[:, every] = value, np.abs(value - sums[0, every]), error
+        latest = np.stack([value, np.abs(value - sums[0, every]), error])
+        # what changes by more again is noise: results' errors, which grow towards a square root at an end
+        noisy = (latest[1] > sums[1, every]) & (doubling >= _ASYMPTOTIC)
+        sums[:, every] = np.where(noisy, sums[:, every], latest)
         total = summed(owner, sums[1], count).max(axis=1)[owner]
-        coarse = ((sums[1] > allowed[:, None]).any(axis=1) & (total > tolerance))[every]  # nor where it is NaN
+        coarse = (~noisy & (sums[1] > allowed[:, None])[every]).any(axis=1) & (total > tolerance)[every]  # not if NaN
         every, known = every[coarse], columns[:, coarse]
         if not every.size:
             break

@@ -13,6 +13,7 @@ from .sizes import Collided, collide, outcome_of
 _RESULTS = ("restitution", "tangential_restitution")
 _BESIDE = 2e-8  # rad, from a change to the collisions on both sides
 _SAME = 1e-6  # a smaller jump is none
+_WIDTH = 1e-11  # rad, to which changes are enclosed: derivatives lack its root where e_n begins as a square root
 
 
 def gradients(
@@ -25,7 +26,7 @@ def gradients(
     Raises:
         ComputationError: the kernel has no derivatives of this scene.
     """
-    parts = segments(experiment, pair, speed, hints)
+    parts = segments(experiment, pair, speed, hints, _WIDTH)
     wide = parts.part((parts.high - parts.low > WIDTH) & (outcome_of(parts.label) != 0))
     entries = len(experiment.rows.names)
 

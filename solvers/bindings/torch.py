@@ -73,7 +73,7 @@ class _OfColumns(torch.autograd.Function):  # type: ignore[misc] # torch is Any
 
     @staticmethod
     def forward(points: Pointwise, by: tuple[int, ...], *columns: Any) -> Any:
-        raise NotImplementedError
+        raise NotImplementedError("values and slopes are computed by classes of their own")
 
     @classmethod
     def vmap(cls, info: Any, places: tuple[int | None, ...], points: Pointwise, by: Any, *columns: Any) -> Any:

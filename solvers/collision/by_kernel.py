@@ -93,7 +93,7 @@ def collision(
     record = followed(problem, rtol, until, ledger=ledger, trajectory=trajectory)
     answer, books = _row(record.answers), None if record.ledger is None else _row(record.ledger)
     separated = answer["outcome"] > 0
-    names, words = problem.model().names("outputs"), words_of(problem.scene)
+    names, words = problem.model(full=ledger).names("outputs"), words_of(problem.scene)
     log = record.events[0, : answer["events"]]
     return assembled(
         problem,
@@ -106,7 +106,7 @@ def collision(
         smallest_gap=answer["smallest_gap"],
         final_gap=answer["final_gap"],
         slip=answer["slip"],
-        events=[(words[kind], time) for kind, time in log[["kind", "time"]].tolist()],
+        events=[(words[kind], time) for kind, time in zip(log["kind"].tolist(), log["time"].tolist(), strict=True)],
         engine="taylor",
         steps=answer["steps"],
         decided=record.decided,

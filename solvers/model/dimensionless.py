@@ -58,7 +58,7 @@ class Problem:
 
     def key(self, full: bool = False) -> ModelKey:
         """The smallest structure with its laws; `full`: with the spin as a state of its own, as for the ledger."""
-        return select_model(self.scene, self.oblique, full, fold=True)
+        return select_model(self.scene, self.oblique, full, True, False)  # as a kernel asks: from one cache
 
     def model(self, full: bool = False) -> Model:
         """The model of `key`."""

@@ -43,9 +43,9 @@ def select_model(scene: Scene, oblique: bool, full: bool = False, fold: bool = F
     partner = "" if equal or not oblique else "wall" if scene.wall else "pair"  # head-on, only a and m matter
     partner = "space" if space else partner
     friction = oblique and scene.particles.friction is not None
-    free = oblique and partner in ("", "space") and scene.pendulum is None and scene.law_has("arm", "balanced")
     turned = scene.package is not None and any(each.spins for each in scene.package.events)  # by a declared event
-    reduced = free and not full and not friction and not turned
+    free = oblique and not (full or friction or turned or scene.pendulum is not None) and partner in ("", "space")
+    reduced = free and scene.law_has("arm", "balanced")
     spread = scene.law_has("film", "spread")
     words = {
         "bridge": scene.bridge is not None,

@@ -3,7 +3,7 @@
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from functools import cached_property, lru_cache
+from functools import cached_property, lru_cache, partial
 from typing import Any
 
 import numpy as np
@@ -64,7 +64,7 @@ class System:
     def law_of(self, slot: str) -> str:
         """The name of the law in a slot; "" if the scene lacks the table that says it."""
         table, _, key = ENTRIES[slot].partition(".")
-        if ENTRIES[slot] not in self.fields:  # no entry of a scene says it
+        if ENTRIES[slot] not in fields(self.package):  # no entry of a scene says it
             return next(iter((*(self.package.laws(slot) if self.package else ()), *LAWS[slot])))
         return str(getattr(getattr(self, table), key, ""))
 
@@ -200,15 +200,18 @@ def _formulas(wall: bool, pair: bool, law: str | None, package: Package | None) 
     # 1 where it vanishes: nothing moves sideways then, and rates that are zero need some scale
     result["obliquity"] = (lambda *values: (scale := formula(*values)) + (scale == 0)), arguments
     if law is not None:
-        rupture_distance = _law(package, "bridge", law).rupture_distance
-
-        def law_rupture_gap(reduced_radius: Any, film_thickness: Any, volume: Any, contact_angle: Any) -> Any:
-            return 2 * reduced_radius * rupture_distance(volume, contact_angle) / film_thickness
-
-        result["rupture_gap"] = law_rupture_gap, scaling.ARGUMENTS["rupture_gap"]
+        result["rupture_gap"] = partial(_own_rupture_gap, package, law), scaling.ARGUMENTS["rupture_gap"]
     if package is not None:
         result |= {name: (function, arguments) for name, (arguments, function) in package.groups.items()}
     return result
+
+
+def _own_rupture_gap(
+    package: Package | None, law: str, reduced_radius: Any, film_thickness: Any, volume: Any, contact_angle: Any
+) -> Any:
+    """The gap at which a bridge ruptures by its own law, whose module is read here, when numbers are at hand."""
+    distance = _law(package, "bridge", law).rupture_distance(volume, contact_angle)
+    return 2 * reduced_radius * distance / film_thickness
 
 
 def law_module(scene: System, slot: str, name: str) -> Any:
@@ -260,7 +263,7 @@ def scaled(group: str, scene: System, speed: float | None = None) -> float:
 def _value(formula: Formula, values: Mapping[str, float]) -> float:
     function, arguments = formula
     try:
-        return float(function(*(values[name] for name in arguments)))
+        return float(function(*map(values.__getitem__, arguments)))
     except (OverflowError, ZeroDivisionError):
         return math.inf
 

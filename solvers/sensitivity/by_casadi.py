@@ -154,7 +154,8 @@ def reset(course: Course, leg: PhaseRun) -> Function:
     y, p, dry, friction, own = model.column, model.parameters, SX(0), SX(0), SX(0)
     if leg.rebounds:
         y, dry, friction = jump(course.choice, leg.holds)(y, p, float(course.rubs(leg)))
-    if leg.holds:
+    if leg.holds:  # chatter dissipates what remains of the rebound's energy
+        dry += y[1] ** 2 / 2
         y = vertcat(y[0], 0, y[2:])
     if leg.own:
         energies, kinetic = model.function("energies"), model.names("energies").index("kinetic")

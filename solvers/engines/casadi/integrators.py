@@ -153,9 +153,13 @@ class Plain:
         return _buffered(self.function).steps
 
 
-@own_cache(512)
 def plain(flow: Flow, plugin: str, tolerance: Tolerance, grid: tuple[float, ...] = (1.0,)) -> Plain:
     """The integrator of a flow; `grid` names fractions of the duration at which the solution is returned as well."""
+    return _plain(replace(flow, edge_watched=False), plugin, tolerance, grid)  # whatever events are watched
+
+
+@own_cache(512)
+def _plain(flow: Flow, plugin: str, tolerance: Tolerance, grid: tuple[float, ...]) -> Plain:
     parts = expressions(flow)
     duration = SX.sym("duration")
     dae = {"x": parts.variables, "p": vertcat(flow.model.parameters, duration), "ode": duration * parts.rates}

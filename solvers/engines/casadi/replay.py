@@ -26,6 +26,7 @@ _MISSES = 1e-13  # largest value of an event's function after the step, relative
 _RISES = 1e-9  # in its scale per duration: slope above which the function rises at the landing
 _TRIES = 8
 _MOVED, _MOVED_LEAST = 1e-4, 1e-12  # of a phase, and in x0/v0: how far an event may lie from where the record has it
+_DRIFT = 10.0  # tolerances of the engine, of the time so far: the same in chatter, whose phases shorten below the error
 _ROUNDING = 1e-15  # noise of a gap or velocity of order 1, for times and event functions
 _SLOW = 1e-2  # in v0: least speed by which that noise is divided, or slow phases would be landed on from afar
 _ON_KINK = 1e-11  # of a guard: below it the side is that towards which it changes
@@ -348,7 +349,8 @@ class _Solution:
                 slope = float(guard(landed, parameters)[1][events.index(event)])
                 if slope > _RISES * scale / duration:
                     break  # the event was found in the backward direction: the engine's own event is earlier
-                if not moved and abs(duration + shift - expected) > max(_MOVED * expected, _MOVED_LEAST):
+                drift = _DRIFT * run.tolerance.relative * run.at.time
+                if not moved and abs(duration + shift - expected) > max(_MOVED * expected, _MOVED_LEAST, drift):
                     break
                 return duration + shift, landed, states
             if abs(shift) > nearer / 2:

@@ -16,6 +16,7 @@ from ...scene.contact import contact_gap
 _RESTS, _ROLLS, _RUPTURE, _SLIDES = (
     KINDS[kind] for kind in (EventKind.RESTS, EventKind.ROLLS, EventKind.RUPTURE, EventKind.SLIDES)
 )
+_TURNS = next(event.words for event in EVENTS if event.name == "turning")
 _EVENT_OF = {word: event for event in EVENTS for word in event.words}
 _BY_NAME = {event.name: event for event in EVENTS}
 
@@ -101,7 +102,7 @@ def sequence(
     edge = tangential_edge(model, groups)
     rupture = groups["rupture_gap"] if model.bridge else 1.0
     phase, last, steps, over = Phase(film=1, shear=int(edge >= 1.0), motion=CLOSING), 0.0, [], False
-    for rows in _simultaneous(log, words):
+    for rows in _simultaneous(_moving(log, words), words):
         time = float(rows[-1]["time"])
         kinds = tuple(words[int(row["kind"])] for row in rows)
         step = _run(model, phase, time - last, kinds)
@@ -130,6 +131,18 @@ def tangential_edge(model: Model, groups: Mapping[str, float]) -> float:
         return np.inf
     given = (groups[str(symbol)] for symbol in model.extra("shear", "edge"))
     return float(model.laws.shear.edge(groups["aspect"], *given))
+
+
+def _moving(log: np.ndarray, words: Sequence[str]) -> np.ndarray:
+    """The events without pairs of turns at one time: there the velocity touches zero, by rounding to either side."""
+    turns = np.array([words[kind] in _TURNS for kind in log["kind"]], bool)
+    pauses = turns[:-1] & turns[1:] & (log["time"][:-1] == log["time"][1:])
+    for k in np.flatnonzero(pauses[1:] & pauses[:-1]) + 1:  # of three turns the first two
+        pauses[k] &= not pauses[k - 1]
+    moving = np.ones(log.size, bool)
+    moving[:-1] &= ~pauses
+    moving[1:] &= ~pauses
+    return log[moving]
 
 
 def _simultaneous(log: np.ndarray, words: Sequence[str]) -> Iterator[list[np.void]]:

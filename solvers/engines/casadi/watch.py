@@ -21,7 +21,7 @@ _ERRORS = 1e2  # tolerances of the engine by which a guard may be negative
 _LEAST = {"turning": 1e-3, "contact": 1e-3, "film_edge": 1.0, "tangential_edge": 1.0, "rupture": 1.0}
 _MET = ("glass", "contact", "half_turn", "unwinding")  # a stick does not end just there unless this is its event
 _SHORT = 1e-15  # in x0/v0: a phase no longer than the rounding of a gap
-_ROUNDED = 1e-15  # of a guard, whose terms are of order 1: glass met within rounding of initial contact
+_ROUNDED = 1e-15  # of a guard's terms: glass met within rounding of initial contact, slip that ends at once
 
 Solution = Callable[[np.ndarray], np.ndarray]
 """Parts of a phase's duration, increasing, from 0 to 1 -> states as columns."""
@@ -76,7 +76,7 @@ def first_crossing(
     crossings = []
     for k, name in enumerate(names):
         size = _size(name, values[k])
-        limit = -max(_ERRORS * rtol * size, _ROUNDED)
+        limit = -_error(name, values[k], states, rtol)
         if landed is None and name in _MET and values[k][-1] < -limit:
             crossings.append(Crossing(name, 1.0, float(values[k][-1]) / size))
         inner = slice(1, None if landed is None else -1)
@@ -104,7 +104,13 @@ def is_met(flow: Flow, parameters: np.ndarray, states: np.ndarray, event: str, r
     if event not in names:
         return False
     values = function(states, parameters)[0].full()[names.index(event)]
-    return bool(abs(values[-1]) <= _ERRORS * rtol * _size(event, values))
+    return bool(abs(values[-1]) <= _error(event, values, states, rtol))
+
+
+def _error(name: str, values: np.ndarray, states: np.ndarray, rtol: float) -> float:
+    """How far a guard of an engine's solution may be off: by its tolerance, or the rounding of its terms."""
+    terms = 1.0 if name in _LEAST else max(1.0, float(np.abs(states).max()))
+    return max(_ERRORS * rtol * _size(name, values), _ROUNDED * terms)
 
 
 def _size(name: str, values: np.ndarray) -> float:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any
 
@@ -16,7 +16,7 @@ from wetdoublet.solvers.engines.casadi.integrators import IntegrationFailed, tol
 from wetdoublet.solvers.engines.casadi.replay import replayed
 from wetdoublet.solvers.model.dimensionless import nondimensionalise
 from wetdoublet.solvers.model.model import load, select_model
-from wetdoublet.solvers.sensitivity.by_casadi import course_of, derivatives, evaluate, trajectory
+from wetdoublet.solvers.sensitivity.by_casadi import course_of, derivatives, evaluate, reset, trajectory
 
 from ...helpers.sensitive import CASES, DRY
 
@@ -87,6 +87,19 @@ class Differentiable:
 
     def gradient(self, durations: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         return derivatives(self.function, self.p, durations, np.eye(self.p.size), "adjoint", amplified=False)
+
+
+def test_a_rebound_that_rests_loses_all_of_its_speed() -> None:
+    """What differentiates takes the rest's share of the energy too, as the ledger does."""
+    n = nondimensionalise(GLASS, float(GLASS.speed or 0), float(GLASS.angle or 0))
+    choice = select_model(GLASS, n.oblique)
+    course = course_of(*replayed(partial(sequence_of, n), choice, (), "rosenbrock", 1e-9), choice)
+    leg = next(leg for leg in course.legs if leg.rebounds)
+    p = course.model.group_values(n.groups)
+    state = np.asarray(course.model.start(p))
+    after, lost, *_ = (np.asarray(part.full()).ravel() for part in reset(course, replace(leg, holds=True))(state, p))
+    assert after[1] == 0
+    assert lost == pytest.approx(state[1] ** 2 / 2, rel=1e-15)
 
 
 def test_a_failure_is_no_zero() -> None:

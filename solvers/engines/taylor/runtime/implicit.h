@@ -26,6 +26,7 @@ enum { PATIENCE = SPACE ? 25 : 100, PENALTY = SPACE ? 75 : 1000, COLUMNS = SPACE
 static const double WORTH = SPACE ? 10.0 : 25.0; /* least number of Taylor steps replaced by one, which costs 5 to 10 */
 static const double LITTLE = 1e-5;     /* relative difference of a state for derivatives */
 static const double FLOOR = SPACE ? 1e-12 : 5e-14; /* relative rounding error of a state, amplified by extrapolation */
+static const double LEAST_TERM = 0.1; /* a smaller angle or loss counts as this: its rate is rounded like those of the large ones */
 static const double LEAST = 1e-300;    /* error allowed where a state is zero and stays so */
 static const double ESTIMATED = SPACE ? 20.0 : 1.0; /* times the tolerance: what the last column but one may err by */
 #if SPACE
@@ -33,7 +34,7 @@ static const double FLOOR_OF_VECTOR = 1e-11; /* more than rtol, where that is sm
 static const double LEAST_VECTOR = 1e-3;     /* a smaller one counts as this, as in step.h */
 static const double MOST_TURNED = 1e9;       /* turns in a step */
 #else
-static const double FLOOR_OF_MOMENTUM = 1e-12; /* more: their stiff exchange is rounded in every part of a step */
+static const double FLOOR_OF_MOMENTUM = 1e-12; /* of the largest: their stiff exchange is rounded in every part of a step */
 #endif
 enum { COST = SPACE ? 8 : 6 }; /* of a step, from the budget: about as long as so many Taylor steps */
 
@@ -191,20 +192,25 @@ static vec extrapolated(slow *w, const lanes *l, const fixed *f, const vec *rate
             table[row][state] = better;
         }
     }
+#if !SPACE
+    vec largest = splat(0.0);
+    for (int state = NORMAL_VELOCITY + 1; state < MODEL_STATES; state++)
+        largest = vec_larger(largest, vec_abs(l->y[state]));
+#endif
     for (int state = 0; state < STATES; state++) {
         change[state] = table[COLUMNS - 1][state];
         y[state] = l->y[state] + change[state];
         d[state] = change[state] - table[COLUMNS - 2][state];
     }
     EACH_SIZE(state) {
-        vec size = size_of(l->y, 1, state);
+        vec size = size_of(l->y, 1, state) + (state < MODEL_STATES ? 0.0 : LEAST_TERM);
         vec allowed = ESTIMATED*f->tolerance*size_of(change, 1, state) + FLOOR*size + LEAST;
 #if SPACE
         if (state >= FIRST_VECTOR && state < MODEL_STATES)
             allowed += (w->rtol + FLOOR_OF_VECTOR)*(size + LEAST_VECTOR);
 #else
         if (state != GAP && state != NORMAL_VELOCITY && state < MODEL_STATES)
-            allowed += FLOOR_OF_MOMENTUM*size;
+            allowed += FLOOR_OF_MOMENTUM*largest;
 #endif
         if (state == GAP)
             carried = allowed/l->stride; /* an error of the normal velocity decays within a Taylor step */
@@ -214,6 +220,20 @@ static vec extrapolated(slow *w, const lanes *l, const fixed *f, const vec *rate
     }
     *clear &= clear_of_events(l, f, l->y, y);
     return error;
+}
+
+/* Takes lanes to the next gap with an event where rounding keeps them from it: the gap no longer changes in a step of
+ * the series, and is reached within a few of the least steps here. */
+static void arrive(lanes *l, const fixed *f, const vec *rate, vec least_step, mask leaves)
+{
+    mask event;
+    vec time = (next_gap(l, f, &event) - l->y[GAP])/rate[GAP];
+    mask stays = l->y[GAP] + l->stride*rate[GAP] == l->y[GAP];
+    time = only(leaves & stays & (time > 0.0) & (time < 8.0*least_step), time);
+    l->y[GAP] += time*rate[GAP];
+    for (int state = MODEL_STATES; state < STATES; state++)
+        l->y[state] += time*rate[state];
+    l->time += time;
 }
 
 /* Continues parked lanes until they no longer creep: certified, or returned to the queue with their new state. */
@@ -285,6 +305,7 @@ OUTLINE void crawl(queue *q)
         vec better = 0.8*vec_exp(vec_log(vec_max(error, splat(1e-8)))*(-1.0/(int)COLUMNS));
         h *= choose(clear & (error == error), vec_min(better, splat(4.0)), splat(0.25));
         mask leaves = busy & (NOT(h > least_step) | (l.steps > splat_mask(q->budget)));
+        arrive(&l, &f, rate, least_step, leaves & NOT(taken));
         EACH_OF(lane, bits(leaves)) {
             int came_on = SPACE ? LANE(l.time, lane) > LANE(parked, lane) : LANE(taken, lane) != 0;
             LANE(l.crept, lane) = came_on ? 0 : -PENALTY; /* without success: not again for a while */
