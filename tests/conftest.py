@@ -1,11 +1,17 @@
 """Settings, and shared data: the public reference collisions and boundaries, copied into the repository."""
 
+import compileall
+import gc
 import os
+import re
 import signal
 from collections.abc import Iterator
+from importlib import import_module
+from pathlib import Path
 from typing import Any
 
 import pytest
+import wetdoublet
 from hypothesis import HealthCheck, settings
 from wetdoublet.solvers.engines.interval.build import engine
 from wetdoublet.solvers.engines.taylor.build import kernel
@@ -22,6 +28,30 @@ signal.signal(signal.SIGINT, signal.default_int_handler)
 # no test depends on how fast the machine is
 settings.register_profile("unhurried", deadline=None, suppress_health_check=[HealthCheck.too_slow])
 settings.load_profile("unhurried")
+
+_SLOW = re.compile(r"^pytestmark = .*\bmark\.slow\b", re.MULTILINE)
+_IMPORTED = ("hypothesis", "pandas", "pint", "scipy.optimize", "sympy.physics.units", "xarray", "matplotlib.figure")
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    """Compile to bytecode, before the workers start, what each of them would compile for itself at the same time."""
+    if config.getoption("numprocesses", None) and not hasattr(config, "workerinput"):
+        compileall.compile_dir(Path(wetdoublet.__file__).parent, quiet=2)
+        for name in _IMPORTED:
+            import_module(name)
+
+
+def pytest_collection_finish() -> None:
+    """Leave what was imported alone when garbage is collected: expressions of sympy are many and small."""
+    gc.freeze()
+    gc.set_threshold(50_000, 50, 50)
+
+
+def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool | None:
+    """Leave out files whose tests are all slow where these are not asked for: they need not even be imported."""
+    if config.option.markexpr != "not slow" or collection_path.suffix != ".py":
+        return None
+    return bool(_SLOW.search(collection_path.read_text(encoding="utf-8"))) or None
 
 
 def _name(case: dict[str, Any]) -> str:

@@ -46,6 +46,12 @@ def modules() -> dict[str, Path]:
 
 
 @cache
+def parsed(path: Path) -> ast.Module:
+    """The syntax of a file."""
+    return ast.parse(path.read_text(encoding="utf-8"))
+
+
+@cache
 def imports() -> Graph:
     """File -> files that it imports: types, and imports within functions, included."""
     return {name: {each for each in _imported(name, path) if each != name} for name, path in modules().items()}
@@ -53,7 +59,7 @@ def imports() -> Graph:
 
 def _imported(name: str, path: Path) -> set[str]:
     found = set()
-    for node in ast.walk(ast.parse(path.read_text())):
+    for node in ast.walk(parsed(path)):
         if isinstance(node, ast.ImportFrom):
             base = name.split(".") if path.name == "__init__.py" else name.split(".")[:-1]
             base = base[: len(base) - node.level + 1] if node.level else []
@@ -107,7 +113,7 @@ def direct(graph: Graph) -> Graph:
 
 def purpose(name: str) -> str:
     """The first line of a room's docstring."""
-    text = ast.get_docstring(ast.parse(modules()[name].read_text())) if name in modules() else "Emitted text."
+    text = ast.get_docstring(parsed(modules()[name])) if name in modules() else "Emitted text."
     return (text or "").partition("\n")[0]
 
 
@@ -190,7 +196,7 @@ def test_no_law_is_known_by_its_name() -> None:
     names = {name for laws in LAWS.values() for name in laws}
     rooms = [name for name in modules() if name.startswith("solvers.") and room(name) != "solvers.scene"]
     assert len(rooms) > 150
-    assert not {name: found for name in rooms if (found := _named(ast.parse(modules()[name].read_text()), names))}
+    assert not {name: found for name in rooms if (found := _named(parsed(modules()[name]), names))}
 
 
 def _named(tree: ast.AST, names: set[str]) -> set[str]:
@@ -213,7 +219,7 @@ def _named(tree: ast.AST, names: set[str]) -> set[str]:
 def test_every_room_says_what_it_is_for() -> None:
     """The `__init__.py` of each folder begins with a docstring."""
     folders = {path.parent for path in modules().values()}
-    assert not [folder for folder in folders if not ast.get_docstring(ast.parse((folder / "__init__.py").read_text()))]
+    assert not [folder for folder in folders if not ast.get_docstring(parsed(folder / "__init__.py"))]
 
 
 def test_files_that_are_named_exist() -> None:

@@ -22,6 +22,7 @@ from wetdoublet.solvers import (
 from ..helpers.scanned import Arrival, N, Outcome, Scan, W, X, scan_of
 from ..helpers.two_bodies import bodies_of
 
+pytestmark = pytest.mark.slow  # many collisions by an integrator in Python
 GRANULATION, PENDULUM = Scene.load("granulation"), Scene.load("pendulum")
 WALL = GRANULATION.with_entries({"partner.wall": True})
 LIQUID = GRANULATION.with_entries({"liquid.glass_transition_pressure": "1 PPa"})
@@ -90,7 +91,6 @@ def test_the_page_has_every_row_and_its_command() -> None:
 # ---- head-on
 
 
-@pytest.mark.slow
 def test_1_a_thicker_liquid_sticks_less() -> None:
     expected = {0.1: 1.932081, 0.5608: 2.704629, 2.0: 2.090142, 8.0: 0.859622}
     for viscosity, speed in expected.items():
@@ -99,7 +99,6 @@ def test_1_a_thicker_liquid_sticks_less() -> None:
     assert elasticity(LIQUID, "liquid.viscosity") == pytest.approx(0.436657, rel=1e-4)
 
 
-@pytest.mark.slow
 def test_1_neither_does_a_gas() -> None:
     thicker, without = (scene.with_entries({"liquid.viscosity": 4.0}) for scene in (GRANULATION, LIQUID))
     shares = [mean(scene, "stick_probability", 2.0) for scene in (GRANULATION, thicker, without)]
@@ -149,7 +148,6 @@ def loss(s: float) -> float:
     return math.log(1 / s) - 1.5 + 2 * s - s * s / 2
 
 
-@pytest.mark.slow
 def test_15_glass_makes_e_n_larger_than_roughness_does() -> None:
     """In closed form: the gap at which the pressure is met, and the film's loss to there and back."""
     one, liquid = PENDULUM.particles, PENDULUM.liquid
@@ -169,7 +167,6 @@ def test_15_glass_makes_e_n_larger_than_roughness_does() -> None:
     assert expected / rough == pytest.approx(2.5, rel=0.01)
 
 
-@pytest.mark.slow
 def test_16_surface_tension_makes_it_stick_less() -> None:
     """Between the critical speeds of one and four times the surface tension the weaker bridge sticks."""
     for scene, expected in ((GRANULATION, -0.0017056), (WALL, -0.0024590)):
@@ -229,7 +226,6 @@ def test_21_viscosity_raises_e_n() -> None:
 # ---- at an angle
 
 
-@pytest.mark.slow
 def test_2_a_separation_lasts_a_thousand_times_longer() -> None:
     first, second = stokes(GRANULATION, STEEP)
     near = collide(GRANULATION, stokes=1.01 * first, angle=STEEP)
@@ -250,7 +246,6 @@ def test_2_a_separation_lasts_a_thousand_times_longer() -> None:
     assert np.mean(found.rotation.values[apart] > math.tau) == pytest.approx(0.3405, abs=2e-3)
 
 
-@pytest.mark.slow
 def test_collide_says_that_a_contact_is_not_instantaneous() -> None:
     """By the way that a particle of the relative speed travels meanwhile; a bounce, a stick and strings say nothing."""
     first = stokes(GRANULATION, STEEP)[0]
@@ -269,7 +264,6 @@ def test_collide_says_that_a_contact_is_not_instantaneous() -> None:
     assert f"travels {slow.contact_time * slow.speed / 0.5 / 2.5e-4:.3g} diameters" in slow.long_contact
 
 
-@pytest.mark.slow
 def test_3_that_time_grows_as_a_third_power() -> None:
     rates = []
     for viscosity in (200.0, 1000.0):
@@ -307,7 +301,6 @@ def turns_over(shear: float, centrifugal: float) -> bool:
     return bool(found.t_events[0].size)
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize(
     ("shear", "expected", "relative"), [(1.0, 4.06318, 1e-4), (0.01, 4.03, 2e-3), (0.0, 2.118, 1e-3)]
 )
@@ -327,7 +320,6 @@ def test_4_by_the_toolkit() -> None:
         assert boundary(scene, angle=STEEP).changes[0][0].centrifugal == pytest.approx(expected, rel=1e-5)
 
 
-@pytest.mark.slow
 def test_5_restitution_jumps() -> None:
     second = stokes(GRANULATION, STEEP)[1]
     for side, expected, accuracy in ((-1e-6, 0.737332, 1e-4), (1e-6, 0.867856, 3e-3)):
@@ -344,7 +336,6 @@ def test_5_restitution_jumps() -> None:
         assert found.restitution == pytest.approx(expected, abs=6e-4)
 
 
-@pytest.mark.slow
 def test_6_with_backspin_faster_can_stick() -> None:
     scene = GRANULATION.with_entries({"impact.spin": -2e4})
     assert stokes(scene, STEEP) == pytest.approx([0.0190840, 0.0756485, 0.118652], rel=1e-5)
@@ -358,14 +349,12 @@ def test_6_with_backspin_faster_can_stick() -> None:
         assert (end.outcome == "stick") == outcome
 
 
-@pytest.mark.slow
 def test_9_on_strings_the_boundary_is_a_speed() -> None:
     for entries, expected in (({"pendulum.length": 0.5}, 0.1046290), ({"pendulum.length": 2.0}, 0.0525433),
                               ({"liquid.viscosity": 48.0}, 0.105391)):  # fmt: skip
         assert critical(PENDULUM.with_entries(entries), angle=STEEP).rows[0].speed == pytest.approx(expected, rel=2e-4)
 
 
-@pytest.mark.slow
 def test_11_the_ceiling_of_rebounds_without_glass() -> None:
     one, liquid = GRANULATION.particles, GRANULATION.liquid
     ceiling = (
@@ -400,7 +389,6 @@ def test_14_spheres_overspin() -> None:
     assert found.tangential_restitution < rigid
 
 
-@pytest.mark.slow
 def test_22_smaller_spheres_stick_to_hardly_higher_speeds() -> None:
     larger = GRANULATION.with_entries({"particles.reduced_radius": 1e-4, "particles.reduced_mass": 4.16e-8})
     for angle, expected in ((0.0, 0.499900), (STEEP, 0.761166)):
@@ -418,7 +406,6 @@ def test_23_a_graze_comes_off_along_the_line_of_centres() -> None:
 # ---- walls, unequal spheres, friction, space
 
 
-@pytest.mark.slow
 def test_24_and_25_a_wall_lets_go_sooner_and_with_a_jump() -> None:
     sphere, wall = at(GRANULATION), at(WALL)
     assert wall / sphere == pytest.approx(0.683763, rel=1e-5)
@@ -430,7 +417,6 @@ def test_24_and_25_a_wall_lets_go_sooner_and_with_a_jump() -> None:
         assert start.restitution == pytest.approx(expected, rel=0.05)  # it rises as a square root from there
 
 
-@pytest.mark.slow
 def test_26_to_28_a_wall_stops_a_sphere_and_forgets_its_spin() -> None:
     speed, angle = at(WALL), math.radians(45)
     for factor, expected in ((1.5, 1.8529e-5), (3.0, 4.38091e-3)):
@@ -451,7 +437,6 @@ def test_26_to_28_a_wall_stops_a_sphere_and_forgets_its_spin() -> None:
         assert collide(thicker, speed=normal, angle=angle).restitution == pytest.approx(closed, rel=1e-8)
 
 
-@pytest.mark.slow
 def test_29_a_larger_partner_sticks_less() -> None:
     expected = {
         1.0: (2.090142, 28.49221),
@@ -472,7 +457,6 @@ def test_30_the_light_sphere_does_not_spin_ten_times_as_fast() -> None:
     assert end.spins[0] / end.spins[1] == pytest.approx(2.37925, rel=1e-5)
 
 
-@pytest.mark.slow
 def test_31_small_spheres_stick_to_large_ones() -> None:
     """Shares of a gas, and at one angle the critical speeds."""
     radii, angle = [5e-5, 2e-4], math.radians(45)
@@ -487,7 +471,6 @@ def test_31_small_spheres_stick_to_large_ones() -> None:
     assert speeds[1] > 1.5 * max(speeds[0], speeds[2])
 
 
-@pytest.mark.slow
 def test_32_friction_makes_more_pairs_stick() -> None:
     smooth = Scene.load("glass-beads-water")
     rough = smooth.with_entries({"particles.friction": 0.3, "model.contact_friction": "all"})
@@ -506,7 +489,6 @@ def twisted(number: float, twist: float) -> tuple[object, Arrival]:
     return collide_pair(GRANULATION, [1, 0, 0], velocities, spins), Arrival((1.0, 0.0, 0.0), velocities, spins)
 
 
-@pytest.mark.slow
 def test_13_twist_parts_a_stick() -> None:
     """In closed form: all of L in rigid rotation at the roughness, where the bridge just holds."""
     body, number = bodies_of(GRANULATION), 0.02
@@ -551,7 +533,6 @@ def sums(scene: Scene, speed: float, count: int, engine: str) -> np.ndarray:
     return np.array([weight @ e_n, 1 - 2 * weight @ (e_n * np.cos(angle)) ** 2, lost])
 
 
-@pytest.mark.slow
 def test_8_and_34_mean_restitution_above_one() -> None:
     names = "restitution_all", "normal_dissipation", "kinetic_energy_loss"
     fast = collision_averages("granulation", speeds=10.0)
@@ -578,7 +559,6 @@ def test_35_those_that_separate_lose_more() -> None:
     assert slow == pytest.approx(sums(GRANULATION, 100.0, 400, "taylor")[2], rel=1e-3)
 
 
-@pytest.mark.slow
 def test_36_tangential_restitution_is_that_of_rigid_rotation() -> None:
     expected = {1.0: 0.667230, 3.0: 0.663123, 10.0: 0.659371}
     for speed, value in expected.items():

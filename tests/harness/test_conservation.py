@@ -19,7 +19,7 @@ pytestmark = pytest.mark.filterwarnings("ignore::wetdoublet.solvers.ModelWarning
 
 
 @parts
-@examples(30)
+@examples(16)
 @given(st.data())
 def test_the_ledger_closes(structures: list[Structure], data: st.DataObject) -> None:
     """Losses, work and the energy left add up to the energy before, to the steps' errors; no loss is negative."""
@@ -67,7 +67,7 @@ def test_restitution_stays_below_its_ceiling(scene: Scene) -> None:
 
 
 @parts
-@examples(30)
+@examples(16)
 @given(st.data())
 def test_the_budget_sums_to_the_restitution(structures: list[Structure], data: st.DataObject) -> None:
     """The shares sum to e_n^2 - 1; rotation is that of the rates, and rigid rotation that of L where L is kept."""

@@ -28,7 +28,6 @@ from .test_mutants import Healthy, Mutate, altered_force, caught
 pytestmark = [pytest.mark.slow, pytest.mark.usefixtures("few_structures")]
 
 
-_RIGHT = dict(pendulum.definitions())
 _SLOWER = {pendulum.FASTEST: pendulum.FASTEST / 10}
 _REST = sp.sqrt(2 * pendulum.LARGEST_PULL)
 _HALF_THE_PULL = sp.sqrt(sp.Min(q.normal_velocity, 0) ** 2 + pendulum.LARGEST_PULL)
@@ -63,9 +62,10 @@ def test_a_margin_that_is_not_the_worst(mutate: Mutate, healthy: Healthy, bounds
     """Each wrong distance, orbit, contact, pull, speed or reach of a rebound is caught by the margins that have it."""
     right = {name: value for _, _, outputs in pendulum.functions() for name, value in outputs.items()}
     wrong = {name: value.subs(margins.get(name, {})) for name, value in right.items()}
-    assert all(_RIGHT[name] != value for name, value in bounds.items())
+    right = dict(pendulum.definitions())
+    assert all(right[name] != value for name, value in bounds.items())
     assert all(wrong[name] != right[name] for name in margins)
-    mutate(pendulum.definitions, lambda *_: tuple({**_RIGHT, **bounds}.items()))
+    mutate(pendulum.definitions, lambda *_: tuple({**right, **bounds}.items()))
     mutate(pendulum.functions, lambda *_: [("margins", "", wrong)])
     caught(margins_are_the_lemmas(), healthy, *(f"margin of the stick proof: {each}" for each in names.split()))
 

@@ -165,7 +165,7 @@ VALUES = {"x": 0.7, "y": -1.3, "z": 0.4, "p": 1.9, "q": 0.6}
 EXACTLY = {symbol: sp.Rational(Fraction(VALUES[symbol.name])) for symbol in (x, y, z, p, q)}
 
 
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=60, deadline=None)
 @given(trees)
 def test_printed_text_means_what_the_expression_means(tree: sp.Expr):
     """Any tree of the whitelist evaluates, as printed, to what sympy makes of it in 30 digits."""

@@ -55,6 +55,7 @@ def test_a_copy_is_emitted_as_the_law(file: str):
         assert (named.meaning, named.source, named.references) == (library.meaning, library.source, library.references)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("file", FILES)
 def test_a_copy_passes_every_check(file: str):
     """The checks of a user's model hold for the library's laws."""

@@ -35,7 +35,7 @@ def test_on_either_side_the_law_is_the_written_one(factor: str):
     written, emitted = film(factor)
     given = [sp.Symbol("gap", positive=True), *(s for s in written.arguments if s.name == "normal_velocity")]
     random = Random(1)
-    for _ in range(20):
+    for _ in range(8):
         at = dict(zip(given, (random.uniform(0.05, 0.95), random.uniform(-1, 1)), strict=False))
         for variable in (None, *given):
             one, other = (each(*each.arguments) for each in (written, emitted))
@@ -106,7 +106,7 @@ def test_several_kinks_below_a_fraction():
     assert float((value / library).evalf(30)) == pytest.approx(1 + 1 / 1.01, rel=1e-12)
 
 
-@pytest.mark.parametrize("number", range(6))
+@pytest.mark.parametrize("number", range(3))
 def test_random_laws_are_emitted_or_refused_with_a_sentence(number: int):
     """Every form of a law drawn at random is the same function, or its check says what is wrong."""
     slot, text = random_law(number)

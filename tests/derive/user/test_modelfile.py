@@ -83,12 +83,10 @@ def test_equivalent_spellings_are_equal(spellings: tuple[str, ...]):
     """A condition, an extreme, a root or a power means the same however its scale is written."""
     head = 'c = quantity("c_of", unit="m/s")\nk = quantity("k")\nlaw("bridge", "mine", force=sigma*R*(1 + k*c/v0))\n'
     at = {"gap": 0.3, "c_of_number": 0.2, "k": 0.7}
+    films = [f'{head}law("film", "mine", resistance=mu*a**2*u/x*{spelling})' for spelling in spellings]
+    laws = [model(film).laws[1]["resistance"] for film in films]
     for speed in (-0.8, -0.1, 0.1, 0.8):
-        values = []
-        for spelling in spellings:
-            mine = model(f'{head}law("film", "mine", resistance=mu*a**2*u/x*{spelling})').laws[1]["resistance"]
-            result = mine(*mine.arguments).subs({s: at.get(s.name, speed) for s in mine.arguments})
-            values.append(float(result))
+        values = [float(law(*law.arguments).subs({s: at.get(s.name, speed) for s in law.arguments})) for law in laws]
         assert values == pytest.approx([values[0]] * len(values), rel=1e-14)
 
 

@@ -22,7 +22,7 @@ from wetdoublet.solvers.host.compiler import compiler, library
 from wetdoublet.solvers.host.user_cache import loaded
 from wetdoublet.solvers.model.model import select_model
 
-pytestmark = pytest.mark.skipif(compiler() is None, reason="no C compiler")
+pytestmark = [pytest.mark.slow, pytest.mark.skipif(compiler() is None, reason="no C compiler")]
 BITS, TERMS, STEPS = 300, 25, 3000
 ORDER, TOLERANCE, WIDEST = 16, 1e-15, 0.5  # of the enclosure
 # One row a step: its length, rebounds so far, film, shear, whether the pair is apart; low and high of each state.
@@ -275,7 +275,7 @@ def scenes(seed: int, partner: str = "") -> Iterator[Scene]:
             continue
 
 
-@pytest.mark.parametrize("partner", ["", *(pytest.param(each, marks=pytest.mark.slow) for each in ("pair", "wall"))])
+@pytest.mark.parametrize("partner", ["", "pair", "wall"])
 def test_trajectories_lie_in_every_step_of_their_enclosures(partner: str) -> None:
     """Random flights: states at the ends of all steps, on surfaces of events, and after rebounds."""
     drawn = scenes(1, partner)
@@ -293,7 +293,6 @@ MUTANTS = {
 }
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("change", MUTANTS.values(), ids=MUTANTS)
 def test_a_term_that_is_dropped_is_noticed(change: tuple[str, str]) -> None:
     """A runtime without the remainder of a step, or without what earlier errors become in it, loses trajectories."""

@@ -106,6 +106,7 @@ def test_a_tracker_that_pushes_near_discs_apart_is_noticed() -> None:
     assert not blind or np.median(np.abs(blind)) > 3
 
 
+@pytest.mark.slow
 def test_viscosity_from_films_whose_tracker_pushes() -> None:
     """Of 18 impacts filmed at 24 px a diameter the fitted viscosity is that of the collisions, within its interval."""
     scene, random, parts = Scene.load("lactose-pvp"), np.random.default_rng(5), []

@@ -85,6 +85,7 @@ def test_an_entry_without_influence_is_not_identifiable():
     assert found.estimates["particles.dry_restitution"].verdict == NOT_AT_ALL
 
 
+@pytest.mark.slow
 def test_a_known_combination():
     """Where nothing but viscosity resists inertia the data tell viscosity over mass, and neither alone."""
     mass = "particles.reduced_mass"
@@ -164,6 +165,7 @@ def test_bad_requests(free, prior, said):
         fit("granulation", {"stokes": [0.1], "angle": [0.5], "outcome": ["stick"]}, free, prior=prior)
 
 
+@pytest.mark.slow
 def test_one_stick_bounds_and_does_not_identify():
     """A stick at some viscosity is none at a lower one, nor at a much higher: ends are closed, flat between."""
     seen = {"stokes": [1.2], "angle": [0.3], "outcome": ["stick"]}

@@ -16,7 +16,6 @@ from .test_fit import VISCOSITY, plan
 
 NOISE, FILM = "noise.restitution", "liquid.film_thickness"
 
-pytestmark = pytest.mark.usefixtures("optimized")
 OIL = Scene.load("pendulum").with_entries({"name": "oil"})
 SYRUP = Scene.load("pendulum").with_entries({"name": "syrup", VISCOSITY: "16 Pa s"})
 
@@ -39,6 +38,7 @@ def test_a_table_in_two_parts_is_one_table(tables):
 
 
 @pytest.mark.slow
+@pytest.mark.usefixtures("optimized")
 def test_scenes_that_share_nothing_are_fitted_alone(tables):
     """With an entry of its own each scene has the estimate and the interval that it has alone."""
     found = fit([OIL, SYRUP], tables, VISCOSITY, own=VISCOSITY, starts=0)
@@ -55,6 +55,7 @@ def test_scenes_that_share_nothing_are_fitted_alone(tables):
 
 
 @pytest.mark.slow
+@pytest.mark.usefixtures("optimized")
 def test_gradients_of_shared_and_own_entries_and_of_noise(tables):
     """The gradient is that of the density, for the scatter in speed and angle too."""
     names = [VISCOSITY, FILM, NOISE, "noise.speed", "noise.angle"]
@@ -96,6 +97,7 @@ def test_noise_is_that_of_the_residuals():
 
 
 @pytest.mark.slow
+@pytest.mark.usefixtures("optimized")
 def test_command(tables, tmp_path):
     """Pairs of scene and data give entries by label, and a scene each."""
     pairs = []

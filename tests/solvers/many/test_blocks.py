@@ -13,6 +13,7 @@ from wetdoublet.solvers.many.blocks import blocks
 
 from ...helpers.command import run
 
+pytestmark = pytest.mark.slow
 pytest.importorskip("zarr")
 distributed = pytest.importorskip("distributed")
 dask = pytest.importorskip("dask")
@@ -44,22 +45,6 @@ def same(one, other):
         assert variable.dtype.kind in "UOT" or variable.values.tobytes() == other[name].values.tobytes(), name
 
 
-@pytest.mark.parametrize("shape", [(1,), (100_003,), (300, 7), (5, 4000, 3, 2), (10_000, 10_000)])
-@pytest.mark.parametrize("engine", ["taylor", "rosenbrock"])
-def test_blocks_cover_a_map_once(shape, engine):
-    """Every collision is in one block, and no block is larger than the kernel takes in one call."""
-    cut = blocks(shape, engine)
-    extents = [[part.stop - part.start for part in at] for at in cut]
-    assert sum(map(np.prod, extents)) == np.prod(shape)
-    assert max(map(np.prod, extents)) <= 65536
-    if np.prod(shape) < 1e6:
-        count = np.zeros(shape, int)
-        for at in cut:
-            count[at] += 1
-        assert (count == 1).all()
-
-
-@pytest.mark.slow
 def test_a_stored_map_is_the_map(tmp_path, serial):
     """The store that a map is written to has the Dataset that is made in memory; a second one takes its place."""
     same(regime_map("granulation", **GRID, store=tmp_path / "map.zarr"), serial)
@@ -82,7 +67,6 @@ def interrupted_after(blocks):
     return progress
 
 
-@pytest.mark.slow
 def test_a_damaged_unfinished_store(tmp_path, serial):
     """A block whose outcomes are damaged is computed again; without its description all is; no bit gets through."""
     draw, counts = np.random.default_rng(1), []
@@ -121,7 +105,6 @@ regime_map("granulation", **axes, store="map.zarr")
 """
 
 
-@pytest.mark.slow
 @pytest.mark.skipif(os.name != "posix", reason="signals are sent as on POSIX")
 def test_a_killed_client_loses_nothing_that_was_written(tmp_path, serial):
     """Killed outright behind its fourth block: the second call computes the others and no more, to the same bits."""
@@ -138,7 +121,6 @@ def test_a_killed_client_loses_nothing_that_was_written(tmp_path, serial):
 # ---- in memory
 
 
-@pytest.mark.slow
 def test_an_interrupted_map_in_memory_is_continued(tmp_path):
     """What an interrupt finds finished is read by the same call, which computes the rest and removes it."""
     grid = {"stokes": np.geomspace(0.005, 0.5, 8), "angle": np.linspace(0, 1.5, 8), "engine": "rosenbrock"}
@@ -161,7 +143,6 @@ def test_an_interrupted_map_in_memory_is_continued(tmp_path):
     assert not file.exists()
 
 
-@pytest.mark.slow
 def test_another_request_never_uses_what_is_kept(tmp_path):
     """Scene, axes, tolerance, engine and quantities are part of what it is kept under; a damaged file is nothing."""
     grid = {"stokes": np.geomspace(0.02, 0.1, 60), "angle": 1.0}
@@ -211,7 +192,6 @@ main(["map", "granulation", "--stokes", "0.01:0.3:3", "--angle", "0:80:2", "-o",
 """
 
 
-@pytest.mark.slow
 @pytest.mark.skipif(os.name != "posix", reason="signals are sent as on POSIX")
 def test_an_interrupt_while_zarr_writes(tmp_path):
     """One line and status 130; Zarr's tasks write no traceback."""
@@ -236,14 +216,12 @@ print(signal.SIGINT in blocked)
 """
 
 
-@pytest.mark.slow
 def test_local_workers_are_undisturbed():
     """As many as asked for; interrupts are blocked while they start; whoever has Dask's usual port is no matter."""
     done = subprocess.run([sys.executable, "-W", "error::UserWarning", "-c", LOCAL], capture_output=True, text=True)
     assert (done.stdout, done.stderr) == ("True\n", "")
 
 
-@pytest.mark.slow
 def test_a_lost_worker_is_survived(tmp_path, serial, cluster):
     """One of two workers is killed in mid-run: the same bits, in a store and in memory."""
     victims = list(cluster.run(os.getpid).values())
@@ -258,7 +236,6 @@ def test_a_lost_worker_is_survived(tmp_path, serial, cluster):
     same(regime_map("granulation", **GRID, client=cluster), serial)
 
 
-@pytest.mark.slow
 def test_workers_of_two_arithmetics_are_refused(serial, cluster):
     """Other compiler flags on one worker would be other last digits: an error names both. All alike compute."""
 
@@ -280,7 +257,6 @@ def test_workers_of_two_arithmetics_are_refused(serial, cluster):
         cluster.run(flags, usual)
 
 
-@pytest.mark.slow
 def test_an_unreachable_scheduler_is_bad_input(tmp_path):
     """One line names the option and what is accepted; nothing is left behind."""
     (tmp_path / "else.zarr").mkdir()
@@ -316,7 +292,6 @@ regime_map("granulation", angle=[1.0], engine="rosenbrock", client="local:1")
 """
 
 
-@pytest.mark.slow
 def test_local_workers_of_an_unguarded_script(tmp_path):
     """The error says what the script needs; Dask's processes would run the script again."""
     (tmp_path / "script.py").write_text(SCRIPT)
@@ -325,7 +300,6 @@ def test_local_workers_of_an_unguarded_script(tmp_path):
     assert 'start them below `if __name__ == "__main__":`' in done.stderr.splitlines()[-1]
 
 
-@pytest.mark.slow
 def test_a_closed_client_is_bad_input(cluster):
     """A client that was closed is named."""
     with distributed.Client(cluster.scheduler.address) as closed:

@@ -6,8 +6,6 @@ from wetdoublet.solvers import boundary, regime_map
 from wetdoublet.solvers.boundaries.on_map import map_curves
 from wetdoublet.solvers.many.plot_map import draw_map
 
-pytestmark = pytest.mark.usefixtures("optimized")
-
 
 @pytest.fixture(scope="module")
 def chart():
@@ -21,6 +19,7 @@ def _of(axes, gid):
 
 
 @pytest.mark.slow
+@pytest.mark.usefixtures("optimized")
 def test_a_picture_has_the_exact_boundaries(chart):
     """Over the cells run the curves: each passes between the outcomes that `boundary` has at an angle between cells."""
     curves = map_curves(chart)

@@ -11,6 +11,7 @@ import xarray as xr
 from wetdoublet.solvers import Scene, collide_many, regime_map
 from wetdoublet.solvers.errors import ComputationError, InputError
 from wetdoublet.solvers.many import compute
+from wetdoublet.solvers.many.blocks import blocks
 from wetdoublet.solvers.many.plot_map import draw_map
 from wetdoublet.solvers.many.regime_map import write
 from wetdoublet.solvers.many.text_map import failures, table
@@ -271,3 +272,18 @@ def test_large_character_maps_are_subsampled():
     assert max(map(len, lines)) <= 88
     assert len(lines) < 160
     assert lines[-2] == "shown: 32 of 100 rows, 78 of 300 columns, 4 of 9 maps"
+
+
+@pytest.mark.parametrize("shape", [(1,), (100_003,), (300, 7), (5, 4000, 3, 2), (10_000, 10_000)])
+@pytest.mark.parametrize("engine", ["taylor", "rosenbrock"])
+def test_blocks_cover_a_map_once(shape, engine):
+    """Every collision is in one block, and no block is larger than the kernel takes in one call."""
+    cut = blocks(shape, engine)
+    extents = [[part.stop - part.start for part in at] for at in cut]
+    assert sum(map(np.prod, extents)) == np.prod(shape)
+    assert max(map(np.prod, extents)) <= 65536
+    if np.prod(shape) < 1e6:
+        count = np.zeros(shape, int)
+        for at in cut:
+            count[at] += 1
+        assert (count == 1).all()

@@ -89,6 +89,7 @@ def test_far_from_a_boundary_restitution_tells_its_derivative() -> None:
     assert found.outcome[0, 0, 0] == pytest.approx(0, abs=1e-6 * found.total[0, 0, 0])
 
 
+@pytest.mark.slow
 def test_a_restitution_beside_the_outcome_tells_no_less() -> None:
     """Total less outcome has no negative eigenvalue, also where all three outcomes meet and integrals are uncertain."""
     scene = Scene.load("granulation")

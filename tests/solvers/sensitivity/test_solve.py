@@ -66,6 +66,7 @@ def test_a_jump_over_the_value_is_no_root():
     assert min(abs(change.stokes / there.stokes - 1) for change in at) < 1e-7
 
 
+@pytest.mark.slow
 def test_a_root_beside_a_change_of_outcome_is_found():
     """The pendulum's e_n begins at 0 as a square root: 1e-4 lies within 1e-5 of where sticking ends."""
     found = solve("pendulum", free="impact.stokes", within=(0.5, 3.0), angle="45 deg", restitution=1e-4)

@@ -182,6 +182,7 @@ def test_the_kernels_steps_are_confirmed_and_wrong_ones_are_not(name: str) -> No
     assert not confirmed
 
 
+@pytest.mark.slow
 def test_beside_a_separatrix_the_kernel_answers() -> None:
     """So near that CVODES cannot repeat it the result is the kernel's, confirmed, and says so."""
     stokes = boundary("granulation", angle=math.radians(55), stokes=(0.03, 0.05)).changes[0][0].stokes
