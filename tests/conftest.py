@@ -36,7 +36,8 @@ _IMPORTED = ("hypothesis", "pandas", "pint", "scipy.optimize", "sympy.physics.un
 def pytest_configure(config: pytest.Config) -> None:
     """Compile to bytecode, before the workers start, what each of them would compile for itself at the same time."""
     if config.getoption("numprocesses", None) and not hasattr(config, "workerinput"):
-        compileall.compile_dir(Path(wetdoublet.__file__).parent, quiet=2)
+        for folder in ("derive", "solvers"):
+            compileall.compile_dir(Path(wetdoublet.__file__).parent / folder, quiet=2, workers=0)
         for name in _IMPORTED:
             import_module(name)
 

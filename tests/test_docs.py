@@ -119,20 +119,3 @@ def test_the_synthetic_data_are_those_of_their_script():
         text = (folder / name).read_text(encoding="utf-8")
         assert text == make()
         assert text.startswith("# Synthetic")
-
-
-@pytest.mark.parametrize(("name", "arguments"), [("check", ("SCENE", "DATA.csv")), ("verify", ())])
-def test_required_arguments_are_called_so(name, arguments, monkeypatch):
-    """On the commands page SCENE is required and [SCENE] optional, although click itself requires neither."""
-    monkeypatch.syspath_prepend(ROOT / "docs/_ext")
-    context = click.Context(cli.get_command(click.Context(cli), name))
-    lines = ["Optional argument" for each in context.command.params if isinstance(each, click.Argument)]
-    import_module("pages").required_arguments(None, context, lines)
-    assert lines == (["Required argument"] * len(arguments) or ["Optional argument"])
-
-
-def test_the_gallery_is_in_the_order_of_its_numbers():
-    """Sphinx-gallery sorts file names as text: 10 comes behind 9."""
-    names = sorted(path.name for path in (ROOT / "docs/gallery").glob("plot_*.py"))
-    numbers = [int(name.split("_")[1]) for name in names]
-    assert numbers == list(range(1, len(names) + 1))
