@@ -6,7 +6,7 @@ import sys
 
 import pytest
 from wetdoublet.derive.emit.write import GENERATED
-from wetdoublet.derive.equations.automaton import ACTIONS, COMPONENTS, EVENTS, OUTCOMES, RULES, STATUSES, WORDS
+from wetdoublet.derive.equations.automaton import EVENTS, OUTCOMES, RULES, STATUSES, WORDS
 from wetdoublet.derive.equations.model import derive
 from wetdoublet.derive.physics.structure import Structure
 
@@ -58,31 +58,10 @@ def test_every_word_is_reported_by_an_event_or_a_rule():
     assert reported == {word.word for word in WORDS}
 
 
-def test_effects_are_made_of_the_actions_listed():
-    """Each is used, and the actions that end something come last."""
-    assert {action for event in EVENTS for action in event.actions} == {action.name for action in ACTIONS}
-    ends = {"rebound", "separate", "cut off"}
-    assert not [event for event in EVENTS if ends & set(event.actions[:-1])]
-
-
-def test_conditions_are_on_parts_of_the_mode():
-    """A guard names a component and one of its values."""
-    values = {each.name: [value for value, _ in each.values] for each in COMPONENTS}
-    assert all(value in values[part] for event in EVENTS for part, value in event.where)
-    assert {event.follows for event in EVENTS} <= {"", *values}
-
-
 def test_statuses_that_answer_come_first():
     """One number tells them from those that hand over."""
     answers = [each.answers for each in STATUSES]
     assert answers == sorted(answers, reverse=True)
-
-
-def test_the_kernel_has_a_case_for_every_event():
-    """In the emitted switch, in order of precedence."""
-    text = (GENERATED / "taylor" / "effects.h").read_text()
-    cases = [line.strip() for line in text.splitlines() if line.strip().startswith("case ")]
-    assert cases == [f"case AT_{event.name.upper()}:" for event in EVENTS]
 
 
 _COMMAND = """
