@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
+from functools import cached_property
 from itertools import combinations
 
 import sympy as sp
@@ -40,8 +41,7 @@ class Group:
 class UserModel:
     """A derived model file: laws in the library's form, groups, and additional arguments of each slot's functions.
 
-    `laws` are as they are emitted, with kinks rounded; `written` has the kinks, and `si` is in SI except for the slot's
-    arguments, for print.
+    `laws` are as they are emitted, with kinks rounded; `written` has the kinks.
     """
 
     name: str
@@ -49,7 +49,6 @@ class UserModel:
     declarations: Declarations
     laws: tuple[Law, ...]
     written: tuple[Law, ...]
-    si: tuple[Law, ...]
     groups: tuple[Group, ...]
     extra: Mapping[str, tuple[sp.Symbol, ...]]
     events: tuple[OwnEvent, ...] = ()
@@ -61,6 +60,12 @@ class UserModel:
     def default(self, slot: str) -> Law:
         """The law that fills a slot unless a scene names another: the first one declared."""
         return next(law for law in self.laws if law.slot == slot)
+
+    @cached_property
+    def si(self) -> tuple[Law, ...]:
+        """The laws as written, in SI except for the slot's arguments: for print, and so made when it is asked for."""
+        groups = {group.quantity.name: group for group in self.groups}
+        return tuple(_in_si(law, groups) for law in self.written)
 
     @property
     def accepted(self) -> set[str]:
@@ -107,7 +112,6 @@ def express(name: str, meaning: str, declared: Declarations) -> UserModel:
     marks = (one.mark for one in declared.events.values())
     extra = _extra(laws, (normal_velocity, *marks, *GROUPS, *(group.symbol for group in groups.values())))
     laws = [_widened(law, extra) for law in laws]
-    printed = tuple(_in_si(law, groups) for law in laws)
     still = {*GROUPS, *(group.symbol for group in groups.values())}
     written = tuple(laws)
     laws = [replace(law, functions=tuple(smooth(f, still, declared.positive) for f in law.functions)) for law in laws]
@@ -118,7 +122,7 @@ def express(name: str, meaning: str, declared: Declarations) -> UserModel:
     unused = [one.name for one in declared.quantities.values() if one.name not in {g.quantity.name for g in kept}]
     if unused:
         raise ScalingError(f"{', '.join(unused)}: declared, but no law or event depends on it")
-    return UserModel(name, meaning, declared, tuple(laws), written, printed, kept, extra, events)
+    return UserModel(name, meaning, declared, tuple(laws), written, kept, extra, events)
 
 
 def _event(
