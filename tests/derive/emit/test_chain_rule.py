@@ -11,14 +11,10 @@ from wetdoublet.derive.emit.taylor.header import Beside
 from wetdoublet.derive.emit.taylor.tangent import tangent_header
 from wetdoublet.derive.equations.model import derive
 from wetdoublet.derive.laws import LAWS
-from wetdoublet.derive.physics.forces import FILM, SHEAR
-from wetdoublet.derive.physics.law import Law, fill
+from wetdoublet.derive.physics.law import Law
 from wetdoublet.derive.physics.structure import structures
 
 DRAW = random.Random(3)
-CHOSEN = {
-    "film": "finite", "shear": "immersed", "arm": "midgap", "glass": "literal", "bridge": "mikami", "strings": "exact",
-}  # fmt: skip
 LIBRARY = [law for laws in LAWS.values() for law in laws.values()]
 
 
@@ -36,36 +32,6 @@ def _somewhere(symbols: set[sp.Symbol]) -> dict[sp.Symbol, float]:
 
 def _value(expression: sp.Expr, at: dict[sp.Symbol, float]) -> float:
     return float(sp.lambdify(list(at), expression, "math")(*at.values()))
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("name", ["oblique_bridge_strings"])
-def test_rates_of_a_structure(name: str) -> None:
-    """Each rate by each state and group, laws' slopes put in, is the slope of the rate written out."""
-    model = derive(next(structure for structure in structures() if structure.name == name))
-    laws = {slot: LAWS[slot][law] for slot, law in CHOSEN.items()}
-    slopes: dict[sp.Symbol, sp.Expr] = {}
-
-    def slope(node: sp.Expr, position: int) -> sp.Symbol:
-        slot, function = node.func.__name__.split(".")
-        places = [sp.Dummy() for _ in node.args]
-        symbol = sp.Symbol(f"{slot}_{function}_by_{position}")
-        slopes[symbol] = laws[slot][function](*places).diff(places[position]).subs(dict(zip(places, node.args)))
-        return symbol
-
-    chain = Chain(model.definitions, slope, model.groups)
-    at = _somewhere({*model.states, *model.groups, FILM, SHEAR})
-    for output, rate in model["right_hand_side"].outputs:
-        plain = fill(model.expanded(sp.sympify(rate)), laws)
-        for variable in (*model.states, *model.groups):
-            found = chain.by(sp.sympify(rate), variable)
-            for symbol, value in reversed(chain.named):
-                found = found.subs(symbol, value)
-            found = fill(model.expanded(found.subs(slopes)), laws)
-            assert math.isclose(_value(found, at), _slope(plain, variable, at), rel_tol=1e-6, abs_tol=1e-8), (
-                output,
-                variable,
-            )
 
 
 @pytest.mark.parametrize("law", LIBRARY, ids=lambda law: law.module)
