@@ -18,7 +18,7 @@ from .structures import STRUCTURES
 pytestmark = pytest.mark.filterwarnings("ignore::wetdoublet.solvers.ModelWarning")
 
 
-@examples(8)
+@examples(14)
 @given(scenes(few(STRUCTURES)))
 def test_a_certified_stick_followed_on_never_separates(scene: Scene) -> None:
     """For a hundred times the time in which its film is closed: no rupture, and no more energy than at the proof."""
