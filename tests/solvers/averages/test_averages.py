@@ -199,6 +199,7 @@ def test_films_are_fixed_or_grow_with_the_radii() -> None:
     assert grown.entries["partner.coating_thickness"] == pytest.approx(12e-6)
 
 
+@pytest.mark.slow
 def test_beside_a_wall_there_is_one_radius() -> None:
     """A sphere and a wall: a row of radii, and every share of outcomes adds up."""
     walled = Scene.load("granulation").with_entries({"partner.wall": True})

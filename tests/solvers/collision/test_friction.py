@@ -78,6 +78,7 @@ def test_glass_has_friction_only_if_asked_for() -> None:
 WRT = ("particles.friction", "particles.contact_tangential_restitution", "liquid.viscosity")
 
 
+@pytest.mark.slow
 def test_no_derivative_at_the_switch_between_sliding_and_sticking() -> None:
     """Where friction just holds the surfaces the switch is named; beside it the spin depends on friction, or not."""
 

@@ -111,6 +111,7 @@ def test_a_contradicting_row_is_named():
     assert found.estimates[VISCOSITY].low < 12 < found.estimates[VISCOSITY].high
 
 
+@pytest.mark.slow
 def test_data_that_contradict_the_model_identify_nothing(tmp_path):
     """By the command, with JSON: where half of the impacts contradict the model, the first remark says so."""
     data = tmp_path / "odd.csv"

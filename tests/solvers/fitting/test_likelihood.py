@@ -106,6 +106,7 @@ def test_precise_results_leave_the_impact_that_has_them(sd: float):
     np.testing.assert_array_less(np.abs(likelihood(value).plain - expected), left**2 + 0.05)
 
 
+@pytest.mark.slow
 def test_finer_integrals_change_little():
     """The integrals over the scatter agree with ones that are twice as fine."""
     scene = Scene.load("pendulum")

@@ -154,6 +154,7 @@ def test_the_table_is_what_a_fit_reads(found: Design, tmp_path: Path) -> None:
     assert (data.outcome == 2).all()
 
 
+@pytest.mark.slow
 def test_the_command_writes_the_table_beside_what_it_prints(tmp_path: Path) -> None:
     """With -o FILE.csv the file has a row for each impact, and what is printed stays; a unit stands at either end."""
     file = tmp_path / "plan.csv"

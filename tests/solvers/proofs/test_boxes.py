@@ -173,6 +173,7 @@ def contradictions(
     return counts
 
 
+@pytest.mark.slow
 def test_collisions_inside_of_boxes_agree() -> None:
     """Wide boxes of every entry of granulation: outcome and restitution of 25 collisions in each, ends among them.
 

@@ -163,6 +163,7 @@ def test_reference_collisions_lie_in_their_enclosures() -> None:
     assert proved >= 10
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("name", "about"), [("granulation", 0.3), ("lactose-pvp", 10)])
 @pytest.mark.parametrize("entry", ["impact.stokes", "impact.angle", "liquid.viscosity"])
 def test_a_narrow_box_has_the_restitutions_of_its_ends(name: str, about: float, entry: str) -> None:

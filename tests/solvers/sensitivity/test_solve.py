@@ -34,6 +34,7 @@ def test_a_root_is_confirmed_and_its_derivatives_are_those_of_the_root():
     assert "liquid.viscosity" not in gradient
 
 
+@pytest.mark.slow
 def test_all_roots_are_found_on_both_sides_of_an_extremum():
     """At 60 deg e_n over the viscosity rises and falls by 1e-3: two roots below the maximum, none above it."""
     scene = Scene.load("granulation").with_impact(stokes=0.03, angle="60 deg")

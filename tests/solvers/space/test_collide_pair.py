@@ -70,7 +70,8 @@ def test_a_bad_row_leaves_the_others(engine):
     assert np.isnan(found["velocities"][1:]).all() and np.isfinite(found["velocities"][0]).all()
 
 
-@pytest.mark.parametrize("scene", [GRANULATION, pytest.param(WALL, marks=pytest.mark.slow)], ids=["spheres", "wall"])
+@pytest.mark.slow
+@pytest.mark.parametrize("scene", [GRANULATION, WALL], ids=["spheres", "wall"])
 def test_a_stick_depends_on_its_arrival_alone(scene):
     """No tolerance and no engine changes its motion, which is at contact; `until` says where they stopped."""
     given = arrived(scene, 60, 1)

@@ -91,7 +91,9 @@ def mutants(path: EventSequence) -> Iterator[tuple[str, EventSequence]]:
             yield f"{path.steps[k].kinds} exchanged", exchanged(path, k)
 
 
-@pytest.mark.parametrize("name", SCENES)
+@pytest.mark.parametrize(
+    "name", [pytest.param(name, marks=[pytest.mark.slow] * (name == "fell back")) for name in SCENES]
+)
 @pytest.mark.parametrize("plugin", ["cvodes", "rosenbrock"])
 def test_a_wrong_record_is_noticed(name: str, plugin: str) -> None:
     """The record is followed as it is; with an event taken out, moved or exchanged the replay stops there."""
