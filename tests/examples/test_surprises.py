@@ -474,7 +474,7 @@ def test_31_small_spheres_stick_to_large_ones() -> None:
 def test_32_friction_makes_more_pairs_stick() -> None:
     smooth = Scene.load("glass-beads-water")
     rough = smooth.with_entries({"particles.friction": 0.3, "model.contact_friction": "all"})
-    angles = np.arcsin(np.sqrt((np.arange(50) + 0.5) / 50))  # of equal share each
+    angles = np.arcsin(np.sqrt((np.arange(20) + 0.5) / 20))  # of equal share each
     for scene, expected in ((smooth, 0.505659), (rough, 0.564559)):
         assert mean(scene, "stick_probability", 0.3) == pytest.approx(expected, abs=2e-6)
         sticks = [alone(scene, 0.3 * math.cos(angle), angle).outcome == "stick" for angle in angles]

@@ -49,37 +49,6 @@ def test_reference_boundaries(name: str, reference_boundaries: dict[str, Any]) -
                 assert one.centrifugal == pytest.approx(other["centrifugal"], rel=1e-8)  # Ce ~ St^2 along a line
 
 
-# ---- strips of stick-rotate-separate beside the presets that an earlier coarse scan lost
-
-
-@pytest.mark.parametrize("width", [1e-5])
-def test_strips_narrower_than_the_samples(width: float) -> None:
-    """Where a strip begins, at the angle where two changes meet, it is seen however narrow it is.
-
-    The angle is found by bisection on the number of changes; there the strip is as narrow as wanted, or narrower.
-    """
-    scene = Scene.load("granulation").with_entries({"particles.roughness": 2e-6})
-    low, high, strip = math.radians(20.0), math.radians(27.0), math.inf
-    for _ in range(60):
-        middle = 0.5 * (low + high)
-        line = boundary(scene, angle=middle, stokes=(0.05, 0.3)).changes[0]
-        if len(line) == 2:
-            high, strip = middle, line[1].stokes / line[0].stokes - 1
-            assert pairs(boundary(scene, angle=middle, stokes=(0.05, 0.3))) == [OUTCOMES[:2], SRS_B]
-        else:
-            low = middle
-        if strip < width:
-            break
-    assert strip < width
-
-
-def test_resolution_is_stated() -> None:
-    """The spacing of the Stokes numbers looked at is part of the result and of its text."""
-    found = boundary("granulation", angle=1.0, stokes=(0.01, 1.0))
-    assert 0 < found.resolution < 0.03
-    assert f"{found.resolution:.1%}" in str(found)
-
-
 # ---- numbers of an independent prototype (80 bits), other structures
 
 
@@ -104,17 +73,6 @@ def test_without_a_bridge() -> None:
 
 
 # ---- the interface
-
-
-def test_order_of_the_angles() -> None:
-    """Angles are traced in ascending order and come back in the order given, doubled ones too."""
-    degrees = [60.0, 25.0, 60.0, 40.0]
-    found = boundary("granulation", angle=np.radians(degrees), stokes=(0.01, 1.0))
-    assert found.angles == pytest.approx(np.radians(degrees).tolist())
-    assert [line[0].stokes for line in found.changes] == pytest.approx(
-        [boundary("granulation", angle=math.radians(one), stokes=(0.01, 1.0)).changes[0][0].stokes for one in degrees],
-        rel=3e-9,  # both located to 1e-9
-    )
 
 
 @pytest.mark.parametrize(
@@ -171,24 +129,6 @@ def test_json_of_the_command(name: str, reference_boundaries: dict[str, Any]) ->
             assert {one["from"], one["to"]} <= set(OUTCOMES)
     theirs = reference_boundaries[name]["changes"][3]
     assert [one["stokes"] for one in found["changes"][2]] == pytest.approx([one["stokes"] for one in theirs], rel=5e-9)
-
-
-def test_a_span_cuts_the_line() -> None:
-    """Only changes within `stokes` are reported; a span between two changes has none."""
-    angle = math.radians(55)
-    whole = boundary("granulation", angle=angle).changes[0]
-    assert len(whole) == 2
-    first, second = (one.stokes for one in whole)
-    assert boundary("granulation", angle=angle, stokes=(first * 1.01, second * 0.99)).changes == ((),)
-    (only,) = boundary("granulation", angle=angle, stokes=(first * 1.01, second * 1.01)).changes[0]
-    assert only.stokes == pytest.approx(second, rel=3e-9)
-
-
-def test_no_change_is_said_with_its_range() -> None:
-    """The sentence has the Stokes numbers that were searched and their normal speeds, in a table and over an entry."""
-    done = run("boundary", "granulation", "--angle", "60:60:1", "--stokes", "1:2")
-    speed = Scene.load("granulation").speed_of(1.0)
-    assert f"no change for St 1 to 2 (normal speed {speed:.4g} to {2 * speed:.4g} m/s)" in done.stdout
 
 
 def test_creeping_pairs_are_traced() -> None:

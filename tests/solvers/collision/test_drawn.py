@@ -25,7 +25,6 @@ from ...helpers.command import run
 IMPACT: dict[str, Any] = {"stokes": 0.05, "angle": "75 deg"}
 WRT = ("liquid.viscosity", "impact.speed")
 SOME = {"stokes": [0.02, 0.05, 0.2], "angle": 1.2}
-FINDINGS = (Finding("g", "a", "it holds", "1e-9", "1e-8", True), Finding("g", "b", "told", "2", "", None))
 BAND: dict[str, Any] = {"uncertainty": {"liquid.viscosity": "5 %"}, "over": "impact.stokes", "values": [0.05, 0.2]}
 
 DRAWN: dict[str, Callable[[], Any]] = {
@@ -76,11 +75,20 @@ def test_tables() -> None:
     assert [kind for kind in kinds if kind] == [one.change.kind for one in changes]
 
 
-def test_a_verification_is_a_table() -> None:
-    """One row a finding; a note is neither true nor false."""
-    report = Report(FINDINGS)
-    assert report.to_dataset().ok.values.tolist() == [1, -1]
-    assert json.loads(json.dumps(report.to_dict()))["findings"][0]["bound"] == "1e-8"
+@pytest.mark.parametrize(
+    ("line", "says"),
+    [
+        ("--over stokes=0.05:0.2:2", "--uncertainty: missing"),
+        ("--over viscosity=1:2:3 --uncertainty liquid.viscosity=0.1", "--over: "),
+        ("--over angle=20:60:3 --uncertainty liquid.viscosity=5% --of restitution,rotation", "--of: "),
+        ("--over angle=20:60:3 --uncertainty liquid.viscosity=5% --wrt liquid.viscosity", "--wrt: "),
+    ],
+)
+def test_what_does_not_go_together_is_refused(line: str, says: str) -> None:
+    """Status 2 and one line that names the option."""
+    done = run("sensitivity", "granulation", *line.split())
+    assert (done.exit_code, done.stdout, len(done.stderr.splitlines())) == (2, "", 1)
+    assert done.stderr.startswith(says)
 
 
 @pytest.mark.slow
@@ -96,17 +104,11 @@ def test_bands_from_the_command_line(tmp_path: Path) -> None:
     assert data["data_vars"]["first_order"]["data"] == pytest.approx(list(expected.first_order.values))
 
 
-@pytest.mark.parametrize(
-    ("line", "says"),
-    [
-        ("--over stokes=0.05:0.2:2", "--uncertainty: missing"),
-        ("--over viscosity=1:2:3 --uncertainty liquid.viscosity=0.1", "--over: "),
-        ("--over angle=20:60:3 --uncertainty liquid.viscosity=5% --of restitution,rotation", "--of: "),
-        ("--over angle=20:60:3 --uncertainty liquid.viscosity=5% --wrt liquid.viscosity", "--wrt: "),
-    ],
-)
-def test_what_does_not_go_together_is_refused(line: str, says: str) -> None:
-    """Status 2 and one line that names the option."""
-    done = run("sensitivity", "granulation", *line.split())
-    assert (done.exit_code, done.stdout, len(done.stderr.splitlines())) == (2, "", 1)
-    assert done.stderr.startswith(says)
+FINDINGS = (Finding("g", "a", "it holds", "1e-9", "1e-8", True), Finding("g", "b", "told", "2", "", None))
+
+
+def test_a_verification_is_a_table() -> None:
+    """One row a finding; a note is neither true nor false."""
+    report = Report(FINDINGS)
+    assert report.to_dataset().ok.values.tolist() == [1, -1]
+    assert json.loads(json.dumps(report.to_dict()))["findings"][0]["bound"] == "1e-8"

@@ -4,8 +4,6 @@ import math
 
 import pytest
 from wetdoublet.solvers import Scene
-from wetdoublet.solvers.model.model import load, select_model
-from wetdoublet.solvers.model.phases import Phase
 
 from ...helpers.reference import collide
 
@@ -56,10 +54,3 @@ def test_the_head_on_certificate_knows_its_film(film):
     below, above = (collide(alone(film), stokes=threshold * f, angle=0.0) for f in (1 - 1e-5, 1 + 1e-5))
     assert (below.outcome, below.certified) == ("stick", True)
     assert above.outcome == "bounce"
-
-
-def test_a_cavitated_film_does_not_act():
-    """The force flag of a region is off only where the film is there, opens, and cavitates."""
-    assert Phase(1, 1, 0, cavitated=True).flags == {"film": 0, "shear": 1}
-    assert Phase(1, 1, 0).flags == {"film": 1, "shear": 1}
-    assert [load(select_model(alone(film), False)).cavitates for film in ("finite", "cavitating")] == [False, True]

@@ -3,8 +3,6 @@
 import numpy as np
 import pytest
 from wetdoublet.solvers import InputError, Scene, boundary, collide_many, regime_map
-from wetdoublet.solvers.engines.settings import KERNEL_STEPS, KERNEL_STEPS_IN_SPACE
-from wetdoublet.solvers.export.law.kernels import SPACE, kernels
 
 from ...helpers.entries import CIRCLES
 from ...helpers.reference import collide
@@ -20,13 +18,6 @@ def test_what_is_left_of_sliding_keeps_its_sign_and_digits() -> None:
         one, exact = getattr(loose, name), getattr(sharp, name)
         assert exact > 0 and one == pytest.approx(exact, rel=1e-6)
     assert sharp.tangential_restitution is not None and sharp.tangential_restitution < 1e-9
-
-
-def test_the_exported_law_has_the_same_budget() -> None:
-    """Each kernel of the law is given the steps of the settings, fewer in space, where a step takes longer."""
-    for own in kernels(Scene.load("granulation"), 1e-9):
-        steps = KERNEL_STEPS_IN_SPACE if own.prefix == SPACE else KERNEL_STEPS
-        assert f"MOST_STEPS_TAKEN = {steps} " in own.generated_files["in_si.h"]
 
 
 @pytest.mark.parametrize("engine", ["taylor", "rosenbrock"])

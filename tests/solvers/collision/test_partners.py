@@ -1,12 +1,9 @@
 """Unequal spheres and walls against Newton's law in the laboratory frame, and their limits."""
 
-import json
 import math
 
 import pytest
-from scipy.integrate import trapezoid
 from wetdoublet.solvers import Scene, boundary
-from wetdoublet.solvers.commands.cli import main
 
 from ...helpers.reference import collide
 
@@ -42,18 +39,6 @@ def test_spins_that_cancel_leave_nothing_that_opens_a_film(ratio, outcome):
     assert (one.outcome, one.certified) == (outcome, outcome == "stick")
 
 
-def test_the_json_has_the_partners_spin_only_with_one(capsys):
-    """`final_spin_partner` is a key with a [partner] only, and a scene with a wall survives its file."""
-    with pytest.raises(SystemExit):
-        main(["collide", "granulation", "--json", "--set", "partner.wall=true", "--stokes", "0.5"])
-    assert json.loads(capsys.readouterr().out)["final_spin_partner"] == 0.0
-    assert "final_spin_partner" not in collide("granulation").to_dict()
-    wall = Scene.load("granulation").with_entries({"partner.wall": "true"})
-    assert "[partner]\nwall = true\n" in wall.to_toml()
-    assert Scene.from_toml(wall.to_toml()) == wall
-    assert Scene.from_dict(wall.to_dict(), from_file=True) == wall
-
-
 @pytest.mark.parametrize("partner", [{"partner.radius": 2e-4, "partner.mass": 8e-8}, {"partner.wall": True}])
 def test_the_picture_shows_the_partner(partner):
     """Spheres are drawn to scale about their centre of mass, and a wall as a wall, as far away as the gap says."""
@@ -70,16 +55,3 @@ def test_the_picture_shows_the_partner(partner):
         assert [ball.radius for ball in spheres[:2]] == [1.0, pytest.approx(2.0)] and not walls
         gap = math.dist(spheres[0].center, spheres[1].center) - 3
     assert gap == pytest.approx(scene.liquid.film_thickness / 1e-4, rel=1e-9)
-
-
-def test_beside_a_wall_the_picture_shows_what_moves():
-    """The wall's mark has moved past the sphere by the integral of the sliding velocity; no omega, which is 0."""
-    scene = Scene.load("granulation").with_entries({"partner.wall": True})
-    one = collide(scene, stokes=0.5, angle="60 deg", trajectory=True)
-    figure = one.plot()
-    marks = [line.get_ydata()[0] for line in figure.axes[-1].lines if line.get_gid() == "mark"]
-    data = one.trajectory
-    slid = trapezoid(data["sliding_velocity"], data["time"]) / 1e-4
-    assert marks[0] == 0 and marks[-2] == pytest.approx(slid, rel=1e-12) and 0 < slid < marks[-1]
-    assert [text.get_text() for text in figure.axes[2].get_legend().get_texts()] == ["ξ, sphere"]
-    assert "omega" not in str(one) and "along the wall" in str(one)

@@ -1,16 +1,12 @@
 """The figure of a collision, and the doublet's frames in it."""
 
 import math
-import subprocess
-import sys
-from dataclasses import replace
 
 import numpy as np
 import pytest
 from wetdoublet.solvers import Scene, collide
 from wetdoublet.solvers.collision.plot.figure import draw
 from wetdoublet.solvers.collision.plot.frames import frames, orientation
-from wetdoublet.solvers.collision.plot.strip import wetted_radius
 
 pytestmark = pytest.mark.slow
 
@@ -51,34 +47,6 @@ def test_nothing_is_clipped(figures, name):
     assert box.y0 >= 0
     assert box.x1 <= width
     assert box.y1 <= height
-
-
-@pytest.mark.parametrize("name", IMPACTS)
-def test_every_event_is_marked(collisions, figures, name):
-    """Each event has its label, once, and a line at its time through each panel of the whole trajectory."""
-    collision, figure = collisions[name], figures[name]
-    if collision.trajectory["time"][-1] == 0:
-        return
-    labels = ", ".join(words(figure))
-    for event in collision.events:
-        assert labels.count(event.kind) == 1
-    whole = [panel for panel in figure.axes[:-1] if panel.get_subplotspec().is_last_col()]
-    assert len(whole) == (4 if collision.angle else 2)
-    last = float(collision.trajectory["time"][-1])
-    for panel in whole:
-        drawn = panel.lines[0].get_xdata()[-1]
-        marks = [line.get_xdata()[0] for line in panel.lines if line.get_linestyle() == "--"]
-        for event in collision.events:
-            assert any(mark * last / drawn == pytest.approx(event.time, rel=1e-9, abs=1e-12) for mark in marks)
-
-
-def test_a_short_approach_has_its_own_column(figures):
-    """Where the approach is a small part of the trajectory it is shown a second time, in a column of its own."""
-    assert [panel.get_xlabel() for panel in figures["escapes"].axes if panel.get_xlabel()] == [
-        "time, approach (µs)",
-        "time, whole trajectory (ms)",
-    ]
-    assert "time (µs)" in [panel.get_xlabel() for panel in figures["glass at touch"].axes]
 
 
 @pytest.mark.parametrize("name", IMPACTS)
@@ -132,51 +100,6 @@ def test_orientation_is_the_integral_of_spin():
     slipping = omega - np.exp(-time)
     exact = beta - (1 - np.exp(-time))
     assert orientation(time, beta, omega, slipping) == pytest.approx(exact, abs=1e-5)
-
-
-def test_wetted_radius():
-    """The film's disc vanishes at x = x0; the bridge holds V R^3 between parabolas at every gap."""
-    pendulum, granulation = Scene.load("pendulum"), Scene.load("granulation")
-    film = pendulum.liquid.film_thickness
-    assert wetted_radius(pendulum, film) == 0
-    assert wetted_radius(pendulum, 0.5 * film) == pytest.approx(math.sqrt(0.5 * film * 2 * 0.0063))
-    radius = 2 * granulation.particles.reduced_radius
-    for gap in (1e-7, 8e-6, granulation.rupture_gap):
-        s = wetted_radius(granulation, gap)
-        assert math.pi * (s**2 * gap + s**4 / (2 * radius)) == pytest.approx(0.1 * radius**3)
-
-
-def test_refused_without_a_trajectory():
-    """Drawing a collision that kept no trajectory says which argument keeps it."""
-    with pytest.raises(ValueError, match="trajectory=True"):
-        collide("granulation").plot()
-
-
-@pytest.mark.parametrize("suffix", ["png", "pdf", "svg"])
-def test_written_as(collisions, tmp_path, suffix):
-    """The figure is written in each format that --plot accepts; a name full of mathematics stays a name."""
-    scene = Scene.load("granulation").with_entries({"name": "cost: 5$ or $x_"})
-    file = tmp_path / f"picture.{suffix}"
-    figure = replace(collisions["head-on"], scene=scene).plot(file)
-    assert file.stat().st_size > 5000
-    assert figure.get_suptitle().startswith(r"cost: 5\$ or \$x_: bounce")
-
-
-def test_pyplot_stays_out():
-    """Drawing needs no display and leaves matplotlib's global state alone: pyplot is never imported."""
-    code = (
-        "import sys; from wetdoublet.solvers import collide; c = collide('granulation', trajectory=True);"
-        "assert 'matplotlib' not in sys.modules; str(c); assert 'matplotlib' not in sys.modules;"
-        "c.plot(); assert 'matplotlib.pyplot' not in sys.modules"
-    )
-    subprocess.run([sys.executable, "-c", code], check=True)
-
-
-def test_a_stick_says_that_it_sticks(figures):
-    """The last frame of a stick is captioned so, and no frame of another outcome."""
-    for name, figure in figures.items():
-        said = [text for text in words(figure) if text.endswith("sticks")]
-        assert len(said) == (name in ("sticks at touch", "sticks later", "half turn")), name
 
 
 def test_the_proof_stands_at_its_time():

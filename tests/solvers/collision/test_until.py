@@ -1,19 +1,15 @@
 """`collide(until=...)`: a stick is followed on after it is certain."""
 
-import json
 import math
-from pathlib import Path
 
 import numpy as np
 import pytest
-from scipy.interpolate import CubicSpline
 from wetdoublet.solvers import Collision, InputError, Scene, collide
 
 from ...helpers.command import run
 from ...helpers.scanned import scanned
 
 STICK = {"stokes": 0.05, "angle": "30 deg"}
-LONG = Scene.load("pendulum").with_entries({"pendulum.length": "5 m"})  # which turns half around before it is proved
 
 
 @pytest.fixture(scope="module")
@@ -49,23 +45,6 @@ def test_it_ends_where_it_was_asked_to(proved: Collision, followed: Collision) -
     assert abs(followed.energy.residual) < 1e-7 * followed.energy.largest
     assert followed.angular_momentum_drift is not None
     assert followed.angular_momentum_drift < 1e-9
-
-
-@pytest.mark.parametrize("engine", ["cvodes", "taylor"])
-def test_it_may_end_before_the_proof(proved: Collision, engine: str) -> None:
-    """It ends where it was asked to, in the state that the trajectory up to the proof has there."""
-    assert proved.until is not None
-    early = collide("granulation", **STICK, until=proved.until / 2, trajectory=True, engine=engine)
-    assert (early.outcome, early.certified, early.decided) == ("stick", True, pytest.approx(proved.until, rel=1e-6))
-    assert early.until == pytest.approx(proved.until / 2, rel=1e-12)
-    whole = collide("granulation", **STICK, trajectory=True, engine=engine).trajectory
-    assert early.trajectory is not None
-    assert whole is not None
-    assert float(early.trajectory["time"][-1]) == pytest.approx(early.until, rel=1e-12)
-    for name in ("gap", "normal_velocity", "rotation_rate"):
-        there = CubicSpline(*np.unique(np.array([whole["time"], whole[name]]), axis=1))(early.until)
-        assert float(early.trajectory[name][-1]) == pytest.approx(float(there), rel=1e-5)
-    assert "certain later than the integration was to end" in str(early)
 
 
 @pytest.mark.parametrize("engine", ["cvodes", "rosenbrock", "taylor"])
@@ -123,32 +102,6 @@ def test_a_stick_that_is_followed_on_is_cut_off(
     other = scanned(found.scene)
     assert [kind for kind, _ in other.events] == [event.kind for event in found.events]
     assert other.time == pytest.approx(found.until, rel=1e-7)
-
-
-def test_the_table_names_its_state(proved: Collision, followed: Collision) -> None:
-    """Final is said of what has separated; a stick's energy is that at the proof, at a cut-off or at the end."""
-    assert "kinetic, at the proof" in str(proved)
-    assert "integration stopped there, 5." in str(proved)
-    assert "kinetic, at the end" in str(followed)
-    assert "us after initial contact, followed on to 1 ms" in str(followed)
-    assert "kinetic, final" in str(collide("granulation"))
-    cut_off = collide(LONG, stokes=0.8, angle="30 deg")
-    assert (cut_off.outcome, cut_off.certified) == ("stick", False)
-    assert "kinetic, at the cut-off" in str(cut_off)
-    for one in (proved, followed, cut_off):
-        assert "final" not in str(one)
-
-
-def test_the_command(tmp_path: Path) -> None:
-    """`--until` with its unit, in the JSON object and in a picture that says so."""
-    picture = tmp_path / "stick.svg"
-    line = ("collide", "granulation", "--stokes", 0.05, "--angle", "30 deg", "--until", "1 ms", "--json")
-    done = run(*line, "--plot", picture)
-    assert done.exit_code == 0, done.stderr
-    told = json.loads(done.stdout)
-    assert told["until"] == pytest.approx(1e-3, rel=1e-6)
-    assert told["units"]["until"] == "s"
-    assert picture.stat().st_size > 0
 
 
 @pytest.mark.parametrize(

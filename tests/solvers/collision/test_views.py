@@ -4,7 +4,7 @@ from collections.abc import Callable
 from typing import Any
 
 import pytest
-from wetdoublet.solvers import Scene, atlas, boundary, collide, sensitivities
+from wetdoublet.solvers import Scene, boundary, collide, sensitivities
 
 NAME = "<b>&'\""
 SCENE = Scene.load("granulation").with_entries({"name": NAME})
@@ -31,13 +31,6 @@ def test_a_notebook_shows_a_small_escaped_table(kind: str) -> None:
     assert "&lt;b&gt;&amp;&#x27;&quot;" in shown and "<b>" not in shown
     assert "<table" in shown and "color:" not in shown
     assert len(shown) < 12_000
-
-
-@pytest.mark.slow
-def test_a_notebook_shows_an_atlas() -> None:
-    """Its curves and the point where they meet."""
-    shown = atlas("granulation", span=("15 deg", "60 deg"), stokes=(0.01, 0.5), lines=5)._repr_html_()
-    assert "stick → bounce" in shown and "triple point" in shown
 
 
 def test_a_printed_scene_is_a_table() -> None:

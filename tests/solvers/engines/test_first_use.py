@@ -12,14 +12,6 @@ from wetdoublet.solvers.host.compiler import compiler
 
 pytestmark = [pytest.mark.skipif(compiler() is None or os.name != "posix", reason="no C compiler"), pytest.mark.slow]
 HEAD_ON = ("collide", "granulation", "--stokes", "0.3", "--angle", "0", "--rtol", "1e-8", "--json")
-SLOW = """#!/bin/sh
-case "$*" in *-shared*) sleep 1.5;; esac
-exec cc "$@"
-"""
-FAILS = """#!/bin/sh
-case "$*" in *-shared*) echo "error: no kernels today" >&2; exit 1;; esac
-exec cc "$@"
-"""
 
 
 def first(folder: Path, **environment: str) -> subprocess.CompletedProcess[str]:
@@ -50,28 +42,3 @@ def test_the_cache_does_not_decide(tmp_path: Path) -> None:
     assert found["engine"] == "taylor"
     reference = collide("granulation", stokes=0.3, angle=0, rtol=1e-8, engine="cvodes")
     assert found["restitution"] == pytest.approx(reference.restitution, rel=1e-7)
-
-
-def test_a_kernel_that_cannot_be_compiled(tmp_path: Path) -> None:
-    """The error has what the compiler said; nothing is left for later."""
-    done = first(tmp_path, CC=script(tmp_path, FAILS))
-    assert (done.returncode, done.stdout) == (1, "")
-    assert done.stderr.count("\n") == 1
-    assert "cannot compile the Taylor kernel (error: no kernels today)" in done.stderr
-    assert json.loads(first(tmp_path).stdout)["engine"] == "taylor"
-
-
-def test_a_remark_where_it_takes_long(tmp_path: Path) -> None:
-    """On a terminal, a compilation of more than a second is announced in one line."""
-    import pty
-
-    env = os.environ | {"WETDOUBLET_CACHE": str(tmp_path / "cache"), "CC": script(tmp_path, SLOW)}
-    reads, writes = pty.openpty()
-    command = (sys.executable, "-m", "wetdoublet.solvers", *HEAD_ON)
-    done = subprocess.run(command, stdout=subprocess.PIPE, stderr=writes, check=False, env=env)
-    os.close(writes)
-    announced = os.read(reads, 4096).decode()
-    os.close(reads)
-    assert done.returncode == 0
-    assert announced.count("\n") == 1
-    assert "compiled, once" in announced

@@ -1,7 +1,7 @@
 """Proofs of unequal pairs, of a sphere at a wall, of a film alone, and of pairs that come to rest in contact."""
 
 import pytest
-from wetdoublet.solvers import InputError, Scene, collide, prove
+from wetdoublet.solvers import Scene, collide, prove
 from wetdoublet.solvers.host.compiler import compiler
 
 pytestmark = pytest.mark.skipif(compiler() is None, reason="no C compiler")
@@ -80,61 +80,6 @@ def test_a_pair_that_rests_for_a_while_is_no_proved_stick(
     assert one.outcome == "bounce"
     assert "released" in {each.kind for each in one.events}
     assert prove(scene).outcome is None
-
-
-PAIR = {"partner.radius": "200 um", "partner.mass": "8e-5 g"}
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize(
-    ("changes", "entry", "moved"),
-    [
-        (PAIR, "particles.reduced_radius", {"reduced_radius", "radius_ratio"}),
-        (PAIR | {"impact.spin": 10.0}, "impact.spin", {"impact_spin", "impact_partner_spin"}),
-        (PAIR | {"partner.density": "2500 kg/m^3"}, "partner.radius", {"reduced_radius", "reduced_mass"}),
-        ({"bridge.volume": "1e-13 m^3"}, "particles.reduced_radius", {"reduced_radius", "volume"}),
-    ],
-)
-def test_an_entry_that_decides_several_quantities_moves_all_of_them(
-    changes: dict[str, object], entry: str, moved: set[str]
-) -> None:
-    """A radius of an unequal pair, a spin of both, a radius beside a density or a volume in m^3: ends lie within."""
-    density = "partner.density" in changes
-    given = {name: value for name, value in changes.items() if not (density and name == "partner.mass")}
-    scene = Scene.load("granulation").with_entries(given).with_impact(stokes=0.3, angle=0.5)
-    proof = prove(scene, within={entry: 1e-4})
-    assert moved <= {name for name, (low, high) in proof.ranges.items() if low < high}
-    assert proof.restitution is not None
-    for end in proof.box[entry]:
-        found = collide(scene.with_entries({entry: end}, hold="stokes"), ledger=False)
-        assert proof.restitution[0] - 1e-8 <= found.restitution <= proof.restitution[1] + 1e-8
-
-
-@pytest.mark.parametrize(
-    ("changes", "within", "problem"),
-    [
-        ({"impact.spin": 10.0}, {"impact.partner_spin": 1e-4}, "is not there"),
-        ({}, {"liquid.density": 1e-4}, "is not there"),
-        ({}, {"particles.diameter": ("199 um", "201 um")}, "particles.reduced_radius"),
-        ({}, {"bridge.volume": ("1e-13 m^3", "1.1e-13 m^3")}, "is a volume, where the scene gives V/R"),
-        ({"liquid.glass_transition_pressure": None}, {"liquid.glass_transition_pressure": 1e-4}, "is not there"),
-    ],
-)
-def test_an_entry_that_the_scene_does_not_have_is_no_box(
-    changes: dict[str, object], within: dict[str, object], problem: str
-) -> None:
-    """By a relative width or by both ends; another of the same meaning is named."""
-    entries = dict(Scene.load("granulation").given) | changes
-    text = Scene("granulation", tuple((name, value) for name, value in entries.items() if value is not None))
-    with pytest.raises(InputError, match=problem):
-        prove(text, stokes=0.1, angle=0.5, within=within)
-
-
-def test_the_volume_of_coatings_on_unequal_radii_is_no_box() -> None:
-    """The part of a coating that flows into the bridge falls with one radius and rises with the other."""
-    partner = {"partner.diameter": "0.8 mm", "partner.density": "2500 kg/m3"}
-    with pytest.raises(InputError, match="ratio of the radii"):
-        prove(Scene.load("glass-beads-water").with_entries(partner), within={"particles.diameter": 1e-4})
 
 
 @pytest.mark.parametrize(

@@ -6,24 +6,14 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from wetdoublet.solvers import InputError, explore
 
-from .page import GRANULATION, Page, written
+from .page import Page, written
 
 BROWSER = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
 FLAGS = ["--no-sandbox", "--disable-gpu", "--disable-quic", "--disable-background-networking", "--disable-sync"]
 
 
-@pytest.fixture(scope="module")
-def compiler() -> None:
-    """Something that compiles a law to WebAssembly."""
-    try:
-        assert explore(GRANULATION).html
-    except InputError as error:
-        pytest.skip(str(error))
-
-
-@pytest.fixture(scope="module")
+@pytest.fixture(scope="session")
 def browser() -> Iterator[Any]:
     """Chromium without a window."""
     playwright = pytest.importorskip("playwright.sync_api", reason="needs playwright (pip install playwright)")
@@ -33,20 +23,22 @@ def browser() -> Iterator[Any]:
         yield driver.chromium.launch(executable_path=BROWSER, args=FLAGS)
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture(scope="session")
 def files(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
     """Pages that are written already."""
-    return {}
+    return {"": tmp_path_factory.mktemp("pages")}
 
 
-@pytest.fixture
-def opened(browser: Any, compiler: None, files: dict[str, Path], tmp_path: Path) -> Iterator[Any]:
-    """Opens the page of a scene by name."""
-    contexts = []
+@pytest.fixture(scope="module")
+def opened(browser: Any, files: dict[str, Path]) -> Iterator[Any]:
+    """Opens the page of a scene by name; the next one takes its place. Nothing moves by itself, which takes time."""
+    contexts: list[Any] = []
 
     def open_page(name: str, address: str = "", **settings: Any) -> Page:
-        contexts.append(browser.new_context(**settings))
-        return Page(contexts[-1].new_page(), written(files, name, tmp_path), address)
+        while contexts:
+            contexts.pop().close()
+        contexts.append(browser.new_context(**{"reduced_motion": "reduce"} | settings))
+        return Page(contexts[-1].new_page(), written(files, name), address)
 
     yield open_page
     for each in contexts:

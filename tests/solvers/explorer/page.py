@@ -9,16 +9,17 @@ from wetdoublet.solvers import Scene, explore
 
 LACTOSE = Scene.load("lactose-pvp")
 GRANULATION = Scene.load("granulation")
-SCENES = {
+SCENES = {  # whose modules come with the package
     "granulation": GRANULATION,
-    "dry": Scene.load("granulation-dry-bridge").with_entries({"attraction.hamaker": 1e-19}),
+    "dry": Scene("dry", tuple(each for each in LACTOSE.given if not each[0].startswith("bridge."))),
     "strings": Scene.load("pendulum"),
-    "coating": LACTOSE.with_entries({"name": "a-very-long-name-of-a-scene-that-says-all-about-it-and-its-liquid"}),
+    "coating": LACTOSE.with_entries(
+        {"name": "a-very-long-name-of-a-scene-that-says-all-about-it-and-its-liquid", "attraction.hamaker": 1e-19}
+    ),
     "beads": Scene.load("glass-beads-water").with_entries({"bridge.law": "willett"}),
     "unequal": LACTOSE.with_entries(
         {"partner.diameter": "500 um", "partner.density": "1.54 g/cm3", "particles.friction": 0.3}
     ),
-    "rubbing": GRANULATION.with_entries({"particles.friction": 0.2, "model.film": "cavitating"}),
     "wall": LACTOSE.with_entries({"partner.wall": True, "partner.coating_thickness": "1 um"}),
 }
 
@@ -51,6 +52,12 @@ class Page:
     def settled(self) -> None:
         self.until("wetdoublet.map().idle && wetdoublet.map().count > 1")
 
+    def to(self, address: str) -> None:
+        """Another address; what was complained of before is forgotten."""
+        self.complaints.clear()
+        self.ask("text => { location.hash = text }", address)
+        self.ask("() => new Promise(done => setTimeout(done, 20))")
+
     @property
     def knobs(self) -> list[dict[str, Any]]:
         told = json.loads(self.ask("document.getElementById('scene').textContent"))
@@ -58,9 +65,9 @@ class Page:
         return found
 
 
-def written(files: dict[str, Path], name: str, folder: Path) -> Path:
+def written(files: dict[str, Path], name: str) -> Path:
     """The page of a scene."""
     if name not in files:
-        files[name] = folder / f"{name}.html"
+        files[name] = files[""] / f"{name}.html"
         explore(SCENES[name]).write(files[name])
     return files[name]

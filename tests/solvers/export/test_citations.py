@@ -112,15 +112,6 @@ def test_a_law_of_ones_own_is_cited_by_its_source(tmp_path: Path) -> None:
     assert by_entry.bibtex == entry
 
 
-def test_bibtex_that_is_none_is_refused(tmp_path: Path) -> None:
-    """A `bibtex` that is no entry is an error that names the law."""
-    (tmp_path / "mine.py").write_text(TEMPLATE.replace("    source=", '    bibtex="Me, 2020",\n    source='))
-    done = run("cite", "granulation", "--model", tmp_path / "mine.py")
-    assert done.exit_code == 2
-    assert "law bridge yielding.bibtex" in done.stderr
-    assert "@article{key" in done.stderr
-
-
 def test_citation_file_agrees() -> None:
     """CITATION.cff has the version of pyproject.toml, and the paper as `cite` has it."""
     text = (ROOT / "CITATION.cff").read_text(encoding="utf-8")

@@ -78,20 +78,6 @@ def test_the_law_is_the_limit_of_small_steps(bridge: bool, law: Law, host: Host,
     assert np.quantile(errors[100], part) <= np.quantile(errors[20], part) / 8  # 25 of a second order
 
 
-def test_head_on_the_film_takes_its_momentum_at_any_step(law: Law, host: Host):
-    """Along the line the step does not matter: momentum against gap is exact, and rebounds are found within a step."""
-    normal, velocities, spins = arrivals(OWN, COUNT, seed=5)
-    speed = np.sum(normal * (velocities[:, 1] - velocities[:, 0]), axis=1, keepdims=True)
-    velocities[:, 1] = velocities[:, 0] + speed * normal
-    pairs = (normal, velocities, 0.0 * spins)
-    found, times = durations(OWN, law, pairs)
-    flown = host.fly(pairs, times / 3, 40)
-    assert np.array_equal(flown["outcome"], found["outcome"])
-    away = found["outcome"] > 0
-    np.testing.assert_allclose(flown["restitution"][away], found["restitution"][away], atol=2e-3)
-    assert np.median(np.abs(flown["restitution"] - found["restitution"])[away]) <= 1e-9
-
-
 def test_a_film_never_adds_energy(alone: tuple[Law, Host]):
     """Without a bridge kinetic energy never exceeds its first value, at any step, of elastic spheres too."""
     law, host = alone
@@ -212,15 +198,6 @@ def test_a_load_holds_against_a_bridge(law: Law):
             count += int(pair.force["events"][0]) & events != 0
         assert (pair.history["joined"][0] == 1) == holds
         assert count == (not holds)
-
-
-def test_spheres_pushed_into_each_other(law: Law):
-    """The contact begins at that of the solids, and gives no energy to separate the host's spheres."""
-    film, speed = float(OWN.material["film_thickness"]), 0.1
-    pair = Pair(law, [law.contact_distance() - 1.2 * film, 0, 0], [-speed, 0, 0])
-    pair.step(1e-6, (1e-12, 2e-12))
-    assert pair.history["gap"][0] >= float(OWN.material["roughness"])
-    assert np.linalg.norm(pair.motion["velocity"][0]) <= speed
 
 
 def test_bad_input_is_refused(law: Law):

@@ -78,16 +78,6 @@ def test_is_not_exported_without_a_compiler(tmp_path: Path):
     assert "install gcc or clang" in done.stderr
 
 
-def test_needs_no_x86_and_names_its_own_macro(folder: Path):
-    """No header of x86 is included, its instructions are asked for, and texts name the macro that the file reads."""
-    code = (folder / "glass_beads_water.c").read_text()
-    standard = {"float.h", "limits.h", "math.h", "stddef.h", "stdint.h", "stdlib.h", "string.h"}
-    assert set(re.findall(r"#include <(.*)>", code)) <= standard
-    assert [line.count("defined(__AVX") for line in code.splitlines() if "HAS_BUILTIN(__builtin" in line] == [1, 1]
-    for name in ("glass_beads_water.c", "README.md"):
-        assert "-DGLASS_BEADS_WATER_LANES=1" in (folder / name).read_text()
-
-
 def test_is_our_kernel(law: Law, monkeypatch: pytest.MonkeyPatch):
     """The same variant without contraction gives the same numbers to 1e-12, and the same outcomes."""
     monkeypatch.setenv("WETDOUBLET_CFLAGS", f"{os.environ['WETDOUBLET_CFLAGS']} -ffp-contract=off")

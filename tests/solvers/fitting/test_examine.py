@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from wetdoublet.generated.automaton import OUTCOMES
-from wetdoublet.solvers import Scene, check_data, collide, fit, tracks
+from wetdoublet.solvers import Scene, check_data, collide, fit
 from wetdoublet.solvers.fitting.measurements import UNKNOWN, Measurements, read_data
 
 from tests.helpers.command import run
@@ -85,14 +85,14 @@ def table_of(data: Measurements, name: str) -> dict[str, list]:
 @pytest.mark.slow
 def test_the_kind_of_speed_is_asked_about_where_its_name_does_not_say() -> None:
     """Magnitudes in a column `v` are read as normal speeds: `check` and `fit` say that the other kind agrees better."""
-    data = impacts(60)
+    data = impacts(30)
     [kind] = [one for one in check_data(table_of(data, "v"), PENDULUM).findings if one.kind == "speed"]
     assert "Name the column v_n or v_rel" in kind.text
     for name in ("v_rel", "v_n", "relative_speed"):
         found = check_data(table_of(data, name), PENDULUM)
         assert not [one for one in found.findings if one.kind in ("speed", "units", "contradiction")]
         assert not any("name it relative_speed" in each for each in found.notes)
-    found = fit(PENDULUM, table_of(data, "v"), ["liquid.viscosity"])
+    found = fit(PENDULUM, table_of(data, "v"), ["liquid.viscosity"], starts=0)
     assert any("Name the column v_n or v_rel" in each for each in str(found).split("\n"))
 
 
@@ -157,23 +157,6 @@ def test_entries_that_a_contact_time_tells() -> None:
                 differ[k] |= other.outcome == "stick" or abs(other.contact_time - expected[k]) > 2e-4
         assert telling[name] == differ.sum()
     assert telling["liquid.viscosity"] > 0
-
-
-def test_a_film_is_checked_by_what_is_measured_in_free_flight() -> None:
-    """The viscosity, which a fit of these films finds to some percent, changes what they show."""
-    films = Path(__file__).parents[3] / "docs" / "data" / "films.csv"
-    checked = check_data(tracks(films, "granulation", rate=2e5, scale=2e-6).columns, "granulation")
-    assert checked.telling["liquid.viscosity"] == 10
-    assert checked.telling["particles.roughness"] == 0
-
-
-def test_entries_that_the_data_cannot_tell() -> None:
-    """Sticks far below every change of outcome tell nothing; of the scene's own impacts the viscosity moves many."""
-    slow = {"speed": [1e-4, 2e-4], "angle": [0.2, 0.3], "outcome": ["stick", "stick"]}
-    assert set(check_data(slow, PENDULUM).telling.values()) == {0}
-    telling = check_data(impacts(), PENDULUM).telling
-    assert telling["liquid.viscosity"] > 10
-    assert telling["particles.roughness"] == 0  # glass is met first
 
 
 @pytest.mark.slow

@@ -8,7 +8,6 @@ import pytest
 from wetdoublet.solvers import ComputationError, InputError, Scene, collide_many, fit, log_likelihood
 from wetdoublet.solvers.fitting.free_entries import COMBINED, IDENTIFIED, NOT_AT_ALL, ONE_SIDE
 from wetdoublet.solvers.fitting.measurements import UNKNOWN, Measurements
-from wetdoublet.solvers.fitting.result import Estimate
 
 from tests.helpers.command import run
 from tests.helpers.synthetic import drawn
@@ -75,6 +74,8 @@ def test_what_it_writes_and_draws(pendulum, tmp_path):
     assert np.interp([estimate.low, estimate.high], x, y) == pytest.approx(-1.92, abs=0.3)
     (axes,) = [each for each in drawn if each.get_ylabel() == "restitution $e_n$"]
     assert axes.collections[0].get_paths()  # the band of the interval
+    curves = [line for line in axes.lines if line.get_label().endswith("°")]
+    assert curves and all(np.isnan(line.get_ydata()).any() for line in curves)  # broken where the outcome changes
 
 
 def test_an_entry_without_influence_is_not_identifiable():
@@ -198,16 +199,6 @@ def test_a_profile_that_flattens_just_below_its_drop_is_open():
     assert (estimate.low, estimate.verdict) == (None, ONE_SIDE)
 
 
-@pytest.mark.parametrize(
-    ("low", "high", "words"),
-    [(0.8, 1.5, "to 35 %"), (0.99, 1.01, "to 1 %"), (0.1, 10.0, "within a factor of 10"), (None, 1.5, "")],
-)
-def test_an_identified_entry_says_how_well(low, high, words):
-    """Beside the verdict stands half the interval relative to the estimate: wide intervals are closed, too."""
-    verdict = IDENTIFIED if low else ONE_SIDE
-    assert Estimate(1.0, low, high, verdict).precision == words
-
-
 @pytest.mark.slow
 def test_probabilities_are_those_of_the_posterior():
     """With one entry they are sums over a fine grid of its values, each weighted by its likelihood."""
@@ -218,12 +209,12 @@ def test_probabilities_are_those_of_the_posterior():
     share = found.predict(speed=speed, angle=angle)["probability"]
     assert share.sum("outcome").values == pytest.approx(1.0)
     estimate = found.estimates[VISCOSITY]
-    values = np.geomspace(0.7 * estimate.low, 1.4 * estimate.high, 80)
+    values = np.geomspace(0.7 * estimate.low, 1.4 * estimate.high, 32)
     density = log_likelihood(found.scene, data, VISCOSITY)
     weight = np.exp(np.array([density([value])[0] for value in values]) - found.log_likelihood)
     grid = [each.ravel() for each in np.meshgrid(values, angle, speed, indexing="ij")]
     outcome = collide_many(scene, speed=grid[2], angle=grid[1], vary={VISCOSITY: grid[0]}).outcome.values
-    sticks = np.tensordot(weight / weight.sum(), outcome.reshape(80, 2, 9) == 0, 1)
+    sticks = np.tensordot(weight / weight.sum(), outcome.reshape(32, 2, 9) == 0, 1)
     assert 0.02 < sticks.mean() < 0.98
     # the standard error of a share of 200 draws is 0.035; quasi-random ones have less
     assert share.sel(outcome="stick").values == pytest.approx(sticks, abs=0.03)

@@ -49,17 +49,6 @@ def test_the_lines_are_the_same_whatever_the_film(scene, stokes: float, angle: f
         np.testing.assert_allclose(left[:, 0], expected[2:], rtol=1e-5, atol=1e-9)
 
 
-def test_a_film_guessed_wrong_shifts_little_but_what_is_at_its_gaps() -> None:
-    """With noise a guess chooses the frames: part of a deviation; the contact time moves by many."""
-    scene = Scene.load("lactose-pvp")
-    film, rate, _ = shot(scene, 12, 40, 0.2)
-    true, *others = (tracks(film, guessed(scene, k), rate=rate, scale=PIXEL).columns for k in (1.0, 0.8, 1.2))
-    for other in others:
-        for name in FLIGHT:
-            assert abs(other[name][0] - true[name][0]) < 0.75 * true[f"{name}_sd"][0], name
-        assert abs(other["contact_time"][0] - true["contact_time"][0]) > 10 * true["contact_time_sd"][0]
-
-
 @pytest.mark.slow
 def test_errors_depend_on_each_other_as_is_said() -> None:
     """Over 100 films, given the errors of speed and impact parameter, the others' are normal and independent.

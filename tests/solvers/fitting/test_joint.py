@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 from scipy.stats import t as student
-from wetdoublet.solvers import InputError, Scene, collide_many, fit, log_likelihood
+from wetdoublet.solvers import Scene, collide_many, fit, log_likelihood
 from wetdoublet.solvers.fitting.measurements import Measurements
 
 from tests.helpers.command import run
@@ -116,20 +116,3 @@ def test_command(tables, tmp_path):
     for k, name in enumerate(told["estimates"], 1):
         again = Scene.load(tmp_path / f"new-{k}.toml")
         assert again.entries[VISCOSITY] == pytest.approx(told["estimates"][name]["value"], rel=1e-5)
-
-
-@pytest.mark.parametrize(
-    ("arguments", "said"),
-    [
-        ({"data": [{"stokes": [1.0], "angle": [0.1], "outcome": ["S"]}]}, "one for each of the 2 scenes"),
-        ({"own": FILM}, "is not known; accepted: liquid.viscosity"),
-        ({"own": {VISCOSITY: ["a"]}}, "a label for each of the 2 scenes"),
-        ({"free": [VISCOSITY, "noise.restitution"]}, "noise.restitution. is not known"),
-        ({"prior": {FILM: "0.4 mm +- 10 %"}}, "is not free"),
-    ],
-)
-def test_bad_requests(arguments, said):
-    """What is wrong is named: also noise of what was not measured."""
-    table = {"stokes": [1.0], "angle": [0.1], "outcome": ["S"]}
-    with pytest.raises(InputError, match=said):
-        fit(["pendulum", "pendulum"], **{"data": [table, table], "free": VISCOSITY} | arguments)

@@ -1,8 +1,6 @@
 """Films that are drawn and tracked by trackpy: with good settings right, with bad ones said; numbers of the how-to."""
 
-import math
 import re
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -19,7 +17,6 @@ BAD = {
     "a range shorter than a step": {"reach": 1.5} | GOOD,
 }
 NAMES = ("speed", "angle", "restitution", "tangential_restitution")
-PAGE = Path(__file__).parents[3] / "docs" / "how-to" / "films.md"
 
 
 pytestmark = pytest.mark.slow
@@ -37,9 +34,9 @@ def shots(count: int, seed: int):
 
 
 def test_films_tracked_well_give_their_collisions() -> None:
-    """Of 20 films: speed, angle, e_n and e_t within two standard deviations in 95 %, and every stick a stick."""
+    """Of 12 films: speed, angle, e_n and e_t within two standard deviations in 95 %, and every stick a stick."""
     errors, refused = [], 0
-    for one, pictures, settings in shots(20, 5):
+    for one, pictures, settings in shots(12, 5):
         try:
             found = tracks(tracked(pictures, **GOOD), "lactose-pvp", **settings)
         except InputError:
@@ -50,7 +47,7 @@ def test_films_tracked_well_give_their_collisions() -> None:
             errors += [(found.columns[name][0] - getattr(one, name)) / found.columns[f"{name}_sd"][0]
                        for name in NAMES if name in found.columns]  # fmt: skip
     assert refused <= 1
-    assert len(errors) > 60
+    assert len(errors) > 36
     assert np.mean(np.abs(errors) < 2) >= 0.95
 
 
@@ -68,18 +65,3 @@ def test_films_tracked_badly_are_refused_or_said(kind: str) -> None:
                   for name in NAMES if name in found.columns and one.outcome != "stick"]  # fmt: skip
         said = any("displaces near discs" in each for each in found.remarks)
         assert said or max(map(abs, errors), default=0.0) < 4
-
-
-def located(pictures: np.ndarray, mask: int, ground: int, **settings: object) -> np.ndarray:
-    """The two largest discs of each picture that has two, (pictures, 2, 2)."""
-    table = tracked(pictures, mask, ground, reach=0.1, **settings)
-    groups = [rows.nlargest(2, "mass")[["x", "y"]].to_numpy() for _, rows in table.groupby("frame")]
-    return np.array([each for each in groups if len(each) == 2])
-
-
-def pairs(gap: float, random: np.random.Generator, count: int = 30) -> tuple[np.ndarray, float]:
-    """Pictures of two discs of 24 px at random places, and the distance of their centres."""
-    turn, place, distance = random.uniform(0, 2 * math.pi, count), random.random((count, 2)), 24 + gap
-    film = {"x1": place[:, 0], "y1": place[:, 1]}
-    film |= {"x2": place[:, 0] + distance * np.cos(turn), "y2": place[:, 1] + distance * np.sin(turn)}
-    return rendered(film, 12, random, grey=2), distance

@@ -7,23 +7,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 from matplotlib.axes import Axes
-from matplotlib.contour import QuadContourSet
 from matplotlib.figure import Figure
 from matplotlib.legend import Legend
-from wetdoublet.solvers import (
-    ComputationError,
-    ModelWarning,
-    Scene,
-    atlas,
-    band,
-    boundary,
-    collide,
-    fit,
-    plot,
-    regime_map,
-    sensitivities,
-)
-from wetdoublet.solvers.boundaries import on_map
+from wetdoublet.solvers import Scene, atlas, band, boundary, collide, plot, regime_map, sensitivities
 
 NAME = "a-very-long-name-of-a-scene-that-somebody-has-given-to-say-all-about-it-and-its-liquid"
 LONG = Scene.load("granulation").with_entries({"name": NAME})
@@ -93,20 +79,6 @@ def test_a_band_does_not_join_outcomes() -> None:
     assert over(spans, np.degrees(angle), data.outcome.values) == []
 
 
-@pytest.mark.slow
-def test_a_fit_does_not_join_outcomes() -> None:
-    """The curve of the restitution over the speed, and its band, are broken where the outcome changes."""
-    speed = [0.2, 0.5, 0.9, 1.5, 2.6]
-    many = [collide("granulation", speed=each, angle="60 deg", ledger=False) for each in speed]
-    data = {"speed": speed, "angle": [np.pi / 3] * 5, "outcome": [each.outcome for each in many]}
-    data |= {"restitution": [each.restitution or np.nan for each in many], "restitution_sd": [0.02] * 5}
-    axes = fit("granulation", data, "liquid.viscosity", starts=0).plot().axes[1]
-    (line,) = (line for line in axes.lines if line.get_label().endswith("°"))
-    x, y = np.transpose(line.get_xydata())
-    assert np.isnan(x).sum() == 2  # stick, escape, bounce
-    assert np.nanmax(np.abs(np.diff(y))) < 0.1
-
-
 def legends(figure: Figure) -> list[Legend]:
     return [*figure.legends, *filter(None, (axes.get_legend() for axes in figure.axes))]
 
@@ -119,31 +91,6 @@ def test_a_legend_of_a_map_has_what_occurs(scene: Scene | str) -> None:
     names = [text.get_text().partition(": ")[2] for text in legend.get_texts()]
     words = np.array(["stick", "stick-rotate-separate", "bounce"])
     assert [name for name in names if name] == words[np.unique(data.outcome)].tolist()
-
-
-def test_a_map_goes_without_boundaries_that_take_minutes(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The cells are drawn without them, and a warning says why."""
-
-    def long(*_: object) -> None:
-        raise ComputationError("thousands of collisions")
-
-    monkeypatch.setattr(on_map, "curves_of", long)
-    data = regime_map("granulation", stokes=[0.05, 0.1], angle=[0.5, 1.0])
-    with pytest.warns(ModelWarning, match="lacks boundaries: thousands of collisions"):
-        assert on_map.map_curves(data) == {0: []}
-
-
-@pytest.mark.parametrize("vary", [{}, {"liquid.viscosity": [1.0, 2.0]}])
-def test_every_contour_of_a_map_has_its_label(vary: dict[str, list[float]]) -> None:
-    """Also near grazing incidence, where the restitution grows without bound and contours crowd."""
-    figure = plot(regime_map("granulation", stokes=np.geomspace(0.01, 1, 40), angle=STEEP, vary=vary))
-    labelled = 0
-    for axes in figure.axes:
-        contours = [each for each in axes.collections if isinstance(each, QuadContourSet)]
-        labels = [text for text in axes.texts if text.get_text().replace(".", "").isdigit()]
-        assert [f"{each.levels[0]:g}" for each in contours] == [text.get_text() for text in labels]
-        labelled += len(labels)
-    assert labelled >= 4
 
 
 TITLED: dict[str, Callable[[], Figure]] = {

@@ -3,8 +3,6 @@
 import os
 import select
 import shutil
-import signal
-import subprocess
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -132,14 +130,6 @@ def test_the_limit_is_a_time(anew: pytest.MonkeyPatch):
             compiler()
 
 
-def test_a_compiler_that_is_interrupted(tmp_path: Path, anew: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]):
-    """A compiler that Ctrl-C ends is an interrupt, not one that cannot compile; nothing is said of it."""
-    anew.setenv("CC", str(script(tmp_path / "cc", f"{ON_MORE} kill -INT $$")))
-    with pytest.raises(KeyboardInterrupt):
-        library("int one = 1;", FLAGS)
-    assert capfd.readouterr().err == ""
-
-
 def test_what_cannot_be_compiled(anew: pytest.MonkeyPatch):
     """The first error that the compiler names is the reason."""
     with pytest.raises(CannotCompile, match="error"):
@@ -176,20 +166,6 @@ def test_a_compiler_that_hangs(tmp_path: Path, anew: pytest.MonkeyPatch):
         assert not (compiling() and compiling())  # a word, if it came so far, and the end
 
 
-def test_an_interrupt_while_it_compiles(tmp_path: Path, anew: pytest.MonkeyPatch):
-    """Ctrl-C ends the command and its compilers, however long they would have taken."""
-    command = [sys.executable, "-m", "wetdoublet.solvers", "map", "granulation", "--stokes", "0.01:0.5:11", "--angle"]
-    with alive(tmp_path / "pipe") as compiling:
-        anew.setenv("CC", str(hanging(tmp_path / "cc", tmp_path / "pipe")))
-        with subprocess.Popen([*command, "0:80:10"], stdout=subprocess.PIPE, stderr=subprocess.PIPE) as running:
-            assert compiling()
-            running.send_signal(signal.SIGINT)
-            out, said = running.communicate(timeout=60)
-        assert (running.returncode, out, said) == (130, b"", b"interrupted\n")
-        while compiling():  # words of others
-            pass
-
-
 def test_a_compiler_that_fails(tmp_path: Path, anew: pytest.MonkeyPatch):
     """Every collision of the request fails with what the compiler said."""
     path = script(tmp_path / "cc", f"{ON_MORE} {{ echo error: no licence >&2; exit 1; }}")
@@ -198,22 +174,5 @@ def test_a_compiler_that_fails(tmp_path: Path, anew: pytest.MonkeyPatch):
     try:
         with pytest.raises(ComputationError, match="cannot compile the Taylor kernel .error: no licence"):
             collide_many("granulation-dry-bridge", stokes=0.5, angle=0.3)
-    finally:
-        kernel.cache_clear()
-
-
-def test_a_library_that_does_not_load_is_not_kept(tmp_path: Path, anew: pytest.MonkeyPatch):
-    """A compiler that leaves half a file, as on a full disk, and says nothing: the next attempt is made anew."""
-    spoilt = tmp_path / "full"
-    spoilt.touch()
-    half = f"""{ON_MORE} [ ! -e {spoilt} ] || {{
-        while [ "$1" != -o ]; do shift; done; echo half > "$2"; exit 0; }}"""
-    anew.setenv("CC", str(script(tmp_path / "cc", half)))
-    kernel.cache_clear()
-    try:
-        with pytest.raises(ComputationError, match="cannot compile the Taylor kernel"):
-            collide_many("granulation-dry-bridge", stokes=0.5, angle=0.3)
-        spoilt.unlink()
-        assert collide_many("granulation-dry-bridge", stokes=0.5, angle=0.3)["outcome"].item() >= 0
     finally:
         kernel.cache_clear()

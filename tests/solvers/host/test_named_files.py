@@ -1,8 +1,6 @@
 """Files that users name: bounded in size, depth and time, whatever they are; outputs are judged before all else."""
 
 import os
-import subprocess
-import sys
 import threading
 from pathlib import Path
 
@@ -37,21 +35,17 @@ def test_spoilt_scene_files(tmp_path, seed):
     ("text", "says"),
     [
         ("a" + ".a" * 1000 + " = 1", "is nested too deeply"),
-        ("a" + " . 'a'" * 20000 + " = 1", "is nested too deeply"),
-        ("[" + "a." * 1000 + "a]", "is nested too deeply"),
         ("x = " + "[" * 1000 + "]" * 1000, "is nested too deeply"),
         ("x = " + "{a = " * 1000 + "1" + "}" * 1000, "is nested too deeply"),
         ('x = {a = """a"""", ' + "a." * 1000 + "a = 1}", "is nested too deeply"),
         ("# " + "x" * 200_000, "is larger than 200000 bytes"),
         ("a" * 10_000 + " = 1", "has an unknown name"),
-        ("[liquid]\n" + "a" * 10_000 + " = 1", "has an unknown name"),
         ("name = 1" + "0" * 5000, "is broken TOML"),
         ("name = 0x" + "f" * 5000 + "\n" + TEXT.partition("\n")[2], "an integer of 20000 bits is not text"),
         ('name = "a\\u0000b"\n' + TEXT.partition("\n")[2], "is no name"),
         ('name = "' + "a" * 2000 + '"\n' + TEXT.partition("\n")[2], "is no name"),
         (TEXT.replace("2 Pa s", "2 " + "f" * 150 + "!"), "has the unknown unit"),
         (TEXT.replace("2 Pa s", "2 " + "(" * 150), "has the unknown unit"),
-        ("a = 1\na = 2", "line 2"),
         ("\0", "is broken TOML"),
         ("[particles]\ndiameter = 2 mm  # of a sphere", 'accepted: text in quotes, diameter = "2 mm"'),
         ("[particles]\ndry_restitution = 0,8", "accepted: dry_restitution = 0.8, with a point"),
@@ -137,14 +131,6 @@ def test_pipes_that_deliver(tmp_path):
 
 
 @posix
-def test_standard_input_is_a_scene_file():
-    """`/dev/stdin` is a file like any other, whether it is a pipe or not."""
-    command = [sys.executable, "-m", "wetdoublet.solvers", "scenes", "/dev/stdin"]
-    done = subprocess.run(command, input=TEXT, capture_output=True, text=True, check=True)
-    assert done.stdout == TEXT
-
-
-@posix
 @pytest.mark.parametrize("name", ["pipe", "/dev/zero", "link.py", "nowhere.py", "a" * 300 + ".py", "a\0.py", "junk"])
 def test_models_that_are_none(tmp_path, monkeypatch, name):
     """A pipe, a device, a link to one, and a folder with a manifest that is no manifest are no models."""
@@ -197,13 +183,3 @@ def test_a_picture_that_cannot_be(tmp_path):
             one.plot(name)
     with pytest.raises(InputError, match="^trajectory: "):
         one.plot(tmp_path / "x.png")
-
-
-@pytest.mark.parametrize(
-    "line", ["collide granulation --{}", "{}", "collide granulation {}", "collide granulation --set {}=1"]
-)
-def test_long_names_are_cut(line):
-    """What is unknown is not repeated whole."""
-    done = run(*line.format("a" * 10_000).split())
-    assert done.exit_code == 2
-    assert len(done.stderr) < 1000

@@ -1,16 +1,13 @@
 """Forecasts and progress of long computations."""
 
 import io
-import signal
-import subprocess
-import sys
 from contextlib import redirect_stderr
 
 import numpy as np
 import pytest
 from wetdoublet.solvers import collide_many, collision_averages, design, fit
-from wetdoublet.solvers.commands.bar import AtWork, Bar
-from wetdoublet.solvers.host.progress import Estimated, duration, forecast
+from wetdoublet.solvers.commands.bar import Bar
+from wetdoublet.solvers.host.progress import forecast
 
 SPEEDS = [0.3, 0.8, 1.2, 1.6, 1.9, 2.2, 2.5, 3.0]
 DATA = {"speed": SPEEDS, "angle": [0.0] * 8, "outcome": ["stick"] * 5 + ["bounce"] * 3}
@@ -59,11 +56,6 @@ def test_a_forecast(counts, more, said):
     assert forecast(*counts, "impacts", **more) == said
 
 
-@pytest.mark.parametrize(("seconds", "text"), [(9.96, "10 s"), (119, "120 s"), (150, "2.5 min"), (7200, "2 h")])
-def test_durations_have_two_digits_and_a_unit(seconds, text):
-    assert duration(seconds) == text
-
-
 @pytest.mark.parametrize(
     ("counts", "said"),
     [
@@ -78,71 +70,6 @@ def test_a_bar_on_a_terminal_forecasts_once(counts, said, capsys):
     assert terminal.getvalue().count(" more: ") == 1 and said in terminal.getvalue()
     counted(Clock(), counts)
     assert capsys.readouterr() == ("", "")
-
-
-class TestAtWork:
-    """Lines of long work where no bar is seen, by a clock of the test."""
-
-    def test_a_pipe_gets_a_line_at_ten_seconds_and_whenever_the_time_has_doubled(self, capsys):
-        clock = Clock()
-        work = AtWork(clock)
-        with Bar("impacts", clock=clock) as bar:
-            for second in range(100):
-                bar(second, 1000)
-                work.look()
-                clock.now += 1.0
-        lines = capsys.readouterr().err.splitlines()
-        assert [line.partition(":")[0] for line in lines] == [f"at work for {n} s" for n in (10, 20, 40, 80)]
-        assert lines[0] == "at work for 10 s: about 16 min more: 10 of 1000 impacts in 10.0 s"
-
-    def test_work_without_counts_or_items_is_said_as_well(self, capsys):
-        clock = Clock()
-        work = AtWork(clock)
-        assert work.look() == 10.0
-        clock.now = 9.0
-        assert work.look() == 1.0
-        assert capsys.readouterr().err == ""
-        clock.now = 10.0
-        assert work.look() == 10.0
-        assert capsys.readouterr().err == "at work for 10 s\n"
-        with Bar("scenes", clock=clock) as bar:
-            bar(0, 500)
-            clock.now = 20.0
-            work.look()
-        assert capsys.readouterr().err == "at work for 20 s: 0 of 500 scenes\n"
-
-    def test_a_terminal_has_its_bar(self):
-        clock = Clock()
-        with redirect_stderr(Terminal()) as terminal, Bar("impacts", clock=clock) as bar:
-            work = AtWork(clock)
-            for done in (0, 10, 20):
-                bar(done, 100)
-                work.look()
-                clock.now += 10.0
-        assert "at work" not in terminal.getvalue()
-
-    @pytest.mark.slow
-    def test_a_command_that_is_piped_says_how_long_it_will_be_at_work(self, tmp_path):
-        """Ten seconds after its start, though it writes nothing else; it is interrupted then."""
-        command = [sys.executable, "-m", "wetdoublet", "verify", "--stress", "5000", "--out", str(tmp_path)]
-        with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
-            line = process.stderr.readline()
-            process.send_signal(signal.SIGINT)
-            process.communicate()
-        assert line.startswith("at work for 10 s: ") and "of 5000 scenes" in line
-
-
-@pytest.mark.parametrize("expected", [3, 100])
-def test_done_rises_to_an_estimated_total_that_is_reached_at_the_end(expected):
-    calls = []
-    work = Estimated(lambda *call: calls.append(call), expected)
-    for _ in range(10):
-        work.add(1.0)
-    work.finish()
-    done = [each for each, _ in calls]
-    assert done == sorted(done)
-    assert all(each <= total for each, total in calls)
-    assert calls[-1] == (max(expected, 10),) * 2
 
 
 @pytest.mark.slow

@@ -8,7 +8,7 @@ import sys
 import numpy as np
 import pytest
 import xarray as xr
-from wetdoublet.solvers import ComputationError, InputError, Scene, regime_map
+from wetdoublet.solvers import ComputationError, Scene, regime_map
 from wetdoublet.solvers.many.blocks import blocks
 
 from ...helpers.command import run
@@ -173,55 +173,7 @@ def test_another_request_never_uses_what_is_kept(tmp_path):
 # ---- interrupts and clusters
 
 
-INTERRUPTED = """
-import asyncio, os, signal, threading
-import zarr
-from wetdoublet.solvers.commands.cli import main
-
-plain = zarr.storage.LocalStore.set
-
-async def slow(self, key, value, *more, **options):
-    if "/c/" in key:
-        threading.Timer(0.05, os.kill, (os.getpid(), signal.SIGINT)).start()
-        zarr.storage.LocalStore.set = plain
-        await asyncio.sleep(0.2)
-    await plain(self, key, value, *more, **options)
-
-zarr.storage.LocalStore.set = slow
-main(["map", "granulation", "--stokes", "0.01:0.3:3", "--angle", "0:80:2", "-o", "map.zarr"])
-"""
-
-
-@pytest.mark.skipif(os.name != "posix", reason="signals are sent as on POSIX")
-def test_an_interrupt_while_zarr_writes(tmp_path):
-    """One line and status 130; Zarr's tasks write no traceback."""
-    command = (sys.executable, "-c", INTERRUPTED)
-    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
-    assert (done.returncode, done.stderr) == (130, "interrupted\n")
-
-
-LOCAL = """
-import signal, socket
-from contextlib import suppress
-from wetdoublet.solvers.many.blocks import connected
-
-usual = socket.socket()
-with suppress(OSError):  # whoever has it
-    usual.bind(("127.0.0.1", 8787))
-    usual.listen()
-with connected("local:1") as client:
-    client.wait_for_workers(1)
-    (blocked,) = client.run(lambda: signal.pthread_sigmask(signal.SIG_BLOCK, ())).values()
-print(signal.SIGINT in blocked)
-"""
-
-
-def test_local_workers_are_undisturbed():
-    """As many as asked for; interrupts are blocked while they start; whoever has Dask's usual port is no matter."""
-    done = subprocess.run([sys.executable, "-W", "error::UserWarning", "-c", LOCAL], capture_output=True, text=True)
-    assert (done.stdout, done.stderr) == ("True\n", "")
-
-
+@pytest.mark.slow
 def test_a_lost_worker_is_survived(tmp_path, serial, cluster):
     """One of two workers is killed in mid-run: the same bits, in a store and in memory."""
     victims = list(cluster.run(os.getpid).values())
@@ -255,54 +207,3 @@ def test_workers_of_two_arithmetics_are_refused(serial, cluster):
         same(regime_map("granulation", **GRID, client=cluster), serial)
     finally:
         cluster.run(flags, usual)
-
-
-def test_an_unreachable_scheduler_is_bad_input(tmp_path):
-    """One line names the option and what is accepted; nothing is left behind."""
-    (tmp_path / "else.zarr").mkdir()
-    (tmp_path / "else.json").write_text("{}")
-    with dask.config.set({"distributed.comm.timeouts.connect": "0.2s"}):
-        for option, value, problem, accepted in (
-            ("--scheduler", "tcp://127.0.0.1:9", "is not reachable (", "tcp://HOST:PORT of a running Dask scheduler"),
-            ("--scheduler", "nowhere", "is no address of a scheduler", "local, or local:WORKERS"),
-            ("--scheduler", str(tmp_path / "no.json"), "is a file that does not exist", "local, or local:WORKERS"),
-            ("--scheduler", str(tmp_path / "else.json"), "is not the file of a scheduler", "local, or local:WORKERS"),
-            (
-                "-o",
-                str(tmp_path / "else.zarr"),
-                "exists and is no map of wetdoublet: it is not overwritten",
-                "a name ending in .zarr",
-            ),
-        ):
-            output = () if option == "-o" else ("-o", tmp_path / "map.zarr")
-            done = run("map", "granulation", "--stokes", "0.02:0.1:2", "--angle", "60", option, value, *output)
-            line, nothing = done.stderr.split("\n")
-            assert (done.exit_code, nothing) == (2, "")
-            assert line.startswith(f"{option}: ")
-            assert problem in line
-            assert accepted in line.partition("accepted: ")[2]
-    with pytest.raises(InputError, match="^client: "):
-        regime_map("granulation", client=3)
-    assert {path.name for path in tmp_path.iterdir()} == {"else.json", "else.zarr"}
-
-
-SCRIPT = """
-from wetdoublet.solvers import regime_map
-regime_map("granulation", angle=[1.0], engine="rosenbrock", client="local:1")
-"""
-
-
-def test_local_workers_of_an_unguarded_script(tmp_path):
-    """The error says what the script needs; Dask's processes would run the script again."""
-    (tmp_path / "script.py").write_text(SCRIPT)
-    done = subprocess.run((sys.executable, tmp_path / "script.py"), capture_output=True, text=True, check=False)
-    assert done.returncode == 1
-    assert 'start them below `if __name__ == "__main__":`' in done.stderr.splitlines()[-1]
-
-
-def test_a_closed_client_is_bad_input(cluster):
-    """A client that was closed is named."""
-    with distributed.Client(cluster.scheduler.address) as closed:
-        pass
-    with pytest.raises(InputError, match="^client: .* is closed; accepted: a client that is open"):
-        regime_map("granulation", client=closed)

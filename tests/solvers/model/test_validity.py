@@ -1,11 +1,10 @@
 """Where a collision leaves the model's range: each remark exactly where its number passes its limit."""
 
-import json
 import math
 
 import numpy as np
 import pytest
-from wetdoublet.solvers import Scene, collide_many, regime_map
+from wetdoublet.solvers import Scene, collide_many
 
 from ...helpers.command import run
 from ...helpers.reference import collide
@@ -143,36 +142,6 @@ def test_the_presets_are_within_the_range():
         assert collide(name, ledger=False).to_dict()["validity"] == []
 
 
-def test_table_and_json_say_it(tmp_path):
-    """A thin liquid in a thick film: Re 180 and x0/a 1.8, each with its limit, in the table and in JSON."""
-    changes = [
-        *("--set", "liquid.density=1000 kg/m^3", "--set", "liquid.viscosity=1 mPa s"),
-        *("--set", "liquid.film_thickness=90 um", "--set", "bridge.volume=2"),
-    ]
-    impact = ["--speed", "2 m/s", "--angle", "80 deg"]
-    text = " ".join(run("collide", "granulation", *changes, *impact).stdout.split())
-    said = json.loads(run("collide", "granulation", *changes, *impact, "--json").stdout)["validity"]
-    for part in ("Re = 180 is above 1", "x0/a = 1.8 is above 0.2"):
-        assert part in text
-        assert sum(part in each for each in said) == 1
-
-
-def test_a_map_in_characters_counts_what_is_outside():
-    """Under the map stands how many collisions passed which limit."""
-    text = run("map", "granulation", "--stokes", "0.1:0.1:1", "--angle", "30:85:2").stdout
-    assert "outside the model's range: solids that pass each other in 1" in text
-
-
-def test_a_map_has_the_flags_of_each_cell():
-    """A map's variable `validity` has the flags of its collisions one by one."""
-    stokes, angles = np.array([0.02, 0.1]), np.radians([30.0, 80.0, 85.0])
-    chart = regime_map(WET, stokes=stokes, angle=angles)
-    assert chart.validity.dims == ("angle", "stokes")
-    one_by_one = collide_many(WET, stokes=np.tile(stokes, 3), angle=np.repeat(angles, 2), of=["validity"])
-    assert (chart.validity.values.ravel() == one_by_one.validity.values).all()
-    assert chart.validity.values.any()
-
-
 ELASTIC = ("youngs", "poisson")
 
 
@@ -187,3 +156,9 @@ def test_friction_that_cannot_act_whatever_criteria_a_scene_has(without):
     alone = [collide(scene, speed=speed, angle=0.4, ledger=False) for speed in speeds]
     expected = [any(WORDS["idle_friction"] in said for said in one.validity) for one in alone]
     assert bits(many)["idle_friction"].tolist() == expected
+
+
+def test_a_map_in_characters_counts_what_is_outside():
+    """Under the map stands how many collisions passed which limit."""
+    text = run("map", "granulation", "--stokes", "0.1:0.1:1", "--angle", "30:85:2").stdout
+    assert "outside the model's range: solids that pass each other in 1" in text

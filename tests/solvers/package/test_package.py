@@ -26,14 +26,6 @@ import setuptools  # whose distutils it is
 from distutils.core import run_setup
 print(*run_setup("setup.py", stop_after="init").packages)
 """
-SCRIPT = """\
-import wetdoublet as wd
-
-one = wd.collide("granulation", stokes=0.02, angle="75 deg")
-text: str = one.outcome
-text = one.restitution
-wd.colide("granulation")
-"""
 
 
 def loaded(program: str, **settings: str) -> set[str]:
@@ -150,18 +142,3 @@ def interpreter(tmp_path: Path) -> Path:
     for package, folder in mapped.items():
         shutil.copytree(ROOT / folder, site / package.replace(".", "/"))
     return tmp_path / "venv" / "bin" / "python"
-
-
-@pytest.mark.slow
-def test_a_users_script_is_type_checked(interpreter: Path, tmp_path: Path) -> None:
-    """mypy, strict, finds in a user's script the wrong type of a result and the misspelt name, and nothing else."""
-    pytest.importorskip("mypy")  # of the extra dev
-    (tmp_path / "script.py").write_text(SCRIPT)
-    done = subprocess.run(
-        [sys.executable, "-m", "mypy", "--strict", "--no-error-summary", "--config-file=", "--cache-dir=cache",
-         f"--python-executable={interpreter}", "script.py"],
-        capture_output=True, text=True, cwd=tmp_path, timeout=900,
-    )  # fmt: skip
-    assert [line.split(": ", 1)[0] for line in done.stdout.splitlines()] == ["script.py:5", "script.py:6"]
-    assert 'expression has type "float", variable has type "str"' in done.stdout
-    assert 'maybe "collide"?' in done.stdout

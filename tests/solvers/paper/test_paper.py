@@ -5,15 +5,12 @@ import re
 
 import numpy as np
 import pytest
-from click.testing import CliRunner
 from matplotlib.image import imread
 from matplotlib.mathtext import MathTextParser
 from wetdoublet.solvers import collide_many
-from wetdoublet.solvers.commands.cli import cli
-from wetdoublet.solvers.errors import InputError
 from wetdoublet.solvers.host.files import write_all_in
 from wetdoublet.solvers.paper.printed import DOUBLED, PRINTED, SHOTS
-from wetdoublet.solvers.paper.report import PENDULUM, Comparison, number, report
+from wetdoublet.solvers.paper.report import PENDULUM, report
 from wetdoublet.solvers.paper.reproduce import PARTS
 
 pytestmark = [pytest.mark.slow, pytest.mark.usefixtures("optimized")]
@@ -41,29 +38,6 @@ def test_every_printed_number_is_compared_once(made):
     """The paper's data table and the comparisons have the same entries, each once."""
     keys = [one.key for part in made[1].values() for one in part.comparisons]
     assert sorted(keys) == sorted(PRINTED)
-
-
-def test_report_holds_each_number_once_and_no_nan(made):
-    """One row for each printed number, in the paper's order; nothing failed, no nan, no infinity, no code left over."""
-    text = (made[0] / "report.md").read_text(encoding="utf-8")
-    assert not re.search(r"\b(nan|inf|None|failed)\b", text)
-    lines = text.splitlines()
-    start = lines.index("**Every number the paper prints, beside ours**")
-    rows = [line.split(" | ") for line in lines[start + 4 : start + 4 + len(PRINTED)]]
-    assert [row[0].removeprefix("| ") for row in rows] == [entry.what for entry in PRINTED.values()]
-    assert [row[1] for row in rows] == [entry.text for entry in PRINTED.values()]
-    assert lines[start + 4 + len(PRINTED)] == ""
-
-
-def test_printed_data_is_complete():
-    """Every entry says where it stands and in which words; numbers of Fig. 1 and the six factors are there."""
-    for entry in PRINTED.values():
-        assert entry.what
-        assert entry.text
-        assert entry.place
-        assert entry.quote
-    assert [PRINTED[entry].text for entry, _ in DOUBLED.values()] == ["1.0", "0.79", "0.99", "1.01", "1.01", "1.13"]
-    assert [(shot.stokes, shot.interval) for shot in SHOTS] == [(1.0, 79.0), (1.3, 61.0), (1.5, 49.0)]
 
 
 def test_figure_1_has_the_papers_outcomes(compared):
@@ -125,39 +99,3 @@ def test_pictures_are_not_clipped(made, name):
     assert pixels.shape[1] == pytest.approx((17.5 if name == "table1" else 8.8) / 2.54 * 300, abs=2)
     for edge in (pixels[:3], pixels[-3:], pixels[:, :3], pixels[:, -3:]):
         assert np.all(edge == 1)
-
-
-def test_assumed_values_are_named(made):
-    """Entries of the presets that the paper does not print are marked, wherever a preset is used."""
-    text = (made[0] / "report.md").read_text(encoding="utf-8")
-    for assumed in ("70 GPa (assumed)", "203 GPa (assumed)", "0.5 m (assumed)"):
-        assert assumed in text
-
-
-def test_comparison_says_whether_it_rounds():
-    """A relative difference, and whether ours has the printed digits; no minus zero, no nan."""
-    assert Comparison("liquid.film_thickness", 0.7921, "").verdict == "+0.3 % (rounds to it)"
-    assert Comparison("bridge.surface_tension", 1.00999, "").verdict == "+0.0 % (rounds to it)"
-    assert Comparison("centrifugal", 4.121, "").verdict == "-1.9 %"
-    assert number(math.nan) == "-"
-
-
-def test_command_writes_one_part(tmp_path):
-    """`reproduce table1` makes its folder, leaves other files alone and lists what it wrote."""
-    folder = tmp_path / "new"
-    folder.mkdir()
-    (folder / "mine.txt").write_text("mine")
-    done = CliRunner().invoke(cli, ["reproduce", "table1", "--out", str(folder)], standalone_mode=False)
-    assert done.exception is None or isinstance(done.exception, SystemExit)
-    assert done.stdout.split() == [str(folder / name) for name in ("table1.png", "report.md")]
-    assert sorted(path.name for path in folder.iterdir()) == ["mine.txt", "report.md", "table1.png"]
-
-
-def test_command_knows_its_parts():
-    """A misspelt part names the nearest and all known ones, before anything is computed."""
-    from wetdoublet.solvers.commands.reproduce import command
-
-    with pytest.raises(
-        InputError, match=r"PART: \"fig4\" is not known, did you mean fig4[ab]\?; accepted: all, table1"
-    ):
-        command.main(["fig4"], standalone_mode=False)

@@ -27,8 +27,7 @@ def planned(scene: Scene, stokes: list[float], degrees: list[float], speed_sd: f
 @pytest.mark.parametrize(
     ("preset", "stokes", "degrees", "names"),
     [
-        ("pendulum", 1.5, 20.0, ("liquid.film_thickness", "liquid.viscosity")),  # stick or bounce
-        ("granulation", 0.12, 45.0, ("liquid.film_thickness", "liquid.viscosity")),  # bounce or stick-rotate-separate
+        ("granulation", 0.12, 45.0, ("liquid.film_thickness", "liquid.viscosity"))  # bounce or stick-rotate-separate
     ],
 )
 def test_information_is_the_covariance_of_the_score(

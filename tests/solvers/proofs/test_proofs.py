@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import xarray as xr
-from wetdoublet.solvers import InputError, Scene, collide, collide_many, prove, prove_boundary, prove_map
+from wetdoublet.solvers import Scene, collide, collide_many, prove, prove_boundary, prove_map
 from wetdoublet.solvers.engines.interval.build import FLAGS, Engine, engine, source
 from wetdoublet.solvers.engines.interval.call import BOX, enclose
 from wetdoublet.solvers.engines.interval.inputs import Inputs
@@ -15,9 +15,6 @@ from wetdoublet.solvers.engines.machine import here
 from wetdoublet.solvers.host.compiler import compiler, library
 from wetdoublet.solvers.host.user_cache import loaded
 from wetdoublet.solvers.model.model import select_model
-
-from ...helpers.data import COLLISIONS
-from ...helpers.own_arm import described
 
 pytestmark = [pytest.mark.skipif(compiler() is None, reason="no C compiler"), pytest.mark.usefixtures("released")]
 OUTCOMES = ("stick", "stick-rotate-separate", "bounce")
@@ -50,8 +47,8 @@ def test_cells_cover_the_rectangle_and_hold_for_their_points(tmp_path: Path) -> 
 @pytest.mark.parametrize(
     ("angle", "stokes", "outcomes", "width"),
     [
-        ("10 deg", (0.11, 0.13), ("stick", "bounce"), 1e-12),
-        ("45 deg", (0.044, 0.054), ("stick", "stick-rotate-separate"), 1e-8),
+        ("10 deg", (0.113, 0.119), ("stick", "bounce"), 1e-12),
+        ("45 deg", (0.0487, 0.0495), ("stick", "stick-rotate-separate"), 1e-8),
     ],
     ids=["bounce", "saddle"],
 )
@@ -64,51 +61,6 @@ def test_a_change_lies_between_proved_outcomes(
     assert change.width < width
     below, above = (collide("granulation", stokes=change.stokes[0] * f, angle=angle) for f in (1 - 1e-7, 1 + 1e-7))
     assert (below.outcome, above.outcome) == outcomes
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize(
-    ("name", "angle", "stokes", "changes"),
-    [("granulation", "60 deg", (0.05, 0.5), 1), ("lactose-pvp", 1.3, (2, 5), 1)],
-    ids=["one", "stretches without proof"],
-)
-def test_between_changes_collisions_have_one_outcome(
-    name: str, angle: str | float, stokes: tuple[float, float], changes: int
-) -> None:
-    """Beyond the stretches around the changes every collision of the line has the outcome of the change's side."""
-    found = prove_boundary(name, angle=angle, stokes=stokes)
-    assert len(found.changes) == changes
-    gaps = [*(each.within for each in found.changes), *found.undecided]
-    ends = [stokes[0], *(end for gap in sorted(gaps) for end in gap), stokes[1]]
-    for low, high in zip(ends[::2], ends[1::2], strict=True):
-        near = np.geomspace(1e-6, 0.5, 40) * (high - low)
-        outcomes = collide_many(name, stokes=np.concatenate([low + near, high - near]), angle=angle).outcome.values
-        sides = {each.outcomes[0] for each in found.changes if each.within[0] == high}
-        sides |= {each.outcomes[1] for each in found.changes if each.within[1] == low}
-        assert len({OUTCOMES[code] for code in outcomes.tolist()} | sides) == 1
-    for each in found.changes:
-        assert each.within[0] <= each.stokes[0] < each.stokes[1] <= each.within[1]
-        assert each.within[1] / each.within[0] < 1.001
-
-
-@pytest.mark.slow
-def test_wide_boxes_hold_for_their_points() -> None:
-    """Boxes of 1e-3 to 0.15 in Stokes number and angle: impacts within them have the outcome, and e_n is enclosed."""
-    random, proved = np.random.default_rng(4), 0
-    for k in range(40):
-        scene = Scene.load(("granulation", "lactose-pvp", "glass-beads-water")[k % 3])
-        stokes, angle, width = np.exp(random.uniform(-4, 2)), random.uniform(0.05, 1.2), 10 ** random.uniform(-3, -0.8)
-        proof = prove(scene, stokes=float(stokes), angle=float(angle), within=float(width))
-        if not proof:
-            continue
-        proved += 1
-        at = [random.uniform(*proof.ranges[name], 10) for name in ("stokes", "angle")]
-        found = collide_many(scene, stokes=at[0], angle=at[1])
-        assert {OUTCOMES[code] for code in found.outcome.values.tolist()} == {proof.outcome}
-        low, high = proof.restitution
-        assert np.all(found.restitution.fillna(0.0) >= low - 1e-8)
-        assert np.all(found.restitution.fillna(0.0) <= high + 1e-8)
-    assert proved > 20
 
 
 def test_a_part_of_a_box_may_rebound_at_initial_contact() -> None:
@@ -138,29 +90,6 @@ def test_cells_from_head_on_impacts_on_hold_both() -> None:
     box = prove(scene, stokes=0.3, angle=0.1, within={"impact.angle": ("0 deg", "2 deg")})
     ends = [collide(scene, stokes=0.3, angle=angle, ledger=False).restitution for angle in (0.0, math.radians(2))]
     assert box.restitution[0] <= min(ends) < max(ends) <= box.restitution[1]
-
-
-@pytest.mark.parametrize("edges", [{"stokes": [0.2, 0.1]}, {"stokes": [0.1]}, {"angle": [-0.1, 0.1]}, {"depth": -1}])
-def test_bad_maps_name_what_is_wrong(edges: dict[str, object]) -> None:
-    """Edges that do not rise, an angle below 0 and a negative depth."""
-    given = {"stokes": [0.1, 0.2], "angle": [0.1, 0.2]} | edges
-    with pytest.raises(InputError, match=next(iter(edges))):
-        prove_map("granulation", **given)  # type: ignore[arg-type]
-
-
-@pytest.mark.slow
-def test_reference_collisions_lie_in_their_enclosures() -> None:
-    """Outcome and restitution of an independent implementation of high precision, wherever there is a proof."""
-    proved = 0
-    for case in COLLISIONS:
-        proof = prove(described(case["scene"]), **case["impact"])
-        if proof.outcome is not None:
-            proved += 1
-            assert proof.outcome == case["results"]["outcome"]
-            if case["results"]["restitution"]:
-                low, high = proof.restitution
-                assert low <= case["results"]["restitution"] <= high < low + 1e-9
-    assert proved >= 10
 
 
 @pytest.mark.slow

@@ -5,7 +5,6 @@ import math
 
 import pytest
 from wetdoublet.solvers import Scene, collide, collide_many, regime_map, sensitivities
-from wetdoublet.solvers.errors import InputError
 
 from ...helpers.command import run
 
@@ -46,12 +45,6 @@ def test_nothing_is_held_of_an_impact_that_is_given_anew() -> None:
     ):
         assert (changed.impact.stokes, changed.held) == (0.03, "")
     assert GRANULATION.with_entries({"particles.roughness": "0.3 um"}).held == ""  # speed and number do not differ
-
-
-def test_an_unknown_quantity_is_refused() -> None:
-    """The message has the three that can be held."""
-    with pytest.raises(InputError, match="speed, stokes, relative_speed"):
-        GRANULATION.with_entries(THICKER, hold="energy")
 
 
 def test_batches_and_maps_hold_the_scenes_speed() -> None:

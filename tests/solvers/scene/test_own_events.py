@@ -19,7 +19,6 @@ from wetdoublet.solvers import (
 from wetdoublet.solvers.boundaries.on_map import map_curves
 from wetdoublet.solvers.host.compiler import compiler
 
-from ...helpers.command import run
 from ...helpers.reference import collide
 from ...helpers.snapping import EVENTS, Ended, integrated
 from ...helpers.two_bodies import Bodies, bodies_of
@@ -27,7 +26,6 @@ from ...helpers.two_bodies import Bodies, bodies_of
 pytestmark = pytest.mark.slow
 ANGLE = math.radians(60)
 SOFT = {"particles.dry_restitution": 0.5}  # head-on, some doublets rebound, leave the film, and are pulled back
-PLAIN = {"bridge.law": "constant"}  # the library's, of the same force
 
 
 @pytest.fixture(scope="module")
@@ -139,19 +137,6 @@ def test_the_kernel_does_as_casadi(snaps: Path):
     assert {0, 1, 2} == set(both[0].outcome.values.tolist())
 
 
-def test_an_event_that_never_happens_changes_nothing(snaps: Path):
-    """With limits that nothing reaches, results and sticks are those of the same law without events."""
-    library = Scene.load("granulation").with_entries(PLAIN)
-    for stokes in (0.02, 0.3):
-        own, other = (
-            collide(each, stokes=stokes, angle=ANGLE, rtol=1e-10, engine="rosenbrock")
-            for each in (scene(snaps), library)
-        )
-        assert (own.outcome, own.certified) == (other.outcome, other.certified)
-        assert own.restitution == pytest.approx(other.restitution, rel=1e-8)
-        assert [event.kind for event in own.events] == [event.kind for event in other.events]
-
-
 def test_a_proved_stick_sticks_beside_events(snaps: Path):
     """A stick that is proved although an event might have come: it does not, however long it is followed on."""
     own = scene(snaps, critical_rate="6e4 1/s").with_entries(SOFT)
@@ -202,31 +187,6 @@ def test_energy_is_not_created_unsaid(snaps: Path):
     for engine in ("rosenbrock", None):
         with pytest.raises(ComputationError, match="the event braked creates .* that it does not declare in phase"):
             collide(scene(snaps, kept=2.0, braking_gap="12 um"), stokes=0.3, angle=0.0, engine=engine)
-
-
-def test_no_rotation_beside_a_wall(tmp_path: Path):
-    """A model whose event speaks of a rotation is refused for a wall, in one line."""
-    path = tmp_path / "turning.py"
-    path.write_text(
-        "from wetdoublet.derive.user import *\n"
-        'rate = quantity("rate", unit="rad/s", default="1 rad/s")\n'
-        'event("slow", guard=omega - rate, ends="stick")\n'
-    )
-    with pytest.raises(InputError, match="partner.wall: .* has no rotation, of which this event speaks; accepted"):
-        collide(Scene.load("granulation", model=path).with_entries({"partner.wall": True}))
-
-
-def test_commands_tell_of_declared_events(snaps: Path, tmp_path: Path):
-    """`collide` and `export` speak of the event: its word, its sentence, its guard."""
-    own = ("--model", str(snaps), "--set", "custom.critical_rate=1e4 1/s", "--stokes", "0.08")
-    told = run("collide", "granulation", *own).output
-    assert "separated by the event snap: the bridge is stretched too fast" in told
-    assert "declared events" in told
-    done = run("export", "granulation", "--model", str(snaps), "--to", "latex", "--out", str(tmp_path))
-    assert done.exception is None, done.exception
-    page = (tmp_path / "granulation.tex").read_text()
-    assert "snap & moving, opening, beyond the film & ends: separated & the bridge is stretched too fast &" in page
-    assert "before the event snap" in page
 
 
 TURNS = '''"""The collision ends when the doublet has turned far enough, or after a time."""

@@ -55,15 +55,11 @@ PARTNER = {"partner.diameter": "320 um", "partner.density": "2 g/cm^3", "partner
         (BASE, {"pendulum.gravity": "9.81 m/s^2"}, "pendulum.length", "missing"),
         (BASE, {"impact.stokes": 0.1, "impact.speed": "1 m/s"}, "impact.speed", "together with impact.stokes = 0.1"),
         (BASE, {"particles.radius": "0.1 mm"}, "particles.radius", 'together with particles.reduced_radius = "50 um"'),
-        (BASE, {"particles.mass": "1 g"}, "particles.mass", "together with particles.reduced_mass"),
         (BASE, {"particles.reduced_radius": None}, "particles.reduced_radius", "or particles.radius"),
-        (BASE, {"particles.reduced_mass": None}, "particles.reduced_mass", "or particles.density"),
         (BASE, {"particles.reduced_mass": "1e-320 kg", "liquid.viscosity": "1e20 Pa s"}, "particles.reduced_mass", ""),
         (BASE, {"particles.youngs_modulus": "70 GPa"}, "particles.poisson_ratio", "while particles.youngs_modulus"),
-        (BASE, {"particles.poisson_ratio": 0.2}, "particles.youngs_modulus", "while particles.poisson_ratio"),
         (BASE, {"liquid.glass_transition_pressure": None, "particles.roughness": "0 um"}, "particles.roughness", ""),
         (BASE, {"liquid.viscosty": "2 Pa s"}, "liquid.viscosty", "an unknown name, did you mean liquid.viscosity?"),
-        (BASE, {"particles.viscosity": "2 Pa s"}, "particles.viscosity", "did you mean liquid.viscosity?"),
         (BASE, {"liqid.viscosity": "2 Pa s"}, "liqid", "did you mean liquid?"),
         (BASE, {"model.arm": "surface"}, "model.arm", "docs/reference/models.md"),
         (BASE, PARTNER, "partner.coating_thickness", "both coatings together"),
@@ -82,14 +78,12 @@ PARTNER = {"partner.diameter": "320 um", "partner.density": "2 g/cm^3", "partner
         (COATED, {"bridge.coating_fraction": 1e-9}, "bridge.volume", "a larger bridge.coating_fraction"),
         (COATED, {"bridge.volume": "1e-30 m^3"}, "bridge.volume", "a volume above 5.12e-16 m^3"),
         (COATED, {"bridge.volume": "of coating"}, "bridge.volume", 'or "from coating"'),
-        (COATED, {"particles.radius": "1 mm"}, "particles.diameter", "together with particles.radius"),
         (COATED, {**PARTNER, "partner.radius": "1 mm"}, "partner.diameter", "together with partner.radius"),
         (COATED, {**PARTNER, "partner.diameter": "10 m"}, "partner.diameter", "too far from the sphere's"),
         (COATED, {"impact.speed": "1 m/s"}, "impact.relative_speed", "together with impact.speed"),
         (BASE, {"partner.radius": "150 um"}, "partner.mass", "or partner.density"),
         (BASE, {"partner.mass": "10 ug"}, "partner.radius", "missing"),
         (BASE, {"partner.radius": "150 um", "partner.wall": True}, "partner.wall", "given together"),
-        (BASE, {"partner.mass": "10 ug", "partner.wall": True}, "partner.wall", "given together"),
         (
             BASE, {"partner.radius": "0.1 mm", "partner.mass": "10 ug", "partner.density": "2.5 g/cm^3"},
             "partner.density", "together",
@@ -108,7 +102,6 @@ PARTNER = {"partner.diameter": "320 um", "partner.density": "2 g/cm^3", "partner
             BASE, {"particles.contact_tangential_restitution": 0.3},
             "particles.contact_tangential_restitution", "without particles.friction",
         ),
-        (BASE, {"model.contact_friction": "all"}, "model.contact_friction", "without particles.friction"),
     ],
 )  # fmt: skip
 def test_entries_that_do_not_go_together(scene, changes, field, says):
@@ -164,14 +157,6 @@ def test_junk_values_are_input_errors(name, value, from_file):
         Scene.from_dict(nested, from_file=from_file)
     except InputError as error:
         assert len(str(error).splitlines()) == 1
-
-
-@given(st.text(max_size=60) | st.text("[]{}='\"\n\\#.,abc019 ", max_size=60))
-def test_junk_files_are_input_errors(text):
-    """Any text at all is an InputError of one line: no such text is a scene."""
-    with pytest.raises(InputError) as caught:
-        Scene.from_toml(text)
-    assert len(str(caught.value).splitlines()) == 1
 
 
 @pytest.mark.parametrize(

@@ -6,10 +6,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from wetdoublet.solvers import InputError, Scene, boundary, boundary_sensitivities, sensitivities
+from wetdoublet.solvers import InputError, Scene, boundary, boundary_sensitivities
 from wetdoublet.solvers.sensitivity.boundaries import BoundarySensitivities, Moving, moving
 
-from ...helpers.command import run
 from ...helpers.data import DATA
 from ...helpers.sensitive import HARD
 
@@ -166,41 +165,9 @@ def test_the_angle_is_the_slope_of_the_curve() -> None:
     assert found.gradient["relative_speed"]["impact.angle"] == pytest.approx(by_angle, rel=1e-4)
 
 
-def test_on_the_command_line() -> None:
-    """`boundary --wrt` adds "sensitivities" to each change, and leaves the rest as it is without it."""
-    plain = ["boundary", "granulation", "--angle", "55:55:1", "--stokes", "0.02:0.07", "--json"]
-    with_ = json.loads(run(*plain, "--wrt", "bridge.volume").stdout)
-    without = json.loads(run(*plain).stdout)
-    for one, other in zip(with_["changes"][0], without["changes"][0], strict=True):
-        both = one.pop("sensitivities")
-        assert set(both) == {"stokes", "speed", "relative_speed", "centrifugal"}
-        assert set(both["stokes"]) == {"gradient", "elasticity"}
-        assert one == other
-
-
-def test_the_table_says_what_a_star_is() -> None:
-    """An entry that is zero has derivatives in place of elasticities, and the head of its table says of what."""
-    found = boundary_sensitivities("granulation", angle=0.9, wrt=["bridge.volume", "impact.spin"])
-    head, names, volume, spin = str(found).split("\n\n")[1].splitlines()
-    assert "where it is zero *: dSt*/dp, dv*/dp, dCe*/dp, SI" in head and "d ln St*" in names
-    assert "*" not in volume and spin.count("*") == 3
-    assert float(spin.split()[2]) == pytest.approx(found.changes[0][0].gradient["stokes"]["impact.spin"], rel=1e-3)
-
-
 def test_what_a_boundary_is_followed_in_is_no_parameter() -> None:
     """St* cannot be differentiated in the Stokes number; a misspelt name is told the nearest."""
     with pytest.raises(InputError, match="impact.stokes"):
         boundary_sensitivities("granulation", angle=0.9, wrt=["impact.stokes"])
     with pytest.raises(InputError, match="did you mean bridge.volume"):
         boundary_sensitivities("granulation", angle=0.9, wrt=["bridge.volum"])
-
-
-def test_a_stick_points_to_its_boundary() -> None:
-    """Its table names the command, and `boundary()` is what `boundary_sensitivities` finds at its angle."""
-    stick = sensitivities("granulation", wrt=["liquid.viscosity", "impact.speed"], stokes=0.01, angle="60 deg")
-    assert "wetdoublet boundary SCENE --wrt" in str(stick)
-    found = stick.boundary()
-    assert found.parameters == ("liquid.viscosity",)
-    expected = boundary_sensitivities("granulation", angle=stick.scene.angle, wrt="liquid.viscosity")
-    assert found.to_dict()["changes"] == expected.to_dict()["changes"]
-    assert found.changes[0][0].change.before == "stick"

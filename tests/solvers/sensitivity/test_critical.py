@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from wetdoublet.solvers import InputError, Scene, collide, critical
+from wetdoublet.solvers import Scene, collide, critical
 
 from tests.helpers.command import run
 
@@ -95,25 +95,3 @@ def test_a_table_of_materials(tmp_path: Path) -> None:
     assert [each["interval"] is None for each in rows] == [False, False, True, True]
     assert plot.stat().st_size > 10_000
     assert "coarse" in run("critical", tmp_path / "materials.csv").stdout
-
-
-def test_what_is_wrong_is_named(tmp_path: Path) -> None:
-    """A misspelt column, a row that makes no scene, an uncertainty of the speed that is sought."""
-    (tmp_path / "a.csv").write_text("particles.diametre [um]\n1\n", encoding="utf-8")
-    assert "did you mean particles.diameter" in run("critical", tmp_path / "a.csv").output
-    (tmp_path / "b.csv").write_text("grade,particles.diameter [um],scene\nB2,-1,lactose-pvp\n", encoding="utf-8")
-    wrong = run("critical", tmp_path / "b.csv")
-    assert wrong.exit_code == 2
-    assert "B2 (line 2), particles.diameter" in wrong.output
-    with pytest.raises(InputError, match=r"impact\.speed.*is what is sought"):
-        critical("granulation", uncertainty={"impact.speed": "5 %"})
-
-
-def test_json_of_one_scene() -> None:
-    """One scene and angle: the fields stand at the top, SI."""
-    record = json.loads(run("critical", "granulation", "--json").stdout)
-    [one] = critical("granulation").rows
-    for name in ("relative_speed", "speed", "stokes", "to", "interval"):
-        assert record[name] == getattr(one, name)
-    assert record["angle"] == pytest.approx(math.radians(60))
-    assert record["units"]["relative_speed"] == "m/s"

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from wetdoublet.generated.automaton import LAST_ANSWER, OUTCOMES, Status
-from wetdoublet.solvers import ComputationError, InputError, Scene, collide, gradients_many, sensitivities
+from wetdoublet.solvers import ComputationError, Scene, collide, gradients_many, sensitivities
 from wetdoublet.solvers.engines.taylor.call import Impacts
 from wetdoublet.solvers.engines.taylor.tangent import run_tangent
 from wetdoublet.solvers.host.compiler import compiler
@@ -128,14 +128,6 @@ def test_a_partner_that_is_equal_varies_alone() -> None:
 
         expected = (at(1e-4) - at(-1e-4)) / 2e-4  # the error is 1e-8 of the third derivative
         assert float(found.gradient["final_spin"][name] or 0) * value == pytest.approx(expected, rel=1e-5)
-
-
-def test_bad_input() -> None:
-    """Names and lengths that cannot be are one line that says what is accepted."""
-    with pytest.raises(InputError, match="restitution"):
-        gradients_many("granulation", of="restitutio")
-    with pytest.raises(InputError, match="differs in length"):
-        gradients_many("granulation", stokes=[0.1, 0.2], angle=[0.1, 0.2, 0.3])
 
 
 @pytest.mark.parametrize("distance", [6e-4, 5e-5])

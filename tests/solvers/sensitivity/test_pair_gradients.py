@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 from wetdoublet.solvers import Scene, collide_pair, pair_gradients
-from wetdoublet.solvers.errors import InputError
 
 UNEQUAL = Scene.load("granulation").with_entries({"partner.radius": "0.2 mm", "partner.mass": "3e-5 g"})
 WALL = Scene.load("granulation").with_entries({"partner.wall": True})
@@ -88,10 +87,3 @@ def test_near_a_boundary_it_is_refused_by_name():
     found = pair_gradients(WALL, NORMAL, parted * VELOCITIES, SPINS[:1], wrt="velocities")
     assert "no derivative: the collision lies at the" in str(found.reason.values)
     assert np.isnan(found.d_velocities.values).all()
-
-
-def test_an_unknown_parameter_is_named():
-    """The impact of the scene is not used, and has no derivatives."""
-    with pytest.raises(InputError) as caught:
-        pair_gradients(UNEQUAL, NORMAL, VELOCITIES, SPINS, wrt=["impact.angle"])
-    assert caught.value.field == "wrt"

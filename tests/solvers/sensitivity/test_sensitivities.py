@@ -1,19 +1,14 @@
 """Sensitivities through the events: against differences, the other method, the other engine, and closed forms."""
 
-import json
 import math
 from functools import cache
-from typing import Any
 
-import numpy as np
 import pytest
 from wetdoublet.solvers import InputError, Scene, Sensitivities, collide
 from wetdoublet.solvers.sensitivity.parameters import known
 
-from ...helpers.command import run
-from ...helpers.own_arm import described
 from ...helpers.reference import sensitivities
-from ...helpers.sensitive import CASES, GRANULATION, PENDULUM, apart, elasticities
+from ...helpers.sensitive import CASES, GRANULATION, apart, elasticities
 
 pytestmark = pytest.mark.slow
 
@@ -71,16 +66,6 @@ def test_cvodes_at_the_tightest_tolerance() -> None:
     """A tolerance that CVODES cannot differentiate at (it gave up here) is met as near as it can: 3e-12 (docs)."""
     found = sensitivities(CASES[1].scene, ["restitution"], method="adjoint", engine="cvodes", rtol=1e-13)
     assert compared(found, 1) < 1e-9
-
-
-def test_the_condition_number_of_the_reference(separated_reference: dict[str, Any]) -> None:
-    """The slope d ln e_n/d ln St is the reference's conditioning of every separating collision (80-bit code)."""
-    case = separated_reference
-    scene = described(case["scene"]).with_impact(**case["impact"])
-    found = sensitivities(scene, wrt=["impact.stokes"], rtol=1e-10, engine=None)
-    elasticity = found.elasticity["restitution"]["impact.stokes"]
-    # the reference's own differences are good to some 1e-5
-    assert abs(elasticity or 0.0) == pytest.approx(abs(case["kappa"]), rel=1e-4, abs=1e-6)
 
 
 def test_work_of_the_bridge_is_a_function_of_its_ends() -> None:
@@ -176,58 +161,3 @@ def test_parameters_are_the_files_own() -> None:
     assert found["particles.radius"] == pytest.approx(expected, rel=1e-8)
     with pytest.raises(InputError, match="particles.reduced_radius"):
         sensitivities(other, wrt=["particles.reduced_radius"])
-
-
-def test_only_what_is_asked_for() -> None:
-    """One parameter asked for is one direction integrated; rotation and ledger ride along only when asked for."""
-    from wetdoublet.solvers.sensitivity.by_casadi import first_derivatives, spanning
-
-    p, dp = np.arange(1.0, 12.0), np.zeros((11, 3))
-    dp[2, 0] = dp[[4, 5], 1] = dp[[4, 5], 2] = 1.0  # the last two are one direction
-    assert spanning(p, dp).shape == (11, 2)
-    first_derivatives.cache_clear()
-    sensitivities(GRANULATION, wrt=["bridge.volume"], engine="rosenbrock")
-    sensitivities(GRANULATION, wrt=["liquid.viscosity"], engine="rosenbrock")
-    assert first_derivatives.cache_info().misses == 1  # built once for the course, whatever the parameter
-
-
-def test_json_of_the_command() -> None:
-    """The documented object, and nothing but numbers and null in its rows."""
-    arguments = ["sensitivity", "granulation", "--of", "restitution,energy.capillary", "--wrt",
-                 "liquid.viscosity,impact.angle", "--method", "adjoint", "--json"]  # fmt: skip
-    found = json.loads(run(*arguments).stdout)
-    assert list(found)[:3] == ["value", "gradient", "elasticity"]
-    assert set(found["gradient"]) == {"restitution", "energy.capillary"}
-    assert set(found["gradient"]["restitution"]) == {"liquid.viscosity", "impact.angle"}
-    default = json.loads(run("sensitivity", "pendulum", "--json").stdout)
-    assert tuple(default["gradient"]["restitution"]) == known(PENDULUM)
-
-
-@pytest.mark.parametrize(
-    ("arguments", "says"),
-    [
-        (["--of", "restitutoin"], '--of: "restitutoin" is not known, did you mean restitution?'),
-        (["--wrt", "liquid.viscocity"], "did you mean liquid.viscosity?"),
-        (["--wrt", "pendulum.length"], "--wrt"),
-        (["--method", "backward"], '--method: "backward" is not known; accepted: forward, adjoint'),
-        (["--hold", "speeed"], "did you mean speed?"),
-        (["--method", "adjoint", "--engine", "taylor"], "--method"),
-    ],
-)
-def test_input_errors(arguments: list[str], says: str) -> None:
-    """Exit status 2 and one line that names the option and the nearest known."""
-    shown = run("sensitivity", "granulation", *arguments)
-    assert shown.exit_code == 2
-    assert says in shown.stderr
-    assert shown.stderr.count("\n") == 1
-
-
-def test_labelled_result() -> None:
-    """As a Dataset: the same numbers under the same names; as text: every parameter once."""
-    found = sensitivities(PENDULUM, ["restitution", "contact_time"])
-    data = found.to_dataset()
-    assert float(data.gradient.sel(quantity="restitution", parameter="impact.angle")) == pytest.approx(
-        found.gradient["restitution"]["impact.angle"]
-    )
-    assert data.gradient.dims == ("quantity", "parameter")
-    assert all(str(found).count(f"\n{name} ") == 1 for name in found.parameters)

@@ -4,15 +4,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import Any
 
 import numpy as np
 import pytest
 from casadi import Function
 from wetdoublet.solvers import Scene, sensitivities
 from wetdoublet.solvers.collision.by_kernel import sequence_of
-from wetdoublet.solvers.engines.casadi import integrators
-from wetdoublet.solvers.engines.casadi.integrators import IntegrationFailed, tolerance_for
+from wetdoublet.solvers.engines.casadi.integrators import IntegrationFailed
 from wetdoublet.solvers.engines.casadi.replay import replayed
 from wetdoublet.solvers.model.dimensionless import nondimensionalise
 from wetdoublet.solvers.model.model import load, select_model
@@ -39,33 +37,6 @@ def test_a_criterion_true_at_first_touch() -> None:
 
 
 # ---- the integrators
-
-
-def test_options_that_derivatives_rest_on() -> None:
-    """CVODES controls the error of adjoint quadratures, absolute tolerances are 1e-3 of the relative ones, and the
-    spacing of checkpoints is CasADi's own.
-    """
-    told = tolerance_for(1e-9, "rosenbrock", nondimensionalise(GLASS, float(GLASS.speed or 0), 0.5).groups)
-    assert told.absolute == pytest.approx(1e-3 * told.relative)
-    assert told.options("cvodes")["quad_err_con"] is True
-    assert "steps_per_checkpoint" not in {**told.options("cvodes"), **told.options("rosenbrock")}
-
-
-@pytest.mark.parametrize("plugin", ["cvodes", "rosenbrock"])
-def test_integrators_that_are_differentiated_have_no_events(plugin: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Events are landed on outside (CVODES' own are silently wrong), and integrals are states, not quadratures."""
-    built: list[tuple[str, str, set[str]]] = []
-    usual = integrators.integrator
-
-    def spied(name: str, engine: str, dae: dict[str, Any], *rest: Any) -> Any:
-        built.append((name, engine, set(dae)))
-        return usual(name, engine, dae, *rest)
-
-    monkeypatch.setattr(integrators, "integrator", spied)
-    # a tolerance that nothing else asks for, so that nothing is taken from the caches
-    sensitivities(GLASS, ["rotation", "energy.capillary"], rtol=1.03e-9, engine=plugin)
-    assert {engine for _, engine, _ in built} == {plugin}
-    assert all(parts == {"x", "p", "ode"} for _, _, parts in built)
 
 
 @dataclass(frozen=True)

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from wetdoublet.solvers import InputError, Scene, band
+from wetdoublet.solvers import InputError, Scene
 from wetdoublet.solvers.host.compiler import compiler
 from wetdoublet.solvers.scene.schema import FIELDS
 from wetdoublet.solvers.sensitivity import uncertainty
@@ -30,16 +30,6 @@ def test_samples_at_the_edge_of_what_may_be() -> None:
     """Samples of a value that may only move one way (a contact angle of 0, a head-on impact) lie on that side alone."""
     for name in ("bridge.contact_angle", "impact.angle"):
         assert uncertainty.possible_values(FIELDS[name], 0.0, np.array([0.1, -0.1])).tolist() == [0.1, 0.0]
-
-
-def test_a_band_shows_every_value() -> None:
-    """Three impacts of three outcomes, which no line joins, are three points of the picture."""
-    found = band(GRANULATION, {"liquid.viscosity": "2 %"}, "impact.stokes", [0.01, 0.05, 0.3], samples=4)
-    (axis,) = found.wetdoublet.plot().axes
-    (line,) = (line for line in axis.lines if line.get_label() == "as given")
-    y = np.asarray(line.get_ydata())
-    assert y[np.isfinite(y)] == pytest.approx(found.restitution.values)
-    assert line.get_marker() == "."
 
 
 def test_tornado(tmp_path: Path) -> None:

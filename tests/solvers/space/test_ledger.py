@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 from wetdoublet.solvers import Scene, collide, collide_pair
-from wetdoublet.solvers.errors import InputError
 
 from ...helpers.two_bodies import bodies_of
 
@@ -59,10 +58,3 @@ def test_beside_a_wall_it_is_the_planar_ledger():
     found = collide_pair(WALL, [0, 0, -1], velocity, rolls, ledger=True, engine="rosenbrock")
     for name in ("initial", "final", *LOST):
         assert float(found[f"energy.{name}"]) == pytest.approx(getattr(planar, name), rel=1e-7, abs=1e-18), name
-
-
-def test_a_switch_is_true_or_false():
-    """Anything else is named."""
-    with pytest.raises(InputError) as caught:
-        collide_pair(WALL, [0, 0, 1], np.ones((1, 3)), np.zeros((1, 3)), ledger="energy")
-    assert caught.value.field == "ledger"

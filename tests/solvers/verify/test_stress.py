@@ -1,24 +1,19 @@
 """The stress test finds what is wrong with an engine, and explains what is not: small samples, no time is asserted."""
 
 import json
-import math
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 import pytest
-from wetdoublet.solvers import Scene, boundary, collide, collide_many
+from wetdoublet.solvers import Scene, boundary
 from wetdoublet.solvers.commands.cli import main
-from wetdoublet.solvers.commands.verify import command as verify
 from wetdoublet.solvers.engines.taylor.undecided import CHATTERS
 from wetdoublet.solvers.errors import ComputationError
-from wetdoublet.solvers.host.emitted import LAWS
 from wetdoublet.solvers.verify.stress import judge as checking
 from wetdoublet.solvers.verify.stress import run as stress_test
 from wetdoublet.solvers.verify.stress.judge import judge
-from wetdoublet.solvers.verify.stress.sample import DISTANCES, SEED, sample
-from wetdoublet.solvers.verify.stress.verdict import FAST, RTOL, Case, Result
+from wetdoublet.solvers.verify.stress.verdict import FAST, Case, Result
 
 from ...helpers.command import quiet
 
@@ -139,71 +134,6 @@ def test_failures_are_told_apart() -> None:
     assert kinds == [("failure", "")]
 
 
-def test_the_sample_is_the_same_again_and_covers_its_ranges() -> None:
-    """Fixed by its seed; every law, e_dry from 0 to 1, and both sides of a boundary at all its distances."""
-    cases = sample(240, SEED)
-    assert [case.scene for case in cases[::20]] == [case.scene for case in sample(240, SEED)[::20]]
-    drawn = [case.scene for case in cases if case.kind == "sampled"]
-    stokes = np.array([scene.stokes for scene in drawn], dtype=float)
-    assert stokes.min() < 1e-5
-    assert stokes.max() > 1e3
-    assert {scene.bridge.law if scene.bridge else None for scene in drawn} >= {None, "mikami", "lambert", "constant"}
-    assert {scene.pendulum is None for scene in drawn} == {True, False}
-    assert {scene.particles.dry_restitution for scene in drawn} >= {0.0, 1.0}
-    assert any(scene.angle == 0 for scene in drawn)
-    assert {(scene.wall, scene.pair) for scene in drawn} >= {(True, False), (False, True), (False, False)}
-    assert {scene.model.film for scene in drawn} == set(LAWS["film"])
-    for part in ("particles.friction", "impact.spin", "impact.partner_spin", "attraction.hamaker"):
-        assert {part in dict(scene.given) for scene in drawn} == {True, False}
-    beside = [case for case in cases if case.kind == "beside"]
-    assert {case.distance for case in beside} == set(DISTANCES)
-    assert len({case.expected for case in beside}) > 1
-
-
-def test_without_a_count_there_are_as_many_scenes_as_the_help_says() -> None:
-    """The value of a bare `--stress` stands in its line of the help, and is one that a person waits for."""
-    option = next(each for each in verify.params if each.name == "stress")
-    assert f"[{option.flag_value}]" in option.help and int(option.flag_value) == 500
-
-
-WEAK = {"model.glass": "film-corrected"}  # its pressure starts at 0 at x0
-PULLING = {  # let go almost at rest: together in a quarter of the pendulum's period, the film takes little
-    "particles": {"reduced_radius": 2.78663e-3, "density": 12787.3, "roughness": 3.84872e-9, "dry_restitution": 0.3826},
-    "liquid": {"viscosity": 5.81449e-05, "film_thickness": 0.00184799, "glass_transition_pressure": 67044200.0},
-    "pendulum": {"length": 10.2548, "gravity": 2.76018, "law": "small-angle"},
-    "impact": {"stokes": 0.000165219, "angle": 0.175441},
-}
-TURNING = {  # at rest on each other on strings, turned by more than half a turn in one step
-    "particles": {"reduced_radius": 1.43708e-6, "density": 5703.26, "roughness": 6.49216e-11, "dry_restitution": 0.024},
-    "liquid": {"viscosity": 260.591, "film_thickness": 5.19487e-08, "glass_transition_pressure": 32925200.0},
-    "bridge": {"surface_tension": 0.326788, "volume": 0.000536649, "contact_angle": 1.23736, "law": "willett"},
-    "pendulum": {"length": 0.00351029, "gravity": 5.17709, "law": "small-angle"},
-    "impact": {"stokes": 3.57656e-06, "angle": 1.54463},
-}
-
-
-def test_scenes_at_the_edge_of_what_doubles_hold() -> None:
-    """Each was found by the stress test: a pull of 1e13 m v0^2/x0, a long step."""
-    first = collide(Scene.from_dict(PULLING), engine="rosenbrock").events[0]
-    assert (first.kind, first.time) == ("rough", pytest.approx(math.pi / 2 * math.sqrt(10.2548 / 2.76018), rel=1e-3))
-    turned = collide(Scene.from_dict(TURNING), engine="rosenbrock")
-    assert turned.outcome == "stick"
-    assert [event.kind for event in turned.events][-2:] == ["rests", "half turn"]
-
-
-@pytest.mark.parametrize(("preset", "glass"), [("granulation", "1e-8 Pa"), ("granulation-dry-bridge", "1e-12 Pa")])
-def test_a_weak_glass_just_after_first_touch(preset: str, glass: str) -> None:
-    """The film-corrected pressure meets a tiny p_gt within rounding of x0: no engine loses it.
-
-    There 1/x^2 - 1/x0^2 is what rounding leaves of it, so that it can be met no closer than that.
-    """
-    scene = Scene.load(preset).with_entries(WEAK | {"liquid.glass_transition_pressure": glass})
-    located = collide_many(scene, stokes=3.0, angle=math.radians(50)).restitution.values[0]
-    found = collide(scene, stokes=3.0, angle="50 deg", engine="rosenbrock")
-    assert found.reversal == "glass"
-    assert found.restitution == pytest.approx(located, rel=1e3 * RTOL)
-
-
 def test_an_interrupt_keeps_what_is_judged(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -222,11 +152,3 @@ def test_an_interrupt_keeps_what_is_judged(
     assert " of 12 scenes, " in out.strip().splitlines()[-1]
     assert "interrupted" in err
     assert 1 <= len(json.loads((tmp_path / "stress.json").read_text())["cases"]) <= 11
-
-
-def test_ranges_that_laws_leave_are_counted_once(recwarn: pytest.WarningsRecorder) -> None:
-    """A case outside the range of its bridge law says so in its verdict, without the value, and warns of nothing."""
-    scene = Scene.load("granulation").with_entries({"bridge.law": "willett-simple"}).with_impact(angle="60 deg")
-    verdict = judge(Case("one", scene), {"rosenbrock": lambda s, r: checking.chained(s, r, "rosenbrock")})
-    assert verdict.remarks == ("bridge.volume above 0.001, outside the range of the law willett-simple",)
-    assert not recwarn.list

@@ -59,18 +59,6 @@ def test_a_damaged_entry_is_made_again(verdicts: Verdicts, tmp_path: Path, capfd
     assert "was damaged" in capfd.readouterr().err
 
 
-def test_an_interrupted_run_keeps_none(verdicts: Verdicts) -> None:
-    """What was made before an interrupt is no whole set of verdicts."""
-
-    def interrupted() -> Iterator[Finding]:
-        yield FINDINGS[0]
-        raise KeyboardInterrupt
-
-    with pytest.raises(KeyboardInterrupt):
-        list(kept_verdicts("a", interrupted))
-    assert verdicts("a") == FINDINGS
-
-
 def test_the_key_has_the_laws_and_the_settings(monkeypatch: pytest.MonkeyPatch) -> None:
     """Other laws, and other settings of sympy's, are another key."""
     keys = {symbolic_key({}), symbolic_key({"bridge": "mikami"}), symbolic_key({"bridge": "willett"})}

@@ -124,20 +124,6 @@ def report() -> Report:
     )
 
 
-def test_the_report_on_a_terminal() -> None:
-    """What failed and why in the first line, then failures with what they say, a summary that names them at the end."""
-    text = str(report())
-    lines = text.splitlines()
-    why = "energy ledger (Numeric: s): 3.0e-06, bound 1.0e-08, at St 1, 30 deg, cvodes"
-    assert lines[:3] == [f"1 of 2 checks FAIL, 1 note: {why}", "", "Failed"]
-    assert lines[4].startswith("FAIL") and "3.0e-06 <= 1.0e-08" in lines[4] and "at St 1, 30 deg, cvodes" in lines[4]
-    assert max(map(len, lines[1:])) <= 100
-    assert lines[-1] == "1 of 2 checks FAIL, 1 note: energy ledger (Numeric: s)"
-    good = Report(report().findings[:1])
-    lines = str(good).splitlines()
-    assert "Failed" not in str(good) and lines[0] == lines[-1] == "1 checks hold"
-
-
 def test_the_command_names_the_law_the_figure_and_the_place(monkeypatch, tmp_path) -> None:
     """Exit 1; one line on standard error: which law, by how much, where."""
     monkeypatch.setattr("wetdoublet.solvers.verify.verify", lambda scene, progress, recompute: report())
@@ -146,22 +132,6 @@ def test_the_command_names_the_law_the_figure_and_the_place(monkeypatch, tmp_pat
     assert result.exit_code == 1
     line = "energy ledger (Numeric: s): 3.0e-06, bound 1.0e-08, at St 1, 30 deg, cvodes"
     assert result.stderr == f"verify: {line}\n"
-
-
-def test_an_interrupted_command_says_what_it_has_checked(monkeypatch) -> None:
-    """Exit 130; the findings made so far are on standard output, what they leave open on standard error."""
-
-    def stopped(scene, progress, recompute):
-        for finding in report().findings:
-            progress(finding)
-        raise KeyboardInterrupt
-
-    monkeypatch.setattr("wetdoublet.solvers.verify.verify", stopped)
-    result = run("verify", "granulation")
-    assert result.exit_code == 130
-    assert result.stdout.rstrip("\n") == str(report())
-    last = report().findings[-1].name
-    assert result.stderr == f"interrupted after 3 checks, the last of them {last}; what follows is not checked\n"
 
 
 SILICA = {"particles.roughness": 1.5e-7, "liquid.film_thickness": 2e-6, "liquid.viscosity": 8e-3}

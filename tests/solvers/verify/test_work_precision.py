@@ -1,16 +1,10 @@
 """`bench`: cost and error of the engines on a scene's collisions, and the setting recommended. No time is asserted."""
 
-import json
-import math
 from dataclasses import replace
-from pathlib import Path
 
 import pytest
 from wetdoublet.solvers import Scene, collide
-from wetdoublet.solvers.verify.work_precision import ANGLES, STOKES, Row, WorkPrecision, work_precision
-from wetdoublet.solvers.verify.work_precision_report import draw, text, to_dict
-
-from ...helpers.command import run
+from wetdoublet.solvers.verify.work_precision import Row, WorkPrecision, work_precision
 
 RTOLS = (1e-5, 1e-8)
 PENDULUM = Scene.load("pendulum")
@@ -54,21 +48,6 @@ def test_every_engine_is_measured_at_every_tolerance(measured: WorkPrecision) ->
         assert tight.single > 0
 
 
-@pytest.mark.slow
-def test_text_and_json_say_the_same(measured: WorkPrecision, tmp_path: Path) -> None:
-    """A line of the table a row, the recommendation of both, and a picture."""
-    said, record = text(measured, 1e-6), json.loads(json.dumps(to_dict(measured, 1e-6), allow_nan=False))
-    assert "St 0.65 to 2.6, angle 40 to 50 deg (about the scene's impact)" in said
-    assert sum(line.startswith(("| cvodes", "| rosen", "| taylor")) for line in said.splitlines()) == len(
-        record["rows"]
-    )
-    for each in record["recommended"]:
-        assert f"* {each['use']}: {each['engine']}, rtol {each['rtol']:.0e}" in said
-        assert each["reason"] in said
-    draw(measured, 1e-6, tmp_path / "bench.png")
-    assert (tmp_path / "bench.png").read_bytes()[:4] == b"\x89PNG"
-
-
 def _row(engine: str, rtol: float, error: float | None, cost: float, **more: int) -> Row:
     counts = {"wrong": 0, "failed": 0, "handed_over": 0} | more
     return Row(engine, rtol, error, error, cost, cost / 10 if rtol > 1e-6 else None, **counts)
@@ -95,25 +74,3 @@ def test_the_cheapest_setting_that_keeps_the_error_is_recommended(
     found = replace(measured, rows=rows, uncertainty=1e-13).recommend(wanted)
     assert [(each.engine, each.rtol) for each in found] == [one, batch]
     assert all(each.reason for each in found)
-
-
-@pytest.mark.slow
-def test_a_scene_without_an_impact_has_the_default_sample() -> None:
-    """It is said, and within its ranges; impacts that differ from those of the scene's own."""
-    bare = Scene.from_dict({key: table for key, table in PENDULUM.to_dict().items() if key != "impact"})
-    found = work_precision(bare, (1e-4,), single=2, batch=4)
-    assert "the scene has no impact" in found.sample
-    assert all(STOKES[0] <= each.stokes <= STOKES[1] for each in found.impacts)
-    assert all(ANGLES[0] <= each.angle <= ANGLES[1] for each in found.impacts)
-
-
-@pytest.mark.slow
-def test_sticks_have_no_error(tmp_path: Path) -> None:
-    """Where all collisions stick only outcomes count; all three files are in the folder of --out."""
-    done = run("bench", "granulation", "--stokes", "1e-5", "--angle", "30 deg", "--json", "--out", str(tmp_path / "b"))
-    assert done.exit_code == 0, done.output
-    record = json.loads(done.stdout)
-    assert record["separate"] == 0
-    assert {row["error"]["restitution"] for row in record["rows"]} == {None}
-    assert math.isclose(record["recommended"][0]["rtol"], 1e-4)
-    assert sorted(file.name for file in (tmp_path / "b").iterdir()) == ["bench.json", "bench.png", "bench.txt"]

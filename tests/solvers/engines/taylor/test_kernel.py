@@ -9,7 +9,6 @@ import pytest
 from wetdoublet.solvers import Scene, collide, collide_many, sensitivities
 from wetdoublet.solvers.engines.taylor import build as library
 from wetdoublet.solvers.engines.taylor import headers
-from wetdoublet.solvers.errors import ComputationError
 from wetdoublet.solvers.host.compiler import compiler
 from wetdoublet.solvers.scene.scenefile import PRESETS
 
@@ -77,26 +76,6 @@ def test_collisions_that_end_at_initial_contact_do_not_move():
     np.testing.assert_allclose(found["restitution"], 0.9, rtol=1e-15)
     np.testing.assert_allclose(found["tangential_restitution"], 1.0, rtol=1e-14)
     np.testing.assert_allclose(found["smallest_gap"], 5e-6, rtol=1e-15)
-
-
-def test_the_engine_of_many(monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str], tmp_path: Path) -> None:
-    """One collision, a few and many go to the kernel and have the same bits; without a compiler the error names one."""
-    monkeypatch.setenv("WETDOUBLET_CACHE", str(tmp_path))
-    monkeypatch.setenv("WETDOUBLET_CFLAGS", QUICK)  # flags with which no kernel is shipped
-    library.kernel.cache_clear()
-    few = collide_many("granulation", stokes=[0.02] * 3, angle=1.3)
-    lots = collide_many("granulation", stokes=[0.02] * 101, angle=1.3)
-    assert (few.attrs["engine"], lots.attrs["engine"]) == ("taylor", "taylor")
-    assert lots.restitution.values[0] == few.restitution.values[0]
-    monkeypatch.setenv("WETDOUBLET_NO_COMPILER", "1")
-    compiler.cache_clear()
-    library.kernel.cache_clear()
-    try:
-        with pytest.raises(ComputationError, match=r"\.\[compiler\]"):
-            collide_many("granulation", stokes=0.02, angle=1.3)
-    finally:
-        compiler.cache_clear()
-        library.kernel.cache_clear()
 
 
 def test_a_kernel_is_compiled_once(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):

@@ -14,7 +14,7 @@ SAMPLE: list[list[Any]] = [
     ["random", "granulation-dry-bridge", "plain", True, 1000],
     ["random", "granulation-dry-bridge", "ledger and trajectory", True, 300],
     ["random", "granulation-dry-bridge", "steps not kept", True, 300],
-    ["random", "granulation", "forwards", False, 300],
+    ["random", "granulation-dry-bridge", "forwards", False, 300],
     ["random", "granulation", "backwards", False, 300],
     ["enclosed", "granulation", 30],
 ]

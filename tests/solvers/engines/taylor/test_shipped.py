@@ -13,9 +13,6 @@ from wetdoublet.solvers.engines import machine, ship
 from wetdoublet.solvers.engines.kernels import needed
 from wetdoublet.solvers.engines.settings import RTOL
 from wetdoublet.solvers.engines.taylor import shipped
-from wetdoublet.solvers.engines.taylor.orders import order_backward
-from wetdoublet.solvers.engines.taylor.tangent import variant_of
-from wetdoublet.solvers.fitting.fit import RTOL as FIT_RTOL
 from wetdoublet.solvers.host.compiler import compiler
 from wetdoublet.solvers.scene.scenefile import PRESETS
 
@@ -118,16 +115,6 @@ def test_a_lesser_processor_loads_the_baseline(built: Path, tmp_path: Path) -> N
     assert float.fromhex(narrow[1]) == pytest.approx(float.fromhex(wide[1]), rel=1e-9)  # the tolerance
     with pytest.raises(subprocess.CalledProcessError):
         build(tmp_path / "unknown", "x86-64-v9")
-
-
-@pytest.mark.parametrize("rtol", [RTOL, FIT_RTOL])
-def test_derivatives_at_default_tolerances_are_shipped(rtol: float) -> None:
-    """Of collisions and of fits, which have a looser default; for every preset in which the laws are the usual ones."""
-    there = set(ship.variants())
-    for name in ("granulation", "pendulum", "granulation-dry-bridge"):
-        for oblique in (True, False):
-            variant = variant_of(Scene.load(name), oblique, order_backward(rtol), rotation=False, backward=True)
-            assert variant in there
 
 
 @pytest.mark.slow
