@@ -21,10 +21,22 @@ import sympy as sp
 from ..physics.law import RANGES, Law, Range
 from ..physics.references import Reference
 from ..physics.slots import SLOTS, places
+from ..physics.terms import VELOCITIES
 from ..vocabulary.allowed_values import Bounds, BoundsError
-from ..vocabulary.dimensions import ENERGY, ONE, Dimension, DimensionError, UnitError, dimension_of, dimension_of_unit
+from ..vocabulary.dimensions import (
+    ENERGY,
+    FORCE,
+    ONE,
+    Dimension,
+    DimensionError,
+    UnitError,
+    dimension_of,
+    dimension_of_unit,
+)
 from ..vocabulary.quantities import DIMENSIONS, VOCABULARY, omega, u, x, xi
+from ..vocabulary.quantities import t as time
 from . import own_events
+from .kinks import guarded
 from .names import EMITTED, taken
 
 _LAW_NAME = re.compile(r"[a-z][a-z0-9]*(-[a-z0-9]+)*")
@@ -127,6 +139,8 @@ class Declarations:
     laws: dict[tuple[str, str], Proposed] = field(default_factory=dict)
     events: dict[str, own_events.Proposed] = field(default_factory=dict)
     positive: list[sp.Expr] = field(default_factory=list)
+    energies: list[sp.Expr] = field(default_factory=list)
+    forces: list[tuple[str, sp.Expr]] = field(default_factory=list)
 
 
 _here = ContextVar("declarations", default=Declarations())  # noqa: B039 -- of a model file that is run directly
@@ -383,15 +397,65 @@ def event(
     return mark
 
 
+def energy(expression: object) -> None:
+    """Add a term to the energy of the motion, J: a potential of x and beta, or squares of u, omega and xi.
+
+    Several add up. A kinetic one is added inertia: its factors may depend on x and beta. The equations follow from the
+    Lagrangian; in the ledger the energy is of `own_terms`.
+
+    Raises:
+        ModelFileError: names what is wrong, and what is accepted.
+    """
+    there = _declarations()
+    value = _of_term("energy", expression, there, ENERGY)
+    whole, squares = unfolded(value, there), {rate: rate**2 for rate in VELOCITIES.values()}
+    inertia = {rate: sp.simplify(whole.diff(rate, 2)) for rate in squares}
+    kinetic = sp.Add(*(inertia[rate] * square / 2 for rate, square in squares.items()))
+    left = sp.simplify(whole - whole.subs(dict.fromkeys(squares, 0)) - kinetic)
+    if left != 0 or any(part.free_symbols & squares.keys() for part in inertia.values()):
+        accepted = "a potential of x and beta, and squares of u, omega and xi, as added*u**2/2"
+        raise ModelFileError("energy", str(value), accepted, "is neither a potential nor a kinetic energy")
+    there.energies.append(value)
+
+
+def force_on(coordinate: str, expression: object) -> None:
+    """Add a generalised force, by virtual work: N on the "gap", positive outward; N m on the "rotation" or "spin".
+
+    A torque on the rotation turns the line of centres, one on the spin both spheres alike. Several add up. In the ledger
+    the work is of `own_terms`.
+
+    Raises:
+        ModelFileError: names what is wrong, and what is accepted.
+    """
+    there, label = _declarations(), f"force_on {coordinate}"
+    if coordinate not in VELOCITIES:
+        raise ModelFileError("force_on", coordinate, ", ".join(VELOCITIES), "is no coordinate")
+    value = _of_term(label, expression, there, FORCE if coordinate == "gap" else ENERGY)
+    there.forces.append((coordinate, value))
+
+
+def _of_term(label: str, value: object, there: Declarations, wanted: Dimension) -> sp.Expr:
+    """The expression of a term: of the motion, but not of the time or of events, and smooth along a trajectory."""
+    result = _of_event(label, value, there, wanted)
+    whole, marks = unfolded(result, there), {known.mark for known in there.events.values()}
+    for symbol in sorted(whole.free_symbols & {time, *marks}, key=str):
+        problem = "is in a term: resting contact would not end with it"
+        raise ModelFileError(label, str(symbol), "an expression of x, u, omega, xi, beta and quantities", problem)
+    if kinks := guarded(whole, own_events.MOVING):
+        accepted = "a smooth expression, as sqrt(u**2 + c**2) for Abs(u); laws and events may have kinks"
+        raise ModelFileError(label, str(kinks[0]), accepted, "has a kink where it vanishes")
+    return result
+
+
 def _of_event(label: str, value: object, there: Declarations, wanted: Dimension | None = None) -> sp.Expr:
-    """An expression of an event, its symbols and its dimension judged."""
+    """An expression of an event or a term, its symbols and its dimension judged."""
     result = _expression(label, value)
     whole = unfolded(result, there)
     dimensions = {one.symbol: one.dimension for one in there.quantities.values()}
     dimensions |= {known.mark: ONE for known in there.events.values()}
     for symbol in sorted(whole.free_symbols, key=str):
         if symbol not in dimensions and not own_events.may_use(symbol):
-            raise ModelFileError(label, str(symbol), own_events.ACCEPTED, "is not known to an event")
+            raise ModelFileError(label, str(symbol), own_events.ACCEPTED, f"is not known to {label.partition(' ')[0]}")
     try:
         dimension = dimension_of(whole, {**DIMENSIONS, **dimensions})
     except DimensionError as error:

@@ -7,10 +7,12 @@ from itertools import combinations
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from ..equations.model import GROUPS, Model
+from ..equations.model import GROUPS, Model, derive
 from ..physics.law import Definition, Law, LawFunction, is_slot_call
 from ..physics.scaling import ScalingError, cancelled, dimension_matrix, dimensional, group_definitions, to_groups
 from ..physics.slots import MOTION, Place, place_of
+from ..physics.structure import Structure
+from ..physics.terms import VELOCITIES, Terms
 from ..vocabulary.dimensions import ONE, Dimension, DimensionError, dimension_of
 from ..vocabulary.quantities import DIMENSIONS, VOCABULARY, a, m, mu, normal_velocity, rate_scale, u, v0, x, x0
 from . import own_events
@@ -53,6 +55,7 @@ class UserModel:
     groups: tuple[Group, ...]
     extra: Mapping[str, tuple[sp.Symbol, ...]]
     events: tuple[OwnEvent, ...] = ()
+    terms: Terms | None = None
 
     @property
     def slots(self) -> tuple[str, ...]:
@@ -65,6 +68,10 @@ class UserModel:
     @property
     def accepted(self) -> set[str]:
         return {check for law in self.declarations.laws.values() for check in law.accept}
+
+    def derived(self, structure: Structure) -> Model:
+        """The model of a structure with all that the file declares."""
+        return self.extended(derive(replace(structure, terms=self.terms)))
 
     def extended(self, model: Model) -> Model:
         """A structure's model with the additional arguments in its calls, and the groups that they require."""
@@ -88,7 +95,7 @@ class UserModel:
         reached |= own_events.groups_of(self.events, model.structure)
         known = {*model.groups, *reached}
         groups = [group for group in GROUPS if group in known]
-        groups += [group.symbol for group in self.groups if group.symbol in reached]
+        groups += [group.symbol for group in self.groups if group.symbol in known]
         wider = replace(model, groups=tuple(groups), functions=functions, definitions=definitions)
         return own_events.extended(wider, self.events)
 
@@ -111,14 +118,31 @@ def express(name: str, meaning: str, declared: Declarations) -> UserModel:
     still = {*GROUPS, *(group.symbol for group in groups.values())}
     written = tuple(laws)
     laws = [replace(law, functions=tuple(smooth(f, still, declared.positive) for f in law.functions)) for law in laws]
+    terms = _terms(declared, groups)
     called = {symbol for symbols in extra.values() for symbol in symbols}
     events = tuple(_event(one, declared, groups, called) for one in declared.events.values())
-    used = called.union(*(one.symbols for one in events))
+    used = called.union(*(one.symbols for one in events), terms.symbols if terms else ())
     kept = tuple(group for group in groups.values() if group.symbol in used)
     unused = [one.name for one in declared.quantities.values() if one.name not in {g.quantity.name for g in kept}]
     if unused:
-        raise ScalingError(f"{', '.join(unused)}: declared, but no law or event depends on it")
-    return UserModel(name, meaning, declared, tuple(laws), written, printed, kept, extra, events)
+        raise ScalingError(f"{', '.join(unused)}: declared, but no law, term or event depends on it")
+    return UserModel(name, meaning, declared, tuple(laws), written, printed, kept, extra, events, terms)
+
+
+def _terms(declared: Declarations, groups: Mapping[str, Group]) -> Terms | None:
+    """The declared terms with their quantities as groups; None without any."""
+    if not (declared.energies or declared.forces):
+        return None
+    quantities = _as_groups(groups)
+
+    def put(*parts: sp.Expr) -> sp.Expr:
+        return sp.sympify(sp.Add(*(unfolded(part, declared) for part in parts))).xreplace(quantities)
+
+    energy = put(*declared.energies)
+    potential = energy.subs(dict.fromkeys(VELOCITIES.values(), 0))
+    forces = {on: put(*(part for name, part in declared.forces if name == on)) for on in VELOCITIES}
+    acting = tuple((on, force) for on, force in forces.items() if force != 0)
+    return Terms(sp.expand(energy - potential), potential, acting, tuple(group.symbol for group in groups.values()))
 
 
 def _event(
@@ -184,6 +208,7 @@ def _scale(one: Declared, declared: Declarations) -> sp.Expr:
         for name, formula in known.functions.items()
     ]
     functions += [(each, sp.Integer(1)) for event in declared.events.values() for each in event.expressions]
+    functions += [(each, sp.Integer(1)) for each in (*declared.energies, *(force for _, force in declared.forces))]
     near: list[sp.Symbol] = []
     for expression, scale in functions:
         full = unfolded(expression, declared)

@@ -310,6 +310,8 @@ def _energy(collision: Outcome) -> list[str]:
         terms.append(("strings", energy.strings))
     if energy.own_events is not None:
         terms.append(("declared events", energy.own_events))
+    if energy.own_terms is not None:
+        terms.append(("declared terms", energy.own_terms))
     rows = [(name, _exponent(value, 3), value) for name, value in terms]
     rows.append(("residual", _exponent(energy.residual, 1), energy.residual))
     if max(abs(value) for _, value in terms) > _SCALE * energy.initial:

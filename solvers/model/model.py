@@ -44,7 +44,10 @@ def select_model(scene: Scene, oblique: bool, full: bool = False, fold: bool = F
     partner = "space" if space else partner
     friction = oblique and scene.particles.friction is not None
     free = oblique and partner in ("", "space") and scene.pendulum is None and scene.law_has("arm", "balanced")
-    turned = scene.package is not None and any(each.spins for each in scene.package.events)  # by a declared event
+    package = scene.package
+    turned = package is not None and (  # by a declared event or term
+        any(each.spins for each in package.events) or (package.terms is not None and package.terms.rotates)
+    )
     reduced = free and not full and not friction and not turned
     spread = scene.law_has("film", "spread")
     words = {
@@ -69,7 +72,9 @@ def select_model(scene: Scene, oblique: bool, full: bool = False, fold: bool = F
         laws.append(("strings", scene.pendulum.law))
     if scene.attraction is not None:
         laws.append(("attraction", scene.law_of("attraction")))
-    return ModelKey("_".join(parts), tuple(laws), scene.package)
+    if package is not None:
+        package.check_terms("_".join(parts))
+    return ModelKey("_".join(parts), tuple(laws), package)
 
 
 def _structure(choice: ModelKey) -> ModuleType:
@@ -168,6 +173,11 @@ class Model:
     def own_events(self) -> tuple[OwnEvent, ...]:
         package = self.choice.package
         return () if package is None else package.events_in(self.choice.structure)
+
+    @property
+    def own_terms(self) -> bool:
+        """True if a user's model adds terms to the equations."""
+        return self.choice.package is not None and self.choice.package.terms is not None
 
     @cached_property
     def events(self) -> tuple[Event, ...]:
