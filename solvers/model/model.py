@@ -72,8 +72,6 @@ def select_model(scene: Scene, oblique: bool, full: bool = False, fold: bool = F
         laws.append(("strings", scene.pendulum.law))
     if scene.attraction is not None:
         laws.append(("attraction", scene.law_of("attraction")))
-    if package is not None:
-        package.check_terms("_".join(parts))
     return ModelKey("_".join(parts), tuple(laws), package)
 
 

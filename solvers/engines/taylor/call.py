@@ -98,6 +98,8 @@ def variant(
     """The kernel of a scene's collisions at a tolerance; arguments as of `run_recorded` and `select_model`."""
     own_rupture = scene.bridge is not None and scene.bridge.rupture == "own"
     choice = select_model(scene, oblique, full=ledger, fold=fold, space=space)
+    if scene.package is not None:
+        scene.package.check_terms(choice.structure)
     return Variant(choice, order_for(rtol), rotation and not space, own_rupture, ledger=ledger, trajectory=trajectory)
 
 
