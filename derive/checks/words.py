@@ -28,6 +28,24 @@ def torque(model: UserModel, law: Law | None = None) -> sp.Expr:
     return sp.simplify(rate) if lever.is_rational_function() else rate
 
 
+def _of_terms(model: UserModel) -> list[str]:
+    """Sentences on what the declared terms are shown to do, and on the proofs that remain."""
+    terms = model.terms
+    if terms is None:
+        return []
+    acts = [f"a force on the {on}" for on, _ in terms.forces] + ["inertia"] * (terms.kinetic != 0)
+    line = f"Terms: {', '.join([*acts, *['a potential'] * (terms.potential != 0)])}. "
+    if terms.forces:
+        line += "The forces are shown to only take energy. " if terms.takes else "That the forces only take energy is not shown. "
+    if terms.admits_barrier:
+        line += "Of the stick proofs, that by an energy barrier holds, and that by the film alone beside a mere drag."
+    else:
+        line += "No stick is proved: no barrier of the energy is known."
+    if terms.rotates:
+        line += " They are of equal spheres in a plane, whose spin is then not eliminated by the angular momentum."
+    return [line]
+
+
 def _of_event(event: OwnEvent) -> str:
     """A sentence on what the checks show of a declared event."""
     ends = {"": "", "separated": ", ends the collision as separated", "stick": ", cuts the collision off as a stick"}
@@ -59,6 +77,7 @@ def in_words(model: UserModel) -> tuple[str, ...]:
         lines = [f"Conserved without strings, for every law in the other slots: {'; '.join(conserved(model))}."]
     else:
         lines = [f"Angular momentum is not conserved: d/dt of L over its scale is {torque(model)}."]
+    lines += _of_terms(model)
     takers = "Mechanical energy is not conserved: film and shear take it, the solids' dry contact as well"
     lines.append(f"{takers}; the bridge stores it (its force depends on the gap alone).")
     groups = model.derived(BRIDGED).groups

@@ -103,6 +103,9 @@ def taken(structure: Structure) -> dict[str, sp.Expr]:
     return {"own_work": value} if value != 0 else {}
 
 
-def orbital_inertia(structure: Structure) -> sp.Expr | None:
-    """A factor with which a declared inertia of the rotation enters an angular momentum: 1/r^2; None without one."""
-    return DISTANCE**-2 if structure.terms is not None and _SHARE["rotation"] in dict(definitions(structure)) else None
+def orbital_inertia(structure: Structure | None) -> sp.Expr | None:
+    """The share of the orbital momentum that a declared inertia of the rotation adds, if it varies with the gap; or None."""
+    if structure is None or structure.terms is None:
+        return None
+    share = dict(definitions(structure)).get(_SHARE["rotation"])
+    return share if share is not None and q.gap in share.free_symbols else None

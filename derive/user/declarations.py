@@ -455,7 +455,7 @@ def _of_event(label: str, value: object, there: Declarations, wanted: Dimension 
     dimensions |= {known.mark: ONE for known in there.events.values()}
     for symbol in sorted(whole.free_symbols, key=str):
         if symbol not in dimensions and not own_events.may_use(symbol):
-            raise ModelFileError(label, str(symbol), own_events.ACCEPTED, f"is not known to {label.partition(' ')[0]}")
+            raise ModelFileError(label, str(symbol), own_events.ACCEPTED, f"is not known to {'an event' if label.startswith('event') else 'a term'}")
     try:
         dimension = dimension_of(whole, {**DIMENSIONS, **dimensions})
     except DimensionError as error:

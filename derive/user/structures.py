@@ -69,6 +69,11 @@ class UserModel:
     def accepted(self) -> set[str]:
         return {check for law in self.declarations.laws.values() for check in law.accept}
 
+    @property
+    def terms_in_si(self) -> Terms | None:
+        """The terms in the quantities of the file."""
+        return _terms(self.declarations, {})
+
     def derived(self, structure: Structure) -> Model:
         """The model of a structure with all that the file declares."""
         return self.extended(derive(replace(structure, terms=self.terms)))
