@@ -59,6 +59,10 @@ def checks_of(model: UserModel) -> tuple[Check, ...]:
     result += _term_checks(model)
     for law, emitted in zip(model.written, model.laws, strict=True):
         result += _law_checks(model, law, emitted)
+    names = {part for check in result for part in (check.name, check.name.partition(":")[0])}
+    for foreign in sorted(model.accepted - names):
+        choices = ", ".join(dict.fromkeys(check.name.partition(":")[0] for check in result))
+        result.append(Check("accept", "what a law accepts are checks", False, f"{foreign!r} is none; accepted: {choices}"))
     return tuple(_accepted(model, check) for check in result)
 
 

@@ -61,7 +61,7 @@ def header_text(kind: str, name: str) -> str:
 def user_structure_header_text(source: str, model: str, name: str, tangent: bool = False) -> str:
     """Text of the C header of a structure, or of its tangent, with the calls and groups of a user's model."""
     user_model = _model(source, model)
-    groups = {group.symbol: group.definition for group in user_model.groups}
+    groups = {group.symbol: group.definition for group in user_model.groups} | user_model.gaps
     beside = Beside(groups, own_names(user_model), user_model.extra, user_model.events)
 
     def text() -> str:

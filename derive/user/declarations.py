@@ -26,6 +26,7 @@ from ..vocabulary.allowed_values import Bounds, BoundsError
 from ..vocabulary.dimensions import (
     ENERGY,
     FORCE,
+    LENGTH,
     ONE,
     Dimension,
     DimensionError,
@@ -128,6 +129,21 @@ class Proposed:
     falls: bool
 
 
+@dataclass(frozen=True)
+class Criterion:
+    """A rebound criterion as declared: the gap in SI at which it is met, and its group, that gap over x0."""
+
+    name: str
+    gap: sp.Expr
+    group: sp.Symbol
+    meaning: str
+    source: str
+
+    @property
+    def word(self) -> str:
+        return self.name.replace("_", " ")
+
+
 @dataclass
 class Declarations:
     """Everything that a file declares, in order; `taken` are names of laws by slot that are the library's."""
@@ -141,6 +157,7 @@ class Declarations:
     positive: list[sp.Expr] = field(default_factory=list)
     energies: list[sp.Expr] = field(default_factory=list)
     forces: list[tuple[str, sp.Expr]] = field(default_factory=list)
+    criteria: dict[str, Criterion] = field(default_factory=dict)
 
 
 _here = ContextVar("declarations", default=Declarations())  # noqa: B039 -- of a model file that is run directly
@@ -279,6 +296,11 @@ def law(
         raise ModelFileError(label, foreign, "the functions " + ", ".join(known), "is no function of this slot")
     for missing in (function for function, place in known.items() if place.required and function not in functions):
         raise ModelFileError(f"{label}.{missing}", None, f"{missing} = an expression", "is missing")
+    for option, value in (("falls", falls), ("spread", spread)):
+        if not isinstance(value, bool):
+            raise ModelFileError(f"{label}.{option}", value, "True, False")
+    if not isinstance(accept, tuple | list) or not all(isinstance(check, str) for check in accept):
+        raise ModelFileError(f"{label}.accept", accept, 'names of checks, as ("angular momentum",)', "is no list of them")
     if spread and slot != "film":
         raise ModelFileError(f"{label}.spread", spread, "no such argument", "is of a film")
     formulas = {f: _formula(f"{label}.{f}", functions[f]) for f in known if f in functions}
@@ -397,6 +419,36 @@ def event(
     return mark
 
 
+def criterion(name: str, *, gap: object, meaning: str = "", source: str = "") -> None:
+    """Declare a rebound criterion: the doublet rebounds, as on its roughness, when the gap has closed to an expression.
+
+    Arguments:
+        name: its name in reports.
+        gap: m, of quantities and the impact speed v0, as the thickness of a soft layer; the largest gap at which any
+            criterion is met is where the solids meet.
+        meaning: what it is, as in "the gap is down to ...".
+
+    Raises:
+        ModelFileError: names what is wrong, and what is accepted.
+    """
+    there, label = _declarations(), f"criterion {name}"
+    name = name.replace(" ", "_") if isinstance(name, str) else name
+    _check_name("criterion", name, there)
+    group = f"{name}_gap"
+    _check_name(f"{label}.group", group, there)
+    if name in own_events.TAKEN_NAMES or name.replace("_", " ") in own_events.TAKEN_WORDS:
+        raise ModelFileError("criterion", name, "a name of your own", "is a word of the library")
+    _check_texts(label, meaning=meaning, source=source)
+    value = unfolded(_of_event(f"{label}.gap", gap, there, LENGTH), there)
+    marks = {known.mark for known in there.events.values()}
+    if moving := sorted(str(s) for s in value.free_symbols & {*own_events.MOVING, *marks}):
+        accepted = "a length of quantities and v0, which stays as it is during a collision"
+        raise ModelFileError(f"{label}.gap", ", ".join(moving), accepted, "varies along a trajectory")
+    meaning = meaning or f"the {name.replace('_', ' ')}"
+    symbol = sp.Symbol(group, nonnegative=True)
+    there.criteria[name] = Criterion(name, value, symbol, meaning, source or "no source given")
+
+
 def energy(expression: object) -> None:
     """Add a term to the energy of the motion, J: a potential of x and beta, or squares of u, omega and xi.
 
@@ -484,6 +536,7 @@ def _check_name(what: str, name: object, there: Declarations, in_functions: bool
         raise ModelFileError(what, name, "a name of small letters, digits and underscores")
     declared = {*there.quantities, *there.intermediates, *(known.group for known in there.quantities.values())}
     declared |= {word for known in there.events for word in (known, own_events.MARK + known)}
+    declared |= {word for known in there.criteria for word in (known, f"{known}_gap")}
     of_library = VOCABULARY.get(name)
     local = what == "let" and of_library is not None and not own_events.may_use(of_library.symbol)  # in no law
     meaning = "" if local else taken().get(name, "")

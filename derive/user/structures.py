@@ -14,9 +14,22 @@ from ..physics.slots import MOTION, Place, place_of
 from ..physics.structure import Structure
 from ..physics.terms import VELOCITIES, Terms
 from ..vocabulary.dimensions import ONE, Dimension, DimensionError, dimension_of
-from ..vocabulary.quantities import DIMENSIONS, VOCABULARY, a, m, mu, normal_velocity, rate_scale, u, v0, x, x0
+from ..vocabulary.quantities import (
+    DIMENSIONS,
+    VOCABULARY,
+    a,
+    m,
+    mu,
+    normal_velocity,
+    rate_scale,
+    rough_gap,
+    u,
+    v0,
+    x,
+    x0,
+)
 from . import own_events
-from .declarations import Declarations, Declared, Proposed, published, unfolded
+from .declarations import Criterion, Declarations, Declared, Proposed, published, unfolded
 from .kinks import freed, smooth
 from .own_events import OwnEvent
 
@@ -56,6 +69,16 @@ class UserModel:
     extra: Mapping[str, tuple[sp.Symbol, ...]]
     events: tuple[OwnEvent, ...] = ()
     terms: Terms | None = None
+
+    @property
+    def criteria(self) -> tuple[Criterion, ...]:
+        return tuple(self.declarations.criteria.values())
+
+    @property
+    def gaps(self) -> dict[sp.Symbol, sp.Expr]:
+        """The gap of each criterion over x0, and that of solid contact by roughness or by any of them: groups in SI."""
+        own = {known.group: known.gap / x0 for known in self.criteria}
+        return own | {rough_gap: sp.Max(group_definitions()[rough_gap], *own.values())} if own else {}
 
     @property
     def slots(self) -> tuple[str, ...]:
@@ -126,11 +149,13 @@ def express(name: str, meaning: str, declared: Declarations) -> UserModel:
     terms = _terms(declared, groups)
     called = {symbol for symbols in extra.values() for symbol in symbols}
     events = tuple(_event(one, declared, groups, called) for one in declared.events.values())
+    touched = set().union(*(known.gap.free_symbols for known in declared.criteria.values()))
     used = called.union(*(one.symbols for one in events), terms.symbols if terms else ())
+    used |= {group.symbol for group in groups.values() if group.quantity.symbol in touched}
     kept = tuple(group for group in groups.values() if group.symbol in used)
     unused = [one.name for one in declared.quantities.values() if one.name not in {g.quantity.name for g in kept}]
     if unused:
-        raise ScalingError(f"{', '.join(unused)}: declared, but no law, term or event depends on it")
+        raise ScalingError(f"{', '.join(unused)}: declared, but no law, term, event or criterion depends on it")
     return UserModel(name, meaning, declared, tuple(laws), written, printed, kept, extra, events, terms)
 
 
@@ -213,6 +238,7 @@ def _scale(one: Declared, declared: Declarations) -> sp.Expr:
         for name, formula in known.functions.items()
     ]
     functions += [(each, sp.Integer(1)) for event in declared.events.values() for each in event.expressions]
+    functions += [(known.gap, sp.Integer(1)) for known in declared.criteria.values()]
     functions += [(each, sp.Integer(1)) for each in (*declared.energies, *(force for _, force in declared.forces))]
     near: list[sp.Symbol] = []
     for expression, scale in functions:

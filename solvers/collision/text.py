@@ -83,7 +83,10 @@ def _cut(text: str, longest: int) -> str:
 def reason(collision: Outcome) -> str:
     """Return the reason of the outcome, in words."""
     if collision.outcome == BOUNCE and collision.reversal is not None:
-        return CRITERIA[collision.reversal].sentence
+        own = collision.scene.package.criteria if collision.scene.package is not None else ()
+        return next((known.sentence for known in own if known.word == collision.reversal), None) or (
+            CRITERIA[collision.reversal].sentence
+        )
     if collision.outcome != STICK:
         declared = _declared(collision)
         if declared is not None and declared.row.actions[-1] == "part":

@@ -86,6 +86,20 @@ class OwnEvent:
 
 
 @dataclass(frozen=True)
+class OwnCriterion:
+    """A rebound criterion that a model declares: its word in reports, and the group that is its gap."""
+
+    word: str
+    group: str
+    meaning: str
+    source: str
+
+    @property
+    def sentence(self) -> str:
+        return f"rebounded because the gap was down to {self.meaning}"
+
+
+@dataclass(frozen=True)
 class Terms:
     """What a model adds to the equations of motion, by its entry in the manifest.
 
@@ -218,10 +232,19 @@ class Package:
         entry = self.manifest.get("terms")
         return None if entry is None else Terms(**entry | {"forces": tuple(entry["forces"])})
 
+    @cached_property
+    def criteria(self) -> tuple[OwnCriterion, ...]:
+        return tuple(OwnCriterion(**entry) for entry in self.manifest.get("criteria", ()))
+
+    def touched(self, groups: Mapping[str, float]) -> str:
+        """The word of the gap at which the solids meet by roughness or by a declared criterion, at these groups."""
+        own = max(self.criteria, key=lambda known: groups[known.group], default=None)
+        return own.word if own is not None and 0 < groups["rough_gap"] <= groups[own.group] else "rough"
+
     @property
     def bends(self) -> bool:
-        """It declares what no margin, and no curve of an atlas, is known beside: events or terms."""
-        return bool(self.events) or self.terms is not None
+        """It declares what no margin, and no curve of an atlas, is known beside: events, terms or criteria."""
+        return bool(self.events or self.criteria) or self.terms is not None
 
     def check_terms(self, structure: str) -> None:
         """InputError if the terms do not apply in a structure."""
@@ -261,7 +284,7 @@ class Package:
 
     def changes(self, slots: tuple[str, ...]) -> bool:
         """True if this model changes the structure with these slots."""
-        return self.bends or self.widens(slots)
+        return bool(self.events) or self.terms is not None or bool(self.criteria) or self.widens(slots)
 
     def widens(self, slots: tuple[str, ...]) -> bool:
         """True if this model passes more arguments to the laws in these slots."""

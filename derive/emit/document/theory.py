@@ -90,10 +90,10 @@ def _motion(laws: Mapping[str, Law], terms: Terms | None) -> Iterator[Equation]:
     yield Equation(group, momentum, motion.orbital_momentum_rate + more["rotation"], "across the line of centres")
     spun = f"{_mass(mechanics.sphere_inertia() + heavier['spin'] / 2)} {_rate(q.xi)}"
     yield Equation(group, spun, turning + more["spin"] / 2, f"spin of each sphere ({laws['arm'].name} arm)")
-    yield from (Equation("Declared terms", latex(symbol), value) for symbol, value in (masses | forces).items())
     scaled, square = sp.expand(mechanics.doublet_inertia() / (q.m * q.a**2)), (4 + q.x / q.a) ** 2  # as in the paper
     inertia = sp.Mul(q.m * q.a**2, square + sp.expand(scaled - square), evaluate=False)
     yield Equation(group, f"I({latex(q.x)})", inertia, "inertia in rigid rotation")
+    yield from (Equation("Declared terms", latex(symbol), value) for symbol, value in (masses | forces).items())
 
 
 def _mass(inertia: sp.Expr) -> str:
