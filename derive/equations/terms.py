@@ -1,6 +1,7 @@
 """Terms of a model file in the states and groups of a structure: their forces and inertia by name, energy and power."""
 
 from collections.abc import Mapping
+from functools import cache
 
 import sympy as sp
 
@@ -16,12 +17,17 @@ CLOCKS = {q.beta: q.angle_turned, q.t: q.x0 / q.v0 * q.time_passed}  # states th
 _TORQUE = q.m * q.a**2 * q.rate_scale * q.v0 / q.x0
 FORCES = {"gap": INERTIA, "rotation": _TORQUE, "spin": _TORQUE}
 """The scale of a force on each coordinate."""
-_BODIES = {"gap": q.m, "rotation": q.m * q.r**2, "spin": 2 * sphere_inertia()}
 _SYMBOLS = {"gap": (Q_x, M_x), "rotation": (Q_beta, M_beta), "spin": (Q_spin, M_spin)}
 _FORCE = {on: sp.Symbol(f"own_force_on_{on}", real=True) for on in VELOCITIES}
 _SHARE = {on: sp.Symbol(f"own_inertia_of_{on}", nonnegative=True) for on in VELOCITIES}
 _AT_REST = sp.Symbol("own_force_at_rest", real=True)
 NAMES = (*_FORCE.values(), *_SHARE.values(), _AT_REST)
+
+
+@cache
+def _bodies() -> Mapping[str, sp.Expr]:
+    """The inertia of the spheres for each coordinate."""
+    return {"gap": q.m, "rotation": q.m * q.r**2, "spin": 2 * sphere_inertia()}
 
 
 def settled(label: str, value: sp.Expr, structure: Structure) -> sp.Expr:
@@ -48,7 +54,7 @@ def _scaled(structure: Structure) -> Mapping[str, tuple[sp.Expr, sp.Expr]]:
     return {
         on: (
             settled(f"force_on {on}", force / FORCES[on], structure),
-            settled(f"energy, inertia of the {on}", inertia / _BODIES[on], structure),
+            settled(f"energy, inertia of the {on}", inertia / _bodies()[on], structure),
         )
         for on, (inertia, force) in present.items()
     }
@@ -73,7 +79,7 @@ def named(structure: Structure) -> dict[sp.Symbol, sp.Expr]:
     result: dict[sp.Symbol, sp.Expr] = {}
     for on, (force, inertia) in _SYMBOLS.items():
         result[force] = FORCES[on] * _FORCE[on] if _FORCE[on] in defined else sp.S.Zero
-        result[inertia] = _BODIES[on] * _SHARE[on] if _SHARE[on] in defined else sp.S.Zero
+        result[inertia] = _bodies()[on] * _SHARE[on] if _SHARE[on] in defined else sp.S.Zero
     return result
 
 

@@ -146,9 +146,15 @@ class Criterion:
 
 @dataclass
 class Declarations:
-    """Everything that a file declares, in order; `taken` are names of laws by slot that are the library's."""
+    """Everything that a file declares, in order.
+
+    Arguments:
+        taken: names of laws by slot that are the library's.
+        library: the file is one of the library, whose names its emitted text has.
+    """
 
     taken: Mapping[str, Collection[str]] = field(default_factory=dict)
+    library: bool = False
 
     quantities: dict[str, Declared] = field(default_factory=dict)
     intermediates: dict[str, Intermediate] = field(default_factory=dict)
@@ -168,9 +174,14 @@ def _declarations() -> Declarations:
 
 
 @contextmanager
-def collecting(taken: Mapping[str, Collection[str]] | None = None) -> Iterator[Declarations]:
-    """Collect the declarations made inside the block; `taken` are names of laws by slot that none may have."""
-    token = _here.set(Declarations(taken or {}))
+def collecting(taken: Mapping[str, Collection[str]] | None = None, library: bool = False) -> Iterator[Declarations]:
+    """Collect the declarations made inside the block.
+
+    Arguments:
+        taken: names of laws by slot that none may have.
+        library: of a file of the library.
+    """
+    token = _here.set(Declarations(taken or {}, library))
     try:
         yield _here.get()
     finally:
@@ -228,7 +239,8 @@ def quantity(
 def let(name: str, expression: object, latex: str = "") -> sp.Symbol:
     """Name a part of an expression; the name is kept in print, and in emitted code unless it means something there."""
     there = _declarations()
-    written = f"{name}_" if isinstance(name, str) and name in taken().keys() - VOCABULARY.keys() else name
+    means = {} if there.library else taken()
+    written = f"{name}_" if isinstance(name, str) and name in means.keys() - VOCABULARY.keys() else name
     _check_name("let", written, there)
     value = _expression(name, expression)
     claimed = value.xreplace({part: sp.Dummy(positive=True) for part in there.positive})
@@ -539,7 +551,7 @@ def _check_name(what: str, name: object, there: Declarations, in_functions: bool
     declared |= {word for known in there.criteria for word in (known, f"{known}_gap")}
     of_library = VOCABULARY.get(name)
     local = what == "let" and of_library is not None and not own_events.may_use(of_library.symbol)  # in no law
-    meaning = "" if local else taken().get(name, "")
+    meaning = "" if local or there.library else taken().get(name, "")
     if name in declared or (meaning and (in_functions or meaning != EMITTED)):
         problem = "is taken already" + (f": it is {meaning}" if meaning else "")
         raise ModelFileError(what, name, "a name that is not taken", problem)

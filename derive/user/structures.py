@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
+from functools import cached_property
 from itertools import combinations
 
 import sympy as sp
@@ -55,8 +56,7 @@ class Group:
 class UserModel:
     """A derived model file: laws in the library's form, groups, and additional arguments of each slot's functions.
 
-    `laws` are as they are emitted, with kinks rounded; `written` has the kinks, and `si` is in SI except for the slot's
-    arguments, for print.
+    `laws` are as they are emitted, with kinks rounded; `written` has the kinks.
     """
 
     name: str
@@ -64,11 +64,15 @@ class UserModel:
     declarations: Declarations
     laws: tuple[Law, ...]
     written: tuple[Law, ...]
-    si: tuple[Law, ...]
     groups: tuple[Group, ...]
     extra: Mapping[str, tuple[sp.Symbol, ...]]
     events: tuple[OwnEvent, ...] = ()
     terms: Terms | None = None
+
+    @cached_property
+    def si(self) -> tuple[Law, ...]:
+        """The laws in SI except for the slot's arguments, for print."""
+        return tuple(_in_si(law, self.groups) for law in self.written)
 
     @property
     def criteria(self) -> tuple[Criterion, ...]:
@@ -142,7 +146,6 @@ def express(name: str, meaning: str, declared: Declarations) -> UserModel:
     marks = (one.mark for one in declared.events.values())
     extra = _extra(laws, (normal_velocity, *marks, *GROUPS, *(group.symbol for group in groups.values())))
     laws = [_widened(law, extra) for law in laws]
-    printed = tuple(_in_si(law, groups) for law in laws)
     still = {*GROUPS, *(group.symbol for group in groups.values())}
     written = tuple(laws)
     laws = [replace(law, functions=tuple(smooth(f, still, declared.positive) for f in law.functions)) for law in laws]
@@ -156,7 +159,7 @@ def express(name: str, meaning: str, declared: Declarations) -> UserModel:
     unused = [one.name for one in declared.quantities.values() if one.name not in {g.quantity.name for g in kept}]
     if unused:
         raise ScalingError(f"{', '.join(unused)}: declared, but no law, term, event or criterion depends on it")
-    return UserModel(name, meaning, declared, tuple(laws), written, printed, kept, extra, events, terms)
+    return UserModel(name, meaning, declared, tuple(laws), written, kept, extra, events, terms)
 
 
 def _terms(declared: Declarations, groups: Mapping[str, Group]) -> Terms | None:
@@ -336,9 +339,9 @@ def _settled(label: str, place: Place, expression: sp.Expr, groups: Mapping[str,
     return cancelled(label, by_term, expression)
 
 
-def _in_si(law: Law, groups: Mapping[str, Group]) -> Law:
+def _in_si(law: Law, groups: Iterable[Group]) -> Law:
     """The law with its groups as quantities, in the slot's own arguments only."""
-    back: dict[sp.Basic, sp.Basic] = {g.symbol: g.definition for g in groups.values()}
+    back: dict[sp.Basic, sp.Basic] = {g.symbol: g.definition for g in groups}
     back |= dict(group_definitions())
     functions = []
     for f in law.functions:
