@@ -54,7 +54,7 @@ def package(
     changed = {key.split(".")[0] for key in model.extra}
     digests: dict[str, str] = {}
     for structure in structures():
-        if not changed & set(derive(structure).slots):
+        if not changed & set(derive(structure).slots) or model.terms:
             continue  # declared events and terms change every structure, derived where a scene needs it
         extended = model.derived(structure)
         files[f"{structure.name}.py"] = structure_module(extended, names)
