@@ -36,7 +36,7 @@ def scene_of(number: int, folder: Path) -> tuple[Scene, dict[str, object]] | str
         if "soft" in text:
             found = found.with_entries({"liquid.glass_transition_pressure": "2 GPa"})
         if preset != "pendulum" and random.random() < 0.15:
-            found = found.with_entries(random.choice([{"partner.wall": True}, {"partner.radius": "150 um"}]))
+            found = found.with_entries(random.choice([{"partner.wall": True}, {"partner.radius": "150 um", "partner.density": "2500 kg/m^3"}]))
         found = found.with_model(path)
     except InputError as error:
         return str(error)
