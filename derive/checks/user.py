@@ -62,7 +62,9 @@ def checks_of(model: UserModel) -> tuple[Check, ...]:
     names = {part for check in result for part in (check.name, check.name.partition(":")[0])}
     for foreign in sorted(model.accepted - names):
         choices = ", ".join(dict.fromkeys(check.name.partition(":")[0] for check in result))
-        result.append(Check("accept", "what a law accepts are checks", False, f"{foreign!r} is none; accepted: {choices}"))
+        result.append(
+            Check("accept", "what a law accepts are checks", False, f"{foreign!r} is none; accepted: {choices}")
+        )
     return tuple(_accepted(model, check) for check in result)
 
 
@@ -98,7 +100,7 @@ def _law_checks(model: UserModel, law: Law, emitted: Law) -> Iterator[Check]:
 
 
 def _term_checks(model: UserModel) -> Iterator[Check]:
-    """Of declared terms: the balance of energy and the rate of the angular momentum along the equations, and inertia."""
+    """Of declared terms: balance of energy and rate of the angular momentum along the equations, and inertia."""
     if model.terms is None:
         return
     shape = Structure(oblique=True, bridge=True, strings=False, terms=model.terms)

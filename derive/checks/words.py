@@ -36,7 +36,11 @@ def _of_terms(model: UserModel) -> list[str]:
     acts = [f"a force on the {on}" for on, _ in terms.forces] + ["inertia"] * (terms.kinetic != 0)
     line = f"Terms: {', '.join([*acts, *['a potential'] * (terms.potential != 0)])}. "
     if terms.forces:
-        line += "The forces are shown to only take energy. " if terms.takes else "That the forces only take energy is not shown. "
+        line += (
+            "The forces are shown to only take energy. "
+            if terms.takes
+            else "That the forces only take energy is not shown. "
+        )
     if terms.admits_barrier:
         line += "Of the stick proofs, that by an energy barrier holds, and that by the film alone beside a mere drag."
     else:

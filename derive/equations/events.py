@@ -21,11 +21,11 @@ def start(structure: Structure) -> dict[sp.Symbol, sp.Expr]:
     touching: dict[sp.Symbol, sp.Expr] = {q.gap: sp.Integer(1), q.normal_velocity: sp.Integer(-1)}
     if structure.partner:
         return touching | dict(rotation(structure).start)
-    return touching | terms.clocks(structure) | {
-        q.orbital_momentum: (4 + q.aspect) ** 2 * q.initial_turning,
-        q.spin: q.initial_spin,
-        q.beta: sp.Integer(0),
-    }
+    return (
+        touching
+        | terms.clocks(structure)
+        | {q.orbital_momentum: (4 + q.aspect) ** 2 * q.initial_turning, q.spin: q.initial_spin, q.beta: sp.Integer(0)}
+    )
 
 
 # What the events of the table watch, and the targets that are no groups

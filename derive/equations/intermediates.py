@@ -8,19 +8,7 @@ import sympy as sp
 
 from ..physics.forces import TANGENTIAL, force_laws, scaled_strings
 from ..physics.law import Definition, slot_call
-from ..physics.mechanics import (
-    F_c,
-    F_n,
-    F_t,
-    F_w,
-    M_beta,
-    M_x,
-    S_n,
-    S_t,
-    arm,
-    doublet_inertia,
-    equations_of_motion,
-)
+from ..physics.mechanics import F_c, F_n, F_t, F_w, M_beta, M_x, S_n, S_t, arm, doublet_inertia, equations_of_motion
 from ..physics.partners import rotation, space
 from ..physics.partners.pair import PARTNER_INERTIA, SPIN_INERTIA
 from ..physics.pendulum import offset_squared

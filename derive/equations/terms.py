@@ -8,7 +8,7 @@ import sympy as sp
 from ..physics.law import Definition
 from ..physics.mechanics import M_beta, M_spin, M_x, Q_beta, Q_spin, Q_x, sphere_inertia
 from ..physics.partners.bodies import CENTRES
-from ..physics.scaling import DISTANCE, EQUAL, INERTIA, cancelled, to_groups
+from ..physics.scaling import EQUAL, INERTIA, cancelled, to_groups
 from ..physics.structure import Structure
 from ..physics.terms import STILL, VELOCITIES
 from ..vocabulary import quantities as q
@@ -61,7 +61,7 @@ def _scaled(structure: Structure) -> Mapping[str, tuple[sp.Expr, sp.Expr]]:
 
 
 def definitions(structure: Structure) -> tuple[Definition, ...]:
-    """Forces and inertia by name, those that are not zero; the force along the line of centres also without velocity."""
+    """Forces and inertia by name, those that are not zero; the force on the gap also without velocity."""
     if structure.terms is None:
         return ()
     result: list[Definition] = []
@@ -110,7 +110,7 @@ def taken(structure: Structure) -> dict[str, sp.Expr]:
 
 
 def orbital_inertia(structure: Structure | None) -> sp.Expr | None:
-    """The share of the orbital momentum that a declared inertia of the rotation adds, if it varies with the gap; or None."""
+    """The share of the orbital momentum of a declared inertia of the rotation, if it varies with the gap; or None."""
     if structure is None or structure.terms is None:
         return None
     share = dict(definitions(structure)).get(_SHARE["rotation"])

@@ -312,7 +312,9 @@ def law(
         if not isinstance(value, bool):
             raise ModelFileError(f"{label}.{option}", value, "True, False")
     if not isinstance(accept, tuple | list) or not all(isinstance(check, str) for check in accept):
-        raise ModelFileError(f"{label}.accept", accept, 'names of checks, as ("angular momentum",)', "is no list of them")
+        raise ModelFileError(
+            f"{label}.accept", accept, 'names of checks, as ("angular momentum",)', "is no list of them"
+        )
     if spread and slot != "film":
         raise ModelFileError(f"{label}.spread", spread, "no such argument", "is of a film")
     formulas = {f: _formula(f"{label}.{f}", functions[f]) for f in known if f in functions}
@@ -485,8 +487,8 @@ def energy(expression: object) -> None:
 def force_on(coordinate: str, expression: object) -> None:
     """Add a generalised force, by virtual work: N on the "gap", positive outward; N m on the "rotation" or "spin".
 
-    A torque on the rotation turns the line of centres, one on the spin both spheres alike. Several add up. In the ledger
-    the work is of `own_terms`.
+    A torque on the rotation turns the line of centres, one on the spin both spheres alike. Several add up. In the
+    ledger the work is of `own_terms`.
 
     Raises:
         ModelFileError: names what is wrong, and what is accepted.
@@ -519,7 +521,12 @@ def _of_event(label: str, value: object, there: Declarations, wanted: Dimension 
     dimensions |= {known.mark: ONE for known in there.events.values()}
     for symbol in sorted(whole.free_symbols, key=str):
         if symbol not in dimensions and not own_events.may_use(symbol):
-            raise ModelFileError(label, str(symbol), own_events.ACCEPTED, f"is not known to {'an event' if label.startswith('event') else 'a term'}")
+            raise ModelFileError(
+                label,
+                str(symbol),
+                own_events.ACCEPTED,
+                f"is not known to {'an event' if label.startswith('event') else 'a term'}",
+            )
     try:
         dimension = dimension_of(whole, {**DIMENSIONS, **dimensions})
     except DimensionError as error:

@@ -15,8 +15,8 @@ import sympy as sp
 from ..equations.automaton import CLOSING, EVENTS, OPENING, WORDS, Event
 from ..equations.functions import ModelFunction
 from ..equations.model import GROUPS, Model
-from ..physics.mechanics import equations_of_motion
 from ..equations.terms import CLOCKS, settled
+from ..physics.mechanics import equations_of_motion
 from ..physics.scaling import DISTANCE, to_groups
 from ..physics.structure import Structure
 from ..physics.terms import STILL

@@ -46,7 +46,8 @@ class Energy:
     `initial` and `final` are kinetic energies, `strings` is the gain of potential energy, `attraction` the work against
     van der Waals forces (None without them), `dry_friction` the loss by friction of the dry contact (None without),
     `own_events` the kinetic energy that jumps of a model's declared events take (None if it declares none), `own_terms`
-    the gain of its declared energies and the work against its forces (None likewise); `residual` is initial - final - (all losses and works).
+    the gain of its declared energies and the work against its forces (None likewise); `residual` is
+    initial - final - (all losses and works).
     """
 
     initial: float

@@ -36,7 +36,9 @@ def scene_of(number: int, folder: Path) -> tuple[Scene, dict[str, object]] | str
         if "soft" in text:
             found = found.with_entries({"liquid.glass_transition_pressure": "2 GPa"})
         if preset != "pendulum" and random.random() < 0.15:
-            found = found.with_entries(random.choice([{"partner.wall": True}, {"partner.radius": "150 um", "partner.density": "2500 kg/m^3"}]))
+            found = found.with_entries(
+                random.choice([{"partner.wall": True}, {"partner.radius": "150 um", "partner.density": "2500 kg/m^3"}])
+            )
         found = found.with_model(path)
     except InputError as error:
         return str(error)
@@ -77,7 +79,9 @@ def judged(number: int, folder: Path) -> tuple[str, str]:
         worst = _slopes(scene, impact)
     except ComputationError as error:
         return "right", f"{first['outcome']}, ledger {largest:.0e}, no derivative: {error}{silent}"
-    return ("right" if worst < 2e-5 else "WRONG"), f"{first['outcome']}, ledger {largest:.0e}, slopes {worst:.0e}{silent}"
+    return (
+        "right" if worst < 2e-5 else "WRONG"
+    ), f"{first['outcome']}, ledger {largest:.0e}, slopes {worst:.0e}{silent}"
 
 
 def _slopes(scene: Scene, impact: Mapping[str, object]) -> float:
@@ -111,4 +115,5 @@ if __name__ == "__main__":
                 verdict = judged(each, Path(place))
             except Exception as error:  # noqa: BLE001 # to be shown with its number
                 verdict = "WRONG", f"{type(error).__name__}: {error}"
-            print(each, *verdict, flush=True)
+            sys.stdout.write(" ".join([str(each), *verdict]) + "\n")
+            sys.stdout.flush()

@@ -59,7 +59,14 @@ def theory(
     """
     chosen = {**DEFAULTS, **(choice or {})}
     laws = {slot: law if isinstance(law, Law) else LAWS[slot][law] for slot, law in chosen.items()}
-    parts = (_motion(laws, terms), _film(laws), _bridge(laws["bridge"]), _attraction(laws), _strings(laws), _course(laws))
+    parts = (
+        _motion(laws, terms),
+        _film(laws),
+        _bridge(laws["bridge"]),
+        _attraction(laws),
+        _strings(laws),
+        _course(laws),
+    )
     rubbing = tuple(_friction(laws)) if friction else ()
     return (*(line for part in parts for line in part), *rubbing, *_groups())
 

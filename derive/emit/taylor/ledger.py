@@ -141,7 +141,7 @@ class Ledger:
         return [*compiled_if(_FLAG, lines[:-1]), ""]
 
     def _of_terms(self, valued: Valued, energies: list[str]) -> list[str]:
-        """What the ledger takes of declared terms: the place of their energy, their work, and the inertia of the gap."""
+        """What the ledger takes of declared terms: the place of their energy, their work, the inertia of the gap."""
         if self.model.structure.terms is None:
             return []
         lines = [f"#define OWN_ENERGY {energies.index('own_energy')}"] if "own_energy" in energies else []

@@ -175,7 +175,9 @@ class Run:
         """True if a bridge's energy barrier proved the stick: not at rest, nor at a turning point, which has others."""
         path, model, last = self.path, self.model, self.path.steps[-1]
         proved = path.certified and not path.separated and (path.decided is None or path.decided <= path.time)
-        bound = model.bridge and not (model.strings or model.space or model.own_events or model.own_terms or "attraction" in model.works)
+        bound = model.bridge and not (
+            model.strings or model.space or model.own_events or model.own_terms or "attraction" in model.works
+        )
         return proved and bound and last.duration > 0 and not last.phase.resting
 
     def _is_below_barrier(self) -> bool:

@@ -24,8 +24,7 @@ RECORD_FLAGS = ("-O1", "-fexpensive-optimizations", "-ftree-pre", "-fgcse", *_CO
 RUNTIME = Path(__file__).resolve().parent / "runtime"
 _LINE = re.compile(r'#(?<![^\n]#)(?:pragma once\n|include "([^"]+)"\n)')  # a search for "#" is faster than for lines
 _ONCE = "#pragma once"
-# What only kernels of models with declared events or terms contain is taken out of the others' text, and so out of their
-# digest.
+# What only kernels of models with declared events or terms contain is taken out of the others' text and digest.
 _OWN_EVENTS, _OWN_TERMS, _KINKS = (
     re.compile(rf"#if {name}\n.*?^#endif /\* {name} \*/\n", re.MULTILINE | re.DOTALL)
     for name in ("OWN_EVENTS", "OWN_TERMS", "KINKS")
@@ -104,7 +103,7 @@ def files(variant: Variant, emitted: tuple[str, ...]) -> dict[str, str]:
         "MOST_STEPS": MOST_STEPS,
         "MIDGAP_ARM": int("arm" in slots and not variant.choice.drifts),
     }
-    kinks = _kinks(emitted)
+    kinks, layout = _kinks(emitted), declarations(variant.ledger, books_own(variant.choice), variant.space)
     settings["READS_SERIES"] |= int(bool(kinks))
     return {
         **({} if own else {"own_events.h": ""}),
@@ -112,7 +111,7 @@ def files(variant: Variant, emitted: tuple[str, ...]) -> dict[str, str]:
         "settings.h": "\n".join(
             [_ONCE, *(f"#define {name} {value}" for name, value in settings.items()), _binomials(variant.order), ""]
         ),
-        "layout.h": f'{_ONCE}\n#include "vector.h"\n{declarations(variant.ledger, books_own(variant.choice), variant.space)}\n',
+        "layout.h": f'{_ONCE}\n#include "vector.h"\n{layout}\n',
         **automaton(variant.choice),
         "model.h": "\n".join([_ONCE, '#include "series.h"', '#include "whole_series.h"', *emitted, *kinks]),
     }

@@ -22,11 +22,7 @@ def no_kernel(why: str = "is not shipped, and no C compiler answers here") -> Co
 
 
 def undecided(
-    answer: Mapping[str, Any],
-    states: tuple[str, ...],
-    declared: str = "",
-    resting: bool = False,
-    own: bool = False,
+    answer: Mapping[str, Any], states: tuple[str, ...], declared: str = "", resting: bool = False, own: bool = False
 ) -> ComputationError:
     """The error for an answer without an outcome, dimensionless.
 

@@ -41,7 +41,7 @@ CASES = {
     "torque": (TWIST + 'force_on("rotation", twist)', "0", {"beta": "1e-10"}),
     "spring": (TWIST + "energy(50*twist*beta**2/2)", "-50e-10*beta**2/2", {}),
     "friction between": (
-        TWIST + 'force_on("spin", 30000*twist*x0/v0*(omega - xi))\nforce_on("rotation", 30000*twist*x0/v0*(xi - omega))',
+        TWIST + 'c = 30000*twist*x0/v0\nforce_on("spin", c*(omega - xi))\nforce_on("rotation", c*(xi - omega))',
         "0", {"spin": "3e-6*x0/v0*(omega - xi)", "beta": "3e-6*x0/v0*(xi - omega)"},
     ),
 }  # fmt: skip
