@@ -77,7 +77,8 @@ def _rate(symbol: sp.Symbol) -> str:
 
 def _motion(laws: Mapping[str, Law], terms: Terms | None) -> Iterator[Equation]:
     group, motion = "Motion", mechanics.equations_of_motion()
-    masses, forces, heavier, more = {}, {}, dict.fromkeys(_ADDED, sp.S.Zero), dict.fromkeys(_ADDED, sp.S.Zero)
+    masses, forces = dict[sp.Symbol, sp.Expr](), dict[sp.Symbol, sp.Expr]()
+    heavier, more = dict.fromkeys(_ADDED, sp.S.Zero), dict.fromkeys(_ADDED, sp.S.Zero)
     for on, parts in terms.parts.items() if terms else ():
         for symbol, part, named, into in zip(_ADDED[on], parts, (masses, forces), (heavier, more), strict=True):
             if part != 0:
