@@ -10,6 +10,8 @@ from scipy.integrate import solve_ivp
 from wetdoublet.solvers import InputError, Scene, collide, sensitivities
 from wetdoublet.solvers.export.hybrid import equations
 
+from ...helpers.judged_models import judged
+
 HEAD = "from wetdoublet.derive.user import *\n"
 FREE = """
 [particles]
@@ -189,3 +191,14 @@ def test_a_criterion_is_a_roughness_of_its_own_name(tmp_path: Path):
     assert mine["custom.soft"] == pytest.approx(theirs["particles.roughness"], rel=1e-9)
     assert mine["particles.roughness"] == 0.0
     assert collide(own.with_entries({"custom.soft": "0.1 um"}), rtol=1e-11).reversal == "rough"
+
+
+@pytest.mark.slow
+@pytest.mark.filterwarnings("ignore::wetdoublet.solvers.ModelWarning")
+@pytest.mark.parametrize(
+    ("number", "verdict"), [(0, "right"), (1, "right"), (5, "refused"), (13, "right"), (101, "right")]
+)
+def test_models_drawn_at_random(number: int, verdict: str, tmp_path: Path):
+    """Terms, criteria, events and laws: refused with a sentence, or right by three engines, with the derivatives."""
+    found, how = judged(number, tmp_path)
+    assert found == verdict, how
