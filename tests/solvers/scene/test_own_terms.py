@@ -9,6 +9,7 @@ import sympy as sp
 from scipy.integrate import solve_ivp
 from wetdoublet.solvers import InputError, Scene, collide, sensitivities
 from wetdoublet.solvers.export.hybrid import equations
+from wetdoublet.solvers.export.law.kernels import kernels
 
 from ...helpers.judged_models import judged
 
@@ -168,6 +169,13 @@ def test_scenes_that_cannot_have_the_terms(body: str, entries: dict[str, object]
     given = scene(tmp_path, CASES[body][0]).with_entries(entries)
     with pytest.raises(InputError, match=said):
         collide(given)
+
+
+def test_a_law_is_exported_with_terms_on_the_gap_only(tmp_path: Path):
+    """The spheres of an exported law have spins of their own, of which a torque on both does not speak."""
+    with pytest.raises(InputError, match="has terms on a rotation, and the spheres of an exported law have spins"):
+        kernels(scene(tmp_path, CASES["torque"][0]), 1e-9)
+    assert len(kernels(scene(tmp_path, CASES["gas"][0]), 1e-9)) == 2  # head-on and in a plane, none in space
 
 
 def test_a_stick_is_proved_with_a_potential_and_a_drag(tmp_path: Path):
