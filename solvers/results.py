@@ -111,6 +111,7 @@ _ENERGY = (
     _energy("dry_friction", "lost by friction of the dry contact", "friction", True),
     _energy("strings", "gain of the strings' potential energy", "lifted"),
     _energy("own_events", "kinetic energy that declared events take", "own_events"),
+    _energy("own_terms", "energy and work of a model's declared terms", "own_terms", True),
     _energy("residual", "error of the integration: what the ledger leaves", None),
 )
 _DRIFT = Definition("angular_momentum_drift", "1", "change of L over its size at initial contact", "momentum")

@@ -7,12 +7,16 @@ from dataclasses import replace
 from functools import partial
 from itertools import product
 from pathlib import Path
+from random import Random
 
 import sympy as sp
 
-from ..laws import LAWS, Law, LawFunction
+from ..equations.model import Model
+from ..equations.terms import definitions
+from ..laws import LAWS, Law, LawFunction, slot_calls
 from ..laws.modelfile import read
 from ..physics.scaling import ScalingError
+from ..physics.structure import Structure
 from ..user.structures import UserModel
 from ..vocabulary.dimensions import DimensionError
 from ..vocabulary.quantities import contact_angle, volume
@@ -29,6 +33,7 @@ _TRIED: Mapping[str, tuple[float, ...]] = {
     "contact_angle": (0.0, 0.5, 1.0), "offset_squared": (0.0, 1.0, 4.0), "string_ratio": (20.0, 100.0),
     "gap_over_radius": (1e-4, 0.01, 0.1, 0.3, 0.6, 1.0),  # here fractions of the rupture distance
 }  # fmt: skip
+_POINTS = 20
 _EQUAL = 1e-12  # relative tolerance
 _SIGNED = ("film.resistance", "shear.log_factor", "glass.pressure")
 
@@ -51,8 +56,15 @@ def checks_of(model: UserModel) -> tuple[Check, ...]:
     result = [Check("dimensions", "every term has the dimension that it must have", True, f"{functions} functions")]
     named = ", ".join(str(group.symbol) for group in model.groups) or "none but the library's"
     result.append(Check("groups", "laws depend on their arguments and dimensionless groups", True, named))
+    result += _term_checks(model)
     for law, emitted in zip(model.written, model.laws, strict=True):
         result += _law_checks(model, law, emitted)
+    names = {part for check in result for part in (check.name, check.name.partition(":")[0])}
+    for foreign in sorted(model.accepted - names):
+        choices = ", ".join(dict.fromkeys(check.name.partition(":")[0] for check in result))
+        result.append(
+            Check("accept", "what a law accepts are checks", False, f"{foreign!r} is none; accepted: {choices}")
+        )
     return tuple(_accepted(model, check) for check in result)
 
 
@@ -85,6 +97,41 @@ def _law_checks(model: UserModel, law: Law, emitted: Law) -> Iterator[Check]:
     for group in model.groups:
         if group.quantity.bounds.low == 0 and not group.quantity.bounds.low_open:
             yield from _without(model, law, group.symbol, label)
+
+
+def _term_checks(model: UserModel) -> Iterator[Check]:
+    """Of declared terms: balance of energy and rate of the angular momentum along the equations, and inertia."""
+    if model.terms is None:
+        return
+    shape = Structure(oblique=True, bridge=True, strings=False, terms=model.terms)
+    statement = "d(kinetic + declared energy)/dt = -(power taken by film, shear, bridge and declared forces)"
+    left = _balance_at_points(model.derived(shape))
+    yield Check("energy: terms", statement, left < _EQUAL, f"{_POINTS} states: {left:.0e} of the largest power left")
+    rate = torque(model)
+    figure = "identity" if rate == 0 else f"dL/dt over its scale = {rate}: not conserved"
+    yield Check("angular momentum: terms", "dL/dt of the spheres = 0 without strings", rate == 0 or None, figure)
+    values = []
+    for share in (share for symbol, share in definitions(shape) if symbol.is_nonnegative):
+        at = {s: _TRIED.get(s.name) or _tried(model, s) for s in sorted(share.free_symbols, key=str)}
+        values += [complex(share.subs(dict(zip(at, each, strict=True)))).real for each in product(*at.values())]
+    if values:
+        figure = f"least value {min(values):.3g} of that of the spheres"
+        yield Check("inertia: terms", "a declared kinetic energy is never negative", min(values) >= 0, figure)
+
+
+def _balance_at_points(model: Model) -> float:
+    """The largest residual of the balance of energy at states and groups at random, over the largest power there."""
+    rates, draw = model.by_state("right_hand_side"), Random(1)
+    stored = sp.Add(*model.results("energies").values())
+    powers = [stored.diff(state) * rate for state, rate in rates.items()] + list(model.results("energy_rates").values())
+    calls = {node: sp.Dummy() for power in powers for node in slot_calls(power)}
+    powers = [power.xreplace(calls) for power in powers]
+    symbols = sorted(set().union(*(power.free_symbols for power in powers)), key=str)
+    compiled, worst = sp.lambdify(symbols, powers, modules=["math"]), 0.0
+    for _ in range(_POINTS):
+        values = compiled(*(draw.uniform(0.1, 0.9) for _ in symbols))
+        worst = max(worst, abs(math.fsum(values)) / max(map(abs, values)))
+    return worst
 
 
 def _samples(

@@ -6,7 +6,6 @@ from functools import cache
 import sympy as sp
 
 from ..equations.invariants import invariants
-from ..equations.model import derive
 from ..laws import LAWS, Law, filled
 from ..physics.structure import BRIDGED
 from ..user.own_events import OwnEvent
@@ -22,11 +21,33 @@ def _arm(model: UserModel) -> Law:
 
 def torque(model: UserModel, law: Law | None = None) -> sp.Expr:
     """dL/dt without strings, scaled, with the model's own laws; other laws except the arm stay open."""
-    extended = replace(model, events=()).extended(derive(BRIDGED))
+    extended = replace(model, events=()).derived(BRIDGED)
     arm = law or _arm(model)
     rate = filled(momentum_rate(extended, {}), {"arm": arm})  # filled last: sympy factors no fractional powers in time
     lever = arm["lever"](*arm["lever"].arguments)
     return sp.simplify(rate) if lever.is_rational_function() else rate
+
+
+def _of_terms(model: UserModel) -> list[str]:
+    """Sentences on what the declared terms are shown to do, and on the proofs that remain."""
+    terms = model.terms
+    if terms is None:
+        return []
+    acts = [f"a force on the {on}" for on, _ in terms.forces] + ["inertia"] * (terms.kinetic != 0)
+    line = f"Terms: {', '.join([*acts, *['a potential'] * (terms.potential != 0)])}. "
+    if terms.forces:
+        line += (
+            "The forces are shown to only take energy. "
+            if terms.takes
+            else "That the forces only take energy is not shown. "
+        )
+    if terms.admits_barrier:
+        line += "Of the stick proofs, that by an energy barrier holds, and that by the film alone beside a mere drag."
+    else:
+        line += "No stick is proved: no barrier of the energy is known."
+    if terms.rotates:
+        line += " They are of equal spheres in a plane, whose spin is then not eliminated by the angular momentum."
+    return [line]
 
 
 def _of_event(event: OwnEvent) -> str:
@@ -50,7 +71,7 @@ def _of_event(event: OwnEvent) -> str:
 @cache
 def conserved(model: UserModel) -> tuple[str, ...]:
     """The conserved quantities without strings and rebounds, for any other laws."""
-    result = invariants(replace(model, events=()).extended(derive(BRIDGED)), {"arm": _arm(model)})
+    result = invariants(replace(model, events=()).derived(BRIDGED), {"arm": _arm(model)})
     return tuple(_ANGULAR_MOMENTUM if each.is_angular_momentum else each.describe() for each in result)
 
 
@@ -60,9 +81,10 @@ def in_words(model: UserModel) -> tuple[str, ...]:
         lines = [f"Conserved without strings, for every law in the other slots: {'; '.join(conserved(model))}."]
     else:
         lines = [f"Angular momentum is not conserved: d/dt of L over its scale is {torque(model)}."]
+    lines += _of_terms(model)
     takers = "Mechanical energy is not conserved: film and shear take it, the solids' dry contact as well"
     lines.append(f"{takers}; the bridge stores it (its force depends on the gap alone).")
-    groups = model.extended(derive(BRIDGED)).groups
+    groups = model.derived(BRIDGED).groups
     new = {group.symbol: group for group in model.groups}
     known = ", ".join(symbol.name for symbol in groups if symbol not in new)
     lines.append(f"An oblique collision with a bridge is governed by the library's groups {known}.")

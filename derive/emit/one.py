@@ -41,7 +41,7 @@ def structure_text(name: str) -> str:
 def user_structure_text(source: str, model: str, name: str) -> str:
     """Text of a structure's module with the calls of a user's model, given as the text of the model file."""
     user_model = _model(source, model)
-    return modules.structure_module(user_model.extended(derive(named(name))), own_names(user_model))
+    return modules.structure_module(user_model.derived(named(name)), own_names(user_model))
 
 
 def header_text(kind: str, name: str) -> str:
@@ -61,13 +61,13 @@ def header_text(kind: str, name: str) -> str:
 def user_structure_header_text(source: str, model: str, name: str, tangent: bool = False) -> str:
     """Text of the C header of a structure, or of its tangent, with the calls and groups of a user's model."""
     user_model = _model(source, model)
-    groups = {group.symbol: group.definition for group in user_model.groups}
+    groups = {group.symbol: group.definition for group in user_model.groups} | user_model.gaps
     beside = Beside(groups, own_names(user_model), user_model.extra, user_model.events)
 
     def text() -> str:
         if tangent and user_model.events:
             raise EmissionError("declared events have no derivatives in C")
-        extended = user_model.extended(derive(named(name)))
+        extended = user_model.derived(named(name))
         return tangent_header(extended, beside) if tangent else structure_header(extended, beside)
 
     return _or_error(text)

@@ -10,6 +10,8 @@ from pathlib import Path
 
 from ..equations.model import derive
 from ..physics.structure import Structure, structures
+from ..physics.terms import Terms
+from ..user.declarations import Criterion
 from ..user.own_events import OwnEvent
 from ..user.structures import UserModel
 from ..vocabulary.quantities import VOCABULARY
@@ -51,13 +53,13 @@ def package(
     changed = {key.split(".")[0] for key in model.extra}
     digests: dict[str, str] = {}
     for structure in structures():
-        plain = derive(structure)
-        if not changed & set(plain.slots):
-            continue  # declared events change every structure, which is then derived where a scene needs it
-        extended = model.extended(plain)
+        if not changed & set(derive(structure).slots) or model.terms:
+            continue  # declared events and terms change every structure, derived where a scene needs it
+        extended = model.derived(structure)
         files[f"{structure.name}.py"] = structure_module(extended, names)
         digests[structure.name] = model_digest(extended)
     definitions = {group.symbol: group.definition for group in model.groups if group.symbol != group.quantity.symbol}
+    definitions |= model.gaps
     scaling = ""
     if definitions:
         scaling = digest(*(part for pair in definitions.items() for part in pair))
@@ -69,6 +71,8 @@ def package(
         "kind": "wetdoublet model", "format": FORMAT, "name": model.name, "meaning": model.meaning, "origin": origin,
         "library": library, "laws": laws,
         **({"events": [_event(event) for event in model.events]} if model.events else {}),
+        **({"criteria": [_criterion(known) for known in model.criteria]} if model.criteria else {}),
+        **({"terms": _terms(model.terms)} if model.terms else {}),
         "structures": digests, "scaling": scaling,
         "extra": {key: [symbol.name for symbol in extra] for key, extra in model.extra.items()},
         "quantities": [_quantity(model, name) for name in model.declarations.quantities],
@@ -89,6 +93,7 @@ def own_names(model: UserModel) -> Own:
             for g in model.groups
             if g.definition != g.symbol
         },
+        **{known.group.name: ("1", f"{known.meaning}, over x0") for known in model.criteria},
         **{e.mark.name: ("1", f"1 before the event {e.proposed.word}, 0 after it") for e in model.events},
     }
 
@@ -102,6 +107,17 @@ def _event(event: OwnEvent) -> dict[str, object]:
         "mark": event.mark.name, "meaning": event.proposed.meaning, "source": event.proposed.source,
         "reach": asdict(reach) if reach.known else None,
     }  # fmt: skip
+
+
+def _criterion(known: Criterion) -> dict[str, str]:
+    texts = {"meaning": known.meaning, "source": known.source}
+    return {"word": known.word, "group": known.group.name, **texts}
+
+
+def _terms(terms: Terms) -> dict[str, object]:
+    """What a scene must not have beside the terms, and what the certificates may know of them."""
+    flags = {name: getattr(terms, name) for name in ("rotates", "drives", "admits_barrier")}
+    return {"forces": [on for on, _ in terms.forces], "inertia": terms.kinetic != 0, **flags}
 
 
 def _quantity(model: UserModel, name: str) -> dict[str, object]:

@@ -8,7 +8,7 @@ from ..physics.law import slot_call
 from ..physics.partners import rotation
 from ..physics.structure import Structure
 from ..vocabulary import quantities as q
-from . import friction
+from . import friction, terms
 from .automaton import CONTACTS, EVENTS, Event
 from .intermediates import inward_force
 
@@ -21,11 +21,11 @@ def start(structure: Structure) -> dict[sp.Symbol, sp.Expr]:
     touching: dict[sp.Symbol, sp.Expr] = {q.gap: sp.Integer(1), q.normal_velocity: sp.Integer(-1)}
     if structure.partner:
         return touching | dict(rotation(structure).start)
-    return touching | {
-        q.orbital_momentum: (4 + q.aspect) ** 2 * q.initial_turning,
-        q.spin: q.initial_spin,
-        q.beta: sp.Integer(0),
-    }
+    return (
+        touching
+        | terms.clocks(structure)
+        | {q.orbital_momentum: (4 + q.aspect) ** 2 * q.initial_turning, q.spin: q.initial_spin, q.beta: sp.Integer(0)}
+    )
 
 
 # What the events of the table watch, and the targets that are no groups
@@ -71,6 +71,6 @@ def rebound(states: tuple[sp.Symbol, ...]) -> dict[sp.Symbol, sp.Expr]:
     return {state: -q.e_dry * q.normal_velocity if state == q.normal_velocity else state for state in states}
 
 
-def rebound_loss() -> sp.Expr:
+def rebound_loss(structure: Structure) -> sp.Expr:
     """Energy lost in a rebound, over m v0^2."""
-    return sp.Rational(1, 2) * q.normal_velocity**2 * (1 - q.e_dry**2)
+    return sp.Rational(1, 2) * q.normal_velocity**2 * (1 - q.e_dry**2) * terms.mass(structure)

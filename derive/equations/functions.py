@@ -16,7 +16,7 @@ from ..physics.partners import rotation
 from ..physics.partners.space import torque_coefficients
 from ..physics.structure import Structure
 from ..vocabulary import quantities as q
-from . import friction, observables
+from . import friction, observables, terms
 from .certificates.table import CERTIFICATES
 from .events import events, rebound, rebound_loss, start
 from .intermediates import FILM_FORCE, forces, inward_force, rates, resting_rates, turning_rate
@@ -129,7 +129,7 @@ def _ledger(structure: Structure) -> Emitted:
     sliding = (friction.SLIDING,) if structure.friction else ()
     yield "energy_rates", doc, observables.energy_rates(structure), {**_REGIONAL, "further": sliding}
     doc = "Energy lost in a rebound that starts from this state, over m v0^2."
-    yield "rebound_loss", doc, {"dry_contact": rebound_loss()}
+    yield "rebound_loss", doc, {"dry_contact": rebound_loss(structure)}
     momentum = observables.angular_momentum(structure) if structure.oblique and not structure.reduced else None
     if momentum is not None:
         doc = "1 + the change of the angular momentum over its size at initial contact."
@@ -144,14 +144,15 @@ def _ledger(structure: Structure) -> Emitted:
 def _certificates(structure: Structure) -> Emitted:
     """Margins of the stick certificates."""
     for certificate in CERTIFICATES:
-        if certificate.admits(structure):
+        if structure.terms is None and certificate.admits(structure):
             for name, doc, values in certificate.functions(structure):
                 yield name, doc, values, {"certificate": certificate.name}
 
 
 def _least_energy(structure: Structure, states: tuple[sp.Symbol, ...]) -> Emitted:
     """The least energy at an angular momentum, the state that has it, and bounds that follow from it."""
-    if not (structure.oblique and structure.strings):  # rotating strings have no least-energy argument
+    barrier = structure.terms is None or structure.terms.admits_barrier
+    if barrier and not (structure.oblique and structure.strings):  # rotating strings have no least-energy argument
         doc = (
             "Least energy over m v0^2 at this gap and angular momentum, without the capillary work, and the slope "
             "of the least energy along the gap, capillary work included."
@@ -183,8 +184,8 @@ def _least_energy(structure: Structure, states: tuple[sp.Symbol, ...]) -> Emitte
             "Kinetic energy over m v0^2 of the motion along the line of centres, the only one that can separate "
             "sphere and wall."
         )
-        yield "escape_energy", doc, {"kinetic": q.normal_velocity**2 / 2}
-    if not structure.strings and not structure.partner:
+        yield "escape_energy", doc, {"kinetic": q.normal_velocity**2 / 2, **terms.stored(structure)}
+    if structure.terms is None and not structure.strings and not structure.partner:
         doc = (
             "Upper bound of e_n^2 for separation at this gap, from the initial energy and angular momentum, "
             "without the work of attractions: 2 (W_c(x_f) - W_c(x0))/(m v0^2) is still to be subtracted."

@@ -8,13 +8,14 @@ import sympy as sp
 
 from ..physics.forces import TANGENTIAL, force_laws, scaled_strings
 from ..physics.law import Definition, slot_call
-from ..physics.mechanics import F_c, F_n, F_t, F_w, S_n, S_t, arm, doublet_inertia, equations_of_motion
+from ..physics.mechanics import F_c, F_n, F_t, F_w, M_beta, M_x, S_n, S_t, arm, doublet_inertia, equations_of_motion
 from ..physics.partners import rotation, space
 from ..physics.partners.pair import PARTNER_INERTIA, SPIN_INERTIA
 from ..physics.pendulum import offset_squared
 from ..physics.scaling import DISTANCE, INERTIA, nondimensional
 from ..physics.structure import Structure
 from ..vocabulary import quantities as q
+from . import terms
 from .invariants import Invariant
 
 ORBITAL_RATE, SLIP = sp.symbols("orbital_rate slip", real=True)
@@ -55,7 +56,7 @@ def intermediates(structure: Structure, conserved: Sequence[Conserved] = ()) -> 
         definitions += [(STRING_SIDEWAYS, sideways)] if structure.oblique else []
     if structure.oblique and not structure.reduced and not structure.partner:
         definitions.append((LEVER, slot_call("arm", "lever", DISTANCE)))
-    return tuple(definitions)
+    return (*definitions, *terms.definitions(structure))
 
 
 def _eliminated(conserved: Sequence[Conserved]) -> space.Eliminated:
@@ -106,32 +107,40 @@ def attractions(structure: Structure, at: sp.Expr) -> sp.Expr:
 @cache
 def rates(structure: Structure) -> dict[sp.Symbol, sp.Expr]:
     """Time derivatives of the states per v0/x0, from the equations of motion."""
-    motion = equations_of_motion()
+    motion = equations_of_motion(terms=structure.terms is not None)
+    own = terms.named(structure) if structure.terms is not None else {}
     strings = int(structure.strings)
     named = {F_n: FILM_FORCE, F_c: BRIDGE_FORCE * int(structure.bridge), S_n: STRING_PULL * strings}
     named |= {F_w: ATTRACTION_FORCE * int(structure.attraction)}
     normal = {force: INERTIA * value for force, value in named.items()}
     tangential = {F_t: TANGENTIAL * SHEAR_FORCE, S_t: TANGENTIAL * STRING_SIDEWAYS * strings}
     rate: dict[sp.Symbol, sp.Expr] = {q.gap: nondimensional(q.u / q.v0)}
+    mass = terms.mass(structure)
     acceleration = motion.separation_acceleration.subs(normal)
+    if own:
+        acceleration = sp.expand(sp.cancel(acceleration * (1 + M_x / q.m))).subs(own)
     pushed = sp.expand(nondimensional(acceleration.subs(q.omega, 0) * q.x0 / q.v0**2))
     if not structure.oblique:
-        return rate | {q.normal_velocity: pushed}
+        return rate | {q.normal_velocity: pushed / mass}
     if structure.partner:
         beside = rotation(structure)
-        return rate | {q.normal_velocity: beside.centrifugal + pushed} | dict(beside.rates)
+        return rate | {q.normal_velocity: (beside.centrifugal + pushed) / mass} | dict(beside.rates)
     # the centrifugal term has a name of its own: the remainder is minus the forces
     centrifugal = sp.expand(acceleration - acceleration.subs(q.omega, 0))
     assert sp.expand(centrifugal - q.r * q.omega**2) == 0
-    rate[q.normal_velocity] = CENTRIFUGAL_FORCE + pushed
-    pull_round = motion.orbital_momentum_rate.subs(tangential) / (q.m * q.a**2 * q.rate_scale) * q.x0 / q.v0
+    rate[q.normal_velocity] = (CENTRIFUGAL_FORCE + pushed) / mass
+    pull_round = motion.orbital_momentum_rate
+    if own.get(M_beta):  # the state is m r^2 omega, without the added inertia
+        pull_round = q.m * (q.r**2 * motion.orbital_acceleration + 2 * q.r * q.u * q.omega)
+        pull_round = sp.simplify(pull_round.subs(M_beta, own[M_beta]))
+    pull_round = pull_round.subs(tangential).subs(own) / (q.m * q.a**2 * q.rate_scale) * q.x0 / q.v0
     rate[q.orbital_momentum] = nondimensional(pull_round)
     if not structure.reduced:
-        spin_up = motion.spin_acceleration.subs(tangential).subs(arm, q.a * LEVER)
+        spin_up = motion.spin_acceleration.subs(own).subs(tangential).subs(arm, q.a * LEVER)
         rate[q.spin] = nondimensional(spin_up * q.x0 / (q.v0 * q.rate_scale))
     if structure.strings:
         rate[q.beta] = turning_rate()
-    return rate
+    return rate | dict.fromkeys(terms.clocks(structure), turning_rate())
 
 
 def resting_rates(structure: Structure) -> dict[sp.Symbol, sp.Expr]:
@@ -148,4 +157,4 @@ def turning_rate(structure: Structure | None = None) -> sp.Expr | None:
 
 def inward_force(structure: Structure) -> sp.Expr:
     """Sum of all normal forces except the film's, positive inward: positive if a doublet at rest stays in contact."""
-    return -(rates(structure)[q.normal_velocity].subs(FILM_FORCE, 0))
+    return -terms.at_rest(structure, rates(structure)[q.normal_velocity].subs(FILM_FORCE, 0))

@@ -19,10 +19,22 @@ from sympy.polys.matrices import DomainMatrix
 from ..physics.law import Definition, Law, filled
 from ..physics.mechanics import equations_of_motion
 from ..physics.scaling import nondimensional
-from ..vocabulary.quantities import VOCABULARY, a, beta, gap, m, normal, orbital_momenta, rate_scale
+from ..vocabulary.quantities import (
+    VOCABULARY,
+    a,
+    angle_turned,
+    beta,
+    gap,
+    m,
+    normal,
+    orbital_momenta,
+    orbital_momentum,
+    rate_scale,
+)
+from .terms import orbital_inertia
 
 DEGREE = 2  # highest power of the gap in a coefficient: velocities occur with at most r^2
-_COORDINATES = (gap, beta)
+_COORDINATES = (gap, beta, angle_turned)
 
 
 class System(Protocol):
@@ -129,16 +141,20 @@ def invariants(
         coordinates: the states that are not momenta.
         degree: highest power of the gap in a coefficient.
     """
+    groups: set[sp.Basic] = set() if isinstance(system, Mapping) else set(getattr(system, "groups", ()))
+    inertia = orbital_inertia(getattr(system, "structure", None))
     if not isinstance(system, Mapping):
-        named = system["right_hand_side"].by_name
-        system = {state: system.expanded(named[state.name]) for state in system.states}
+        named, whole = system["right_hand_side"].by_name, system.expanded
+        inertia = None if inertia is None else whole(inertia)
+        system = {state: whole(named[state.name]) for state in system.states}
     rates = {state: filled(sp.sympify(rate), laws or {}) for state, rate in system.items()}
     momenta = [state for state in rates if state not in coordinates]
     powers = range(degree + 1 if gap in rates else 1)
     ansatz = [(momentum, gap**power) for momentum in momenta for power in powers]
+    ansatz += [(orbital_momentum, inertia)] if inertia is not None else []
     if not ansatz:
         return ()
-    field = DomainMatrix.from_Matrix(_conditions(rates, ansatz)).to_field()  # exact, over the field of the groups
+    field = DomainMatrix.from_Matrix(_conditions(rates, ansatz, groups)).to_field()  # exact, over that of the groups
     basis = field.nullspace().rref()[0].to_Matrix()
     result = []
     for vector in (basis.row(index) for index in range(basis.rows)):
@@ -184,33 +200,33 @@ def conserved_components(system: OpenSystem) -> tuple[Invariant, ...]:
     return tuple(components[0] for components in each)
 
 
-def _conditions(rates: Mapping[sp.Symbol, sp.Expr], ansatz: list[tuple[sp.Symbol, sp.Expr]]) -> sp.Matrix:
+def _conditions(
+    rates: Mapping[sp.Symbol, sp.Expr], ansatz: list[tuple[sp.Symbol, sp.Expr]], groups: set[sp.Basic]
+) -> sp.Matrix:
     """Matrix whose product with the vector of unknown coefficients gives all coefficients of dI/dt."""
     values: dict[sp.Expr, sp.Symbol] = {}
-    plain = {state: _rational(rate, set(rates), values) for state, rate in rates.items()}
+    known = {quantity.symbol for quantity in VOCABULARY.values()} | groups
+    plain = {state: _rational(rate, known - set(rates), values) for state, rate in rates.items()}
     unknown = sp.symbols(f"c:{len(ansatz)}", cls=sp.Dummy)
     change = sp.Integer(0)
     for factor, (momentum, power) in zip(unknown, ansatz, strict=True):
         change += factor * (power.diff(gap) * plain.get(gap, sp.Integer(0)) * momentum + power * plain[momentum])
     top, _ = sp.fraction(sp.together(change))
-    equations = sp.Poly(sp.expand(top), *rates, *values.values(), *_flags(change, rates, unknown)).coeffs()
+    equations = sp.Poly(sp.expand(top), *rates, *values.values(), *_flags(change, {*rates, *unknown, *known})).coeffs()
     return sp.linear_eq_to_matrix(list(dict.fromkeys(equations)), list(unknown))[0]
 
 
-def _flags(change: sp.Expr, rates: Mapping[sp.Symbol, sp.Expr], unknown: Sequence[sp.Symbol]) -> list[sp.Symbol]:
-    """Symbols outside the vocabulary (open forces, flags of film and shear): dI/dt must vanish for all their values."""
-    known = {quantity.symbol for quantity in VOCABULARY.values()}
-    outside = change.free_symbols - set(rates) - set(unknown) - known
-    return sorted((s for s in outside if not isinstance(s, sp.Dummy)), key=str)
+def _flags(change: sp.Expr, known: set[sp.Basic]) -> list[sp.Basic]:
+    """Symbols that are not known (open forces, flags of film and shear): dI/dt must vanish for all their values."""
+    return sorted((s for s in change.free_symbols - known if not isinstance(s, sp.Dummy)), key=str)
 
 
-def _rational(expression: sp.Expr, states: set[sp.Symbol], values: dict[sp.Expr, sp.Symbol]) -> sp.Expr:
+def _rational(expression: sp.Expr, constants: set[sp.Basic], values: dict[sp.Expr, sp.Symbol]) -> sp.Expr:
     """The expression with a symbol for every subexpression that is not rational in states and groups."""
     if isinstance(expression, (sp.Add, sp.Mul)):
-        return expression.func(*(_rational(part, states, values) for part in expression.args))
+        return expression.func(*(_rational(part, constants, values) for part in expression.args))
     if isinstance(expression, sp.Pow) and expression.exp.is_Integer:
-        return _rational(expression.base, states, values) ** expression.exp
-    constants = {quantity.symbol for quantity in VOCABULARY.values()} - states
+        return _rational(expression.base, constants, values) ** expression.exp
     if expression.is_Symbol or expression.free_symbols <= constants:
         return expression  # a group, or an expression in groups only
     return values.setdefault(expression, sp.Dummy(f"value{len(values)}"))

@@ -16,7 +16,7 @@ from ..physics.partners import rotation
 from ..physics.slots import MIDGAP
 from ..physics.structure import Structure
 from ..vocabulary import quantities as q
-from . import friction
+from . import friction, terms
 from .certificates.table import CERTIFICATES
 from .events import CONTACT_GAPS, TARGET_GROUPS, start
 from .functions import ModelFunction, functions
@@ -94,14 +94,15 @@ def derive(structure: Structure) -> Model:
     definitions = _definitions(structure)
     used = needed([expression for function in each for _, expression in function.outputs], definitions)[1]
     further = {symbol for function in each for symbol in function.further}
-    unlisted = used - {*states, *GROUPS, FILM, SHEAR, *further, *(symbol for symbol, _ in definitions)}
+    own = structure.terms.groups if structure.terms is not None else ()
+    unlisted = used - {*states, *GROUPS, *own, FILM, SHEAR, *further, *(symbol for symbol, _ in definitions)}
     if unlisted:
         names = ", ".join(sorted(map(str, unlisted)))
         raise ValueError(f"{structure.name} uses {names}: neither a state nor an intermediate, nor among GROUPS")
     return Model(
         structure,
         states,
-        groups=tuple(group for group in GROUPS if group in used),
+        groups=tuple(group for group in (*GROUPS, *own) if group in used),
         slots=_slots(structure),
         definitions=tuple((symbol, expression) for symbol, expression in definitions if symbol in used),
         functions=each,
@@ -121,7 +122,7 @@ def _definitions(structure: Structure) -> tuple[Definition, ...]:
     """The named intermediates of the equations, then those of the certificates and of friction."""
     definitions = intermediates(structure, _conserved(structure) if structure.reduced else ())
     for certificate in CERTIFICATES:
-        if certificate.admits(structure):
+        if structure.terms is None and certificate.admits(structure):
             definitions += certificate.definitions(structure)
     if structure.friction:
         definitions += friction.definitions(structure, inward_force(structure))
@@ -151,7 +152,7 @@ def _states(structure: Structure) -> tuple[sp.Symbol, ...]:
     if structure.oblique:
         states += [q.orbital_momentum, *([] if structure.reduced else [q.spin])]
         states += [q.beta] if structure.strings else []
-    return tuple(states)
+    return (*states, *terms.clocks(structure))
 
 
 def _slots(structure: Structure) -> tuple[str, ...]:

@@ -13,7 +13,7 @@ from ..physics.pendulum import offset_squared
 from ..physics.scaling import DISTANCE, nondimensional
 from ..physics.structure import Structure
 from ..vocabulary import quantities as q
-from . import friction
+from . import friction, terms
 from .events import start
 from .intermediates import (
     ATTRACTION_FORCE,
@@ -36,7 +36,7 @@ def energies(structure: Structure) -> dict[str, sp.Expr]:
     stored = {"kinetic": _kinetic(structure)}
     if structure.strings:
         stored["strings"] = _lifted()
-    return stored
+    return stored | terms.stored(structure)
 
 
 def _kinetic(structure: Structure) -> sp.Expr:
@@ -83,7 +83,7 @@ def energy_rates(structure: Structure) -> dict[str, sp.Expr]:
         taken["tangential_lubrication"] = nondimensional(power * q.x0 / q.v0 / (q.m * q.v0**2))
     if structure.friction:
         taken["dry_friction"] = friction.resting_power(structure)
-    return taken
+    return taken | terms.taken(structure)
 
 
 def angular_momentum(structure: Structure) -> sp.Expr | None:
@@ -134,6 +134,10 @@ def effective_potential(structure: Structure) -> dict[str, sp.Expr]:
     if structure.strings:
         energy += _lifted()
         slope += STRING_PULL
+    if structure.terms is not None:  # a potential: with a conserved angular momentum, the least energy is without u
+        own = sp.Add(*terms.stored(structure).values()).subs(q.normal_velocity, 0)
+        energy += own
+        slope += own.diff(q.gap)
     return {"energy": energy, "slope": slope}
 
 

@@ -20,7 +20,7 @@ def _library() -> dict[str, dict[str, Law]]:
     result: dict[str, dict[str, Law]] = {slot: {} for slot in SLOTS}
     names = sorted({module.name for module in iter_modules(__path__)} - {"modelfile"})
     for name in sorted(names, key=lambda name: _FIRST.index(name) if name in _FIRST else len(_FIRST)):
-        with collecting() as declared:
+        with collecting(library=True) as declared:
             import_module(f".{name}", __package__)
         for law in express(name, "", declared).laws:
             result[law.slot][law.name] = law

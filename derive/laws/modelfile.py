@@ -32,9 +32,9 @@ def declared(path: Path, text: str | None = None) -> tuple[str, Declarations]:
             where = f"{path}, line {_line(error, path)}"
             reason = " ".join(f"{type(error).__name__}: {error}".split())
             raise ModelFileError(where, None, _remedy(error), reason) from None
-    if not result.laws and not result.events:
-        accepted = "law(SLOT, NAME, ...) or event(NAME, ...), at least once"
-        raise ModelFileError(str(path), None, accepted, "declares no law and no event")
+    if not (result.laws or result.events or result.energies or result.forces or result.criteria):
+        accepted = "law(SLOT, NAME, ...), event(...), energy(...), force_on(...) or criterion(...), at least once"
+        raise ModelFileError(str(path), None, accepted, "declares no law, event, term or criterion")
     doc = namespace.get("__doc__") or ""
     return doc.strip().partition("\n")[0].rstrip("."), result
 

@@ -10,7 +10,7 @@ from functools import cache
 
 import sympy as sp
 
-from ..vocabulary.quantities import a, m, omega, u, x, xi
+from ..vocabulary.quantities import a, beta, m, omega, u, x, xi
 from ..vocabulary.quantities import r as r_of_x
 from ..vocabulary.quantities import t as time
 
@@ -18,6 +18,9 @@ from ..vocabulary.quantities import t as time
 F_n, F_c, F_t, arm = sp.symbols("F_n F_c F_t arm", real=True)
 F_w = sp.Symbol("F_w", real=True)  # attraction along the line of centres other than the bridge's
 S_n, S_t = sp.symbols("S_n S_t", real=True)
+# What a model file adds to the equation of motion of each coordinate: a generalised force and an inertia
+Q_x, Q_beta, Q_spin = sp.symbols("Q_x Q_beta Q_spin", real=True)
+M_x, M_beta, M_spin = sp.symbols("M_x M_beta M_spin", nonnegative=True)
 
 
 @cache
@@ -89,9 +92,40 @@ def lagrange(
     result = {}
     for name, coordinate in coordinates.items():
         momentum, rate = energy.diff(coordinate.diff(time)), energy.diff(coordinate) + work[name]
-        balance, second = momentum.diff(time) - rate, coordinate.diff(time, 2)  # the balance is linear in it
-        result[name] = -balance.subs(second, 0) / balance.diff(second), momentum, rate
+        inertia, force = _balance(momentum, rate, coordinate)
+        result[name] = force / inertia, momentum, rate
     return result
+
+
+def _balance(momentum: sp.Expr, rate: sp.Expr, coordinate: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
+    """Inertia and force of a coordinate: d/dt momentum = rate is linear in its acceleration."""
+    balance, second = momentum.diff(time) - rate, coordinate.diff(time, 2)
+    return balance.diff(second), -balance.subs(second, 0)
+
+
+def added(energy: sp.Expr, work: Mapping[str, sp.Expr]) -> dict[str, tuple[sp.Expr, sp.Expr]]:
+    """Inertia and force that a term of the Lagrangian and generalised forces add for each coordinate, in SI."""
+    result = {}
+    for name, coordinate in coordinates().items():
+        moving = _moving(energy)
+        momentum, rate = moving.diff(coordinate.diff(time)), moving.diff(coordinate) + _moving(work[name])
+        inertia, force = _balance(momentum, rate, coordinate)
+        result[name] = sp.simplify(_settled(inertia)), sp.simplify(_settled(force))
+    return result
+
+
+def _moving(expression: sp.Expr) -> sp.Expr:
+    """An expression in SI with the coordinates and their velocities as functions of time."""
+    q = coordinates()
+    velocities = {rate: coordinate.diff(time) for rate, coordinate in zip((u, omega, xi), q.values(), strict=True)}
+    return expression.subs({x: q["x"], beta: q["beta"]} | velocities, simultaneous=True)
+
+
+def _settled(expression: sp.Expr) -> sp.Expr:
+    """The reverse of `_moving`."""
+    q = coordinates()
+    plain = {coordinate.diff(time): rate for coordinate, rate in zip(q.values(), (u, omega, xi), strict=True)}
+    return expression.subs(plain).subs({q["x"]: x, q["beta"]: beta})
 
 
 @dataclass(frozen=True)
@@ -112,15 +146,18 @@ class EquationsOfMotion:
 
 
 @cache
-def equations_of_motion() -> EquationsOfMotion:
-    """Lagrange's equations of the doublet, solved for the accelerations."""
-    q = coordinates()
-    plain = {coordinate.diff(time): rate for coordinate, rate in zip(q.values(), (u, omega, xi), strict=True)}
+def equations_of_motion(terms: bool = False) -> EquationsOfMotion:
+    """Lagrange's equations of the doublet, solved for the accelerations.
 
-    def settle(expression: sp.Expr) -> sp.Expr:
-        return expression.subs(plain).subs({q["x"]: x})
-
-    motion = lagrange(kinetic_energy(), q, generalised_forces())
+    Arguments:
+        terms: with the generalised forces Q and the inertia M that a model file adds; M varies as Q says.
+    """
+    q, settle = coordinates(), _settled
+    energy, work = kinetic_energy(), generalised_forces()
+    if terms:
+        energy += sum(mass * at.diff(time) ** 2 / 2 for mass, at in zip((M_x, M_beta, M_spin), q.values(), strict=True))
+        work = {on: force + more for (on, force), more in zip(work.items(), (Q_x, Q_beta, Q_spin), strict=True)}
+    motion = lagrange(energy, q, work)
     opened, turned, spun = (sp.expand(settle(sp.factor(acceleration))) for acceleration, _, _ in motion.values())
     return EquationsOfMotion(
         separation_acceleration=opened,

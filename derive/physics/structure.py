@@ -4,6 +4,8 @@ from dataclasses import dataclass, replace
 from itertools import product
 from typing import Literal
 
+from .terms import Terms
+
 Partner = Literal["", "pair", "wall", "space"]
 Friction = Literal["", "solid", "all"]
 
@@ -22,6 +24,7 @@ class Structure:
         partner: the partner of the sphere: "" an equal sphere, "pair" another sphere, "wall" a wall, "space" any
             sphere, with vectors in the laboratory's axes in place of a plane of motion.
         friction: of the dry contact: at no rebound, at those by solid contact, or at all.
+        terms: what a model file adds to the equations of motion.
     """
 
     oblique: bool
@@ -32,6 +35,7 @@ class Structure:
     spread: bool = False
     partner: Partner = ""
     friction: Friction = ""
+    terms: Terms | None = None
 
     def __post_init__(self) -> None:
         if self.reduced and (self.strings or not self.oblique):

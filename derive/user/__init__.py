@@ -1,4 +1,4 @@
-"""A user's laws, events and quantities; a model file begins with `from wetdoublet.derive.user import *`."""
+"""A user's laws, terms, events and quantities; a model file begins with `from wetdoublet.derive.user import *`."""
 
 # ruff: noqa: F401 -- the names of people's model files
 import sympy as sp
@@ -41,6 +41,6 @@ from ..vocabulary.quantities import (
 from ..vocabulary.quantities import contact_angle as phi
 from ..vocabulary.quantities import normal_velocity as opening  # its name in older model files
 from ..vocabulary.quantities import volume as V
-from .declarations import Formula, event, law, let, positive, quantity
+from .declarations import Formula, criterion, energy, event, force_on, law, let, positive, quantity
 
 pi = sp.pi

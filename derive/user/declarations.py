@@ -21,10 +21,23 @@ import sympy as sp
 from ..physics.law import RANGES, Law, Range
 from ..physics.references import Reference
 from ..physics.slots import SLOTS, places
+from ..physics.terms import VELOCITIES
 from ..vocabulary.allowed_values import Bounds, BoundsError
-from ..vocabulary.dimensions import ENERGY, ONE, Dimension, DimensionError, UnitError, dimension_of, dimension_of_unit
+from ..vocabulary.dimensions import (
+    ENERGY,
+    FORCE,
+    LENGTH,
+    ONE,
+    Dimension,
+    DimensionError,
+    UnitError,
+    dimension_of,
+    dimension_of_unit,
+)
 from ..vocabulary.quantities import DIMENSIONS, VOCABULARY, omega, u, x, xi
+from ..vocabulary.quantities import t as time
 from . import own_events
+from .kinks import guarded
 from .names import EMITTED, taken
 
 _LAW_NAME = re.compile(r"[a-z][a-z0-9]*(-[a-z0-9]+)*")
@@ -116,17 +129,41 @@ class Proposed:
     falls: bool
 
 
+@dataclass(frozen=True)
+class Criterion:
+    """A rebound criterion as declared: the gap in SI at which it is met, and its group, that gap over x0."""
+
+    name: str
+    gap: sp.Expr
+    group: sp.Symbol
+    meaning: str
+    source: str
+
+    @property
+    def word(self) -> str:
+        return self.name.replace("_", " ")
+
+
 @dataclass
 class Declarations:
-    """Everything that a file declares, in order; `taken` are names of laws by slot that are the library's."""
+    """Everything that a file declares, in order.
+
+    Arguments:
+        taken: names of laws by slot that are the library's.
+        library: the file is one of the library, whose names its emitted text has.
+    """
 
     taken: Mapping[str, Collection[str]] = field(default_factory=dict)
+    library: bool = False
 
     quantities: dict[str, Declared] = field(default_factory=dict)
     intermediates: dict[str, Intermediate] = field(default_factory=dict)
     laws: dict[tuple[str, str], Proposed] = field(default_factory=dict)
     events: dict[str, own_events.Proposed] = field(default_factory=dict)
     positive: list[sp.Expr] = field(default_factory=list)
+    energies: list[sp.Expr] = field(default_factory=list)
+    forces: list[tuple[str, sp.Expr]] = field(default_factory=list)
+    criteria: dict[str, Criterion] = field(default_factory=dict)
 
 
 _here = ContextVar("declarations", default=Declarations())  # noqa: B039 -- of a model file that is run directly
@@ -137,9 +174,14 @@ def _declarations() -> Declarations:
 
 
 @contextmanager
-def collecting(taken: Mapping[str, Collection[str]] | None = None) -> Iterator[Declarations]:
-    """Collect the declarations made inside the block; `taken` are names of laws by slot that none may have."""
-    token = _here.set(Declarations(taken or {}))
+def collecting(taken: Mapping[str, Collection[str]] | None = None, library: bool = False) -> Iterator[Declarations]:
+    """Collect the declarations made inside the block.
+
+    Arguments:
+        taken: names of laws by slot that none may have.
+        library: of a file of the library.
+    """
+    token = _here.set(Declarations(taken or {}, library))
     try:
         yield _here.get()
     finally:
@@ -197,7 +239,8 @@ def quantity(
 def let(name: str, expression: object, latex: str = "") -> sp.Symbol:
     """Name a part of an expression; the name is kept in print, and in emitted code unless it means something there."""
     there = _declarations()
-    written = f"{name}_" if isinstance(name, str) and name in taken().keys() - VOCABULARY.keys() else name
+    means = {} if there.library else taken()
+    written = f"{name}_" if isinstance(name, str) and name in means.keys() - VOCABULARY.keys() else name
     _check_name("let", written, there)
     value = _expression(name, expression)
     claimed = value.xreplace({part: sp.Dummy(positive=True) for part in there.positive})
@@ -265,6 +308,13 @@ def law(
         raise ModelFileError(label, foreign, "the functions " + ", ".join(known), "is no function of this slot")
     for missing in (function for function, place in known.items() if place.required and function not in functions):
         raise ModelFileError(f"{label}.{missing}", None, f"{missing} = an expression", "is missing")
+    for option, value in (("falls", falls), ("spread", spread)):
+        if not isinstance(value, bool):
+            raise ModelFileError(f"{label}.{option}", value, "True, False")
+    if not isinstance(accept, tuple | list) or not all(isinstance(check, str) for check in accept):
+        raise ModelFileError(
+            f"{label}.accept", accept, 'names of checks, as ("angular momentum",)', "is no list of them"
+        )
     if spread and slot != "film":
         raise ModelFileError(f"{label}.spread", spread, "no such argument", "is of a film")
     formulas = {f: _formula(f"{label}.{f}", functions[f]) for f in known if f in functions}
@@ -383,15 +433,100 @@ def event(
     return mark
 
 
+def criterion(name: str, *, gap: object, meaning: str = "", source: str = "") -> None:
+    """Declare a rebound criterion: the doublet rebounds, as on its roughness, when the gap has closed to an expression.
+
+    Arguments:
+        name: its name in reports.
+        gap: m, of quantities and the impact speed v0, as the thickness of a soft layer; the largest gap at which any
+            criterion is met is where the solids meet.
+        meaning: what it is, as in "the gap is down to ...".
+
+    Raises:
+        ModelFileError: names what is wrong, and what is accepted.
+    """
+    there, label = _declarations(), f"criterion {name}"
+    name = name.replace(" ", "_") if isinstance(name, str) else name
+    _check_name("criterion", name, there)
+    group = f"{name}_gap"
+    _check_name(f"{label}.group", group, there)
+    if name in own_events.TAKEN_NAMES or name.replace("_", " ") in own_events.TAKEN_WORDS:
+        raise ModelFileError("criterion", name, "a name of your own", "is a word of the library")
+    _check_texts(label, meaning=meaning, source=source)
+    value = unfolded(_of_event(f"{label}.gap", gap, there, LENGTH), there)
+    marks = {known.mark for known in there.events.values()}
+    if moving := sorted(str(s) for s in value.free_symbols & {*own_events.MOVING, *marks}):
+        accepted = "a length of quantities and v0, which stays as it is during a collision"
+        raise ModelFileError(f"{label}.gap", ", ".join(moving), accepted, "varies along a trajectory")
+    meaning = meaning or f"the {name.replace('_', ' ')}"
+    symbol = sp.Symbol(group, nonnegative=True)
+    there.criteria[name] = Criterion(name, value, symbol, meaning, source or "no source given")
+
+
+def energy(expression: object) -> None:
+    """Add a term to the energy of the motion, J: a potential of x and beta, or squares of u, omega and xi.
+
+    Several add up. A kinetic one is added inertia: its factors may depend on x and beta. The equations follow from the
+    Lagrangian; in the ledger the energy is of `own_terms`.
+
+    Raises:
+        ModelFileError: names what is wrong, and what is accepted.
+    """
+    there = _declarations()
+    value = _of_term("energy", expression, there, ENERGY)
+    whole, squares = unfolded(value, there), {rate: rate**2 for rate in VELOCITIES.values()}
+    inertia = {rate: sp.simplify(whole.diff(rate, 2)) for rate in squares}
+    kinetic = sp.Add(*(inertia[rate] * square / 2 for rate, square in squares.items()))
+    left = sp.simplify(whole - whole.subs(dict.fromkeys(squares, 0)) - kinetic)
+    if left != 0 or any(part.free_symbols & squares.keys() for part in inertia.values()):
+        accepted = "a potential of x and beta, and squares of u, omega and xi, as added*u**2/2"
+        raise ModelFileError("energy", str(value), accepted, "is neither a potential nor a kinetic energy")
+    there.energies.append(value)
+
+
+def force_on(coordinate: str, expression: object) -> None:
+    """Add a generalised force, by virtual work: N on the "gap", positive outward; N m on the "rotation" or "spin".
+
+    A torque on the rotation turns the line of centres, one on the spin both spheres alike. Several add up. In the
+    ledger the work is of `own_terms`.
+
+    Raises:
+        ModelFileError: names what is wrong, and what is accepted.
+    """
+    there, label = _declarations(), f"force_on {coordinate}"
+    if coordinate not in VELOCITIES:
+        raise ModelFileError("force_on", coordinate, ", ".join(VELOCITIES), "is no coordinate")
+    value = _of_term(label, expression, there, FORCE if coordinate == "gap" else ENERGY)
+    there.forces.append((coordinate, value))
+
+
+def _of_term(label: str, value: object, there: Declarations, wanted: Dimension) -> sp.Expr:
+    """The expression of a term: of the motion, but not of the time or of events, and smooth along a trajectory."""
+    result = _of_event(label, value, there, wanted)
+    whole, marks = unfolded(result, there), {known.mark for known in there.events.values()}
+    for symbol in sorted(whole.free_symbols & {time, *marks}, key=str):
+        problem = "is in a term: resting contact would not end with it"
+        raise ModelFileError(label, str(symbol), "an expression of x, u, omega, xi, beta and quantities", problem)
+    if kinks := guarded(whole, own_events.MOVING):
+        accepted = "a smooth expression, as sqrt(u**2 + c**2) for Abs(u); laws and events may have kinks"
+        raise ModelFileError(label, str(kinks[0]), accepted, "has a kink where it vanishes")
+    return result
+
+
 def _of_event(label: str, value: object, there: Declarations, wanted: Dimension | None = None) -> sp.Expr:
-    """An expression of an event, its symbols and its dimension judged."""
+    """An expression of an event or a term, its symbols and its dimension judged."""
     result = _expression(label, value)
     whole = unfolded(result, there)
     dimensions = {one.symbol: one.dimension for one in there.quantities.values()}
     dimensions |= {known.mark: ONE for known in there.events.values()}
     for symbol in sorted(whole.free_symbols, key=str):
         if symbol not in dimensions and not own_events.may_use(symbol):
-            raise ModelFileError(label, str(symbol), own_events.ACCEPTED, "is not known to an event")
+            raise ModelFileError(
+                label,
+                str(symbol),
+                own_events.ACCEPTED,
+                f"is not known to {'an event' if label.startswith('event') else 'a term'}",
+            )
     try:
         dimension = dimension_of(whole, {**DIMENSIONS, **dimensions})
     except DimensionError as error:
@@ -420,9 +555,10 @@ def _check_name(what: str, name: object, there: Declarations, in_functions: bool
         raise ModelFileError(what, name, "a name of small letters, digits and underscores")
     declared = {*there.quantities, *there.intermediates, *(known.group for known in there.quantities.values())}
     declared |= {word for known in there.events for word in (known, own_events.MARK + known)}
+    declared |= {word for known in there.criteria for word in (known, f"{known}_gap")}
     of_library = VOCABULARY.get(name)
     local = what == "let" and of_library is not None and not own_events.may_use(of_library.symbol)  # in no law
-    meaning = "" if local else taken().get(name, "")
+    meaning = "" if local or there.library else taken().get(name, "")
     if name in declared or (meaning and (in_functions or meaning != EMITTED)):
         problem = "is taken already" + (f": it is {meaning}" if meaning else "")
         raise ModelFileError(what, name, "a name that is not taken", problem)

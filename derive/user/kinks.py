@@ -70,6 +70,14 @@ def freed(expression: sp.Expr) -> sp.Expr:
     return result.xreplace({node: compared(node) for node in result.atoms(Relational)})
 
 
+def guarded(expression: sp.Expr, moving: Collection[sp.Symbol]) -> list[sp.Expr]:
+    """What vanishes at the kinks of an expression, where these symbols vary."""
+    smoothing = _Smoothing(moving)
+    smoothing(expression)
+    values = dict(smoothing.definitions)
+    return [values[kink] for kink, _ in smoothing.kinks]
+
+
 def rounded(expression: sp.Expr) -> sp.Expr:
     """An expression with its kinks rounded within WIDTH."""
     smoothing = _Smoothing(expression.free_symbols)

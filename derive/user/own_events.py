@@ -15,10 +15,11 @@ import sympy as sp
 from ..equations.automaton import CLOSING, EVENTS, OPENING, WORDS, Event
 from ..equations.functions import ModelFunction
 from ..equations.model import GROUPS, Model
+from ..equations.terms import CLOCKS, settled
 from ..physics.mechanics import equations_of_motion
-from ..physics.partners.bodies import CENTRES
-from ..physics.scaling import DISTANCE, EQUAL, cancelled, to_groups
+from ..physics.scaling import DISTANCE, to_groups
 from ..physics.structure import Structure
+from ..physics.terms import STILL
 from ..vocabulary import quantities as q
 from ..vocabulary.dimensions import RATE, SPEED, Dimension
 from .kinks import rounded
@@ -35,8 +36,6 @@ MARK = "before_"  # and the name of an event: its mark
 MOTIONS = {"closing": CLOSING, "opening": OPENING, "any": 0}
 REGIONS = {"": None, "inside the film": 1, "beyond the film": 0}
 PLACES = tuple(f"{motion} {region}".strip() for motion in MOTIONS for region in REGIONS)
-CLOCKS = {q.beta: q.angle_turned, q.t: q.x0 / q.v0 * q.time_passed}  # states that only declared events watch
-_STILL = {q.omega: sp.Integer(0), q.xi: sp.Integer(0), q.beta: sp.Integer(0)}  # head-on
 ENDINGS = {"": "go on", "separated": "part", "stick": "cut off"}
 
 
@@ -128,12 +127,12 @@ class OwnEvent:
     @property
     def rotates(self) -> bool:
         """The guard or the jump speaks of a rotation, which there is none of beside a wall."""
-        return bool({*self.symbols, *(target for target, _ in self.jump)} & {*_STILL, q.omega0})
+        return bool({*self.symbols, *(target for target, _ in self.jump)} & {*STILL, q.omega0})
 
     @property
     def turns(self) -> bool:
         """Its guard varies with a rotation only, so that nothing happens head-on."""
-        return not sp.simplify(self.guard.xreplace(_STILL)).free_symbols & {q.x, q.u, q.t}
+        return not sp.simplify(self.guard.xreplace(STILL)).free_symbols & {q.x, q.u, q.t}
 
     @property
     def spins(self) -> bool:
@@ -184,7 +183,7 @@ class OwnEvent:
         """Guard, jump of the states, and release over m v0^2, in states and groups of a structure."""
 
         def put(value: sp.Expr) -> sp.Expr:
-            return _settled(f"event {self.name}", value, structure)
+            return settled(f"event {self.name}", value, structure)
 
         jump: dict[sp.Symbol, sp.Expr] = {}
         for target, value in self.jump:
@@ -197,15 +196,6 @@ class OwnEvent:
                 if structure.partner == "pair":
                     jump[q.partner_spin] = put(value.xreplace({q.xi: q.partner_spin_rate}))
         return put(self.guard), jump, put(self.releases)
-
-
-def _settled(label: str, value: sp.Expr, structure: Structure) -> sp.Expr:
-    clocks = CLOCKS | ({q.beta: q.beta} if structure.strings else {})  # there it is a state of the library
-    value = value.xreplace(clocks if structure.oblique else clocks | _STILL)
-    rules = to_groups(CENTRES if structure.partner == "pair" else EQUAL)
-    for _ in range(3):
-        value = value.xreplace(rules)
-    return cancelled(label, sp.Add(*(sp.simplify(term) for term in sp.Add.make_args(sp.expand(value)))), value)
 
 
 def extended(model: Model, events: tuple[OwnEvent, ...]) -> Model:
@@ -221,6 +211,7 @@ def extended(model: Model, events: tuple[OwnEvent, ...]) -> Model:
     guards, watched = _in_order(present, forms), groups_of(events, model.structure)
     clocks = {q.angle_turned: model["turning_rate"][q.beta.name]} if q.angle_turned in watched else {}
     clocks |= {q.time_passed: sp.Integer(1)} if q.time_passed in watched else {}
+    clocks = {state: rate for state, rate in clocks.items() if state not in model.states}  # which terms watch already
     rates = {**dict.fromkeys(marks, sp.Integer(0)), **clocks}
     same = {state: state for state in rates}
     more: dict[str, Mapping[sp.Symbol, sp.Expr]] = {

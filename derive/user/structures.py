@@ -8,14 +8,29 @@ from itertools import combinations
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from ..equations.model import GROUPS, Model
+from ..equations.model import GROUPS, Model, derive
 from ..physics.law import Definition, Law, LawFunction, is_slot_call
 from ..physics.scaling import ScalingError, cancelled, dimension_matrix, dimensional, group_definitions, to_groups
 from ..physics.slots import MOTION, Place, place_of
+from ..physics.structure import Structure
+from ..physics.terms import VELOCITIES, Terms
 from ..vocabulary.dimensions import ONE, Dimension, DimensionError, dimension_of
-from ..vocabulary.quantities import DIMENSIONS, VOCABULARY, a, m, mu, normal_velocity, rate_scale, u, v0, x, x0
+from ..vocabulary.quantities import (
+    DIMENSIONS,
+    VOCABULARY,
+    a,
+    m,
+    mu,
+    normal_velocity,
+    rate_scale,
+    rough_gap,
+    u,
+    v0,
+    x,
+    x0,
+)
 from . import own_events
-from .declarations import Declarations, Declared, Proposed, published, unfolded
+from .declarations import Criterion, Declarations, Declared, Proposed, published, unfolded
 from .kinks import freed, smooth
 from .own_events import OwnEvent
 
@@ -52,6 +67,22 @@ class UserModel:
     groups: tuple[Group, ...]
     extra: Mapping[str, tuple[sp.Symbol, ...]]
     events: tuple[OwnEvent, ...] = ()
+    terms: Terms | None = None
+
+    @cached_property
+    def si(self) -> tuple[Law, ...]:
+        """The laws in SI except for the slot's arguments, for print."""
+        return tuple(_in_si(law, self.groups) for law in self.written)
+
+    @property
+    def criteria(self) -> tuple[Criterion, ...]:
+        return tuple(self.declarations.criteria.values())
+
+    @property
+    def gaps(self) -> dict[sp.Symbol, sp.Expr]:
+        """The gap of each criterion over x0, and that of solid contact by roughness or by any of them: groups in SI."""
+        own = {known.group: known.gap / x0 for known in self.criteria}
+        return own | {rough_gap: sp.Max(group_definitions()[rough_gap], *own.values())} if own else {}
 
     @property
     def slots(self) -> tuple[str, ...]:
@@ -61,15 +92,18 @@ class UserModel:
         """The law that fills a slot unless a scene names another: the first one declared."""
         return next(law for law in self.laws if law.slot == slot)
 
-    @cached_property
-    def si(self) -> tuple[Law, ...]:
-        """The laws as written, in SI except for the slot's arguments: for print, and so made when it is asked for."""
-        groups = {group.quantity.name: group for group in self.groups}
-        return tuple(_in_si(law, groups) for law in self.written)
-
     @property
     def accepted(self) -> set[str]:
         return {check for law in self.declarations.laws.values() for check in law.accept}
+
+    @property
+    def terms_in_si(self) -> Terms | None:
+        """The terms in the quantities of the file."""
+        return _terms(self.declarations, {})
+
+    def derived(self, structure: Structure) -> Model:
+        """The model of a structure with all that the file declares."""
+        return self.extended(derive(replace(structure, terms=self.terms)))
 
     def extended(self, model: Model) -> Model:
         """A structure's model with the additional arguments in its calls, and the groups that they require."""
@@ -93,7 +127,7 @@ class UserModel:
         reached |= own_events.groups_of(self.events, model.structure)
         known = {*model.groups, *reached}
         groups = [group for group in GROUPS if group in known]
-        groups += [group.symbol for group in self.groups if group.symbol in reached]
+        groups += [group.symbol for group in self.groups if group.symbol in known]
         wider = replace(model, groups=tuple(groups), functions=functions, definitions=definitions)
         return own_events.extended(wider, self.events)
 
@@ -115,14 +149,33 @@ def express(name: str, meaning: str, declared: Declarations) -> UserModel:
     still = {*GROUPS, *(group.symbol for group in groups.values())}
     written = tuple(laws)
     laws = [replace(law, functions=tuple(smooth(f, still, declared.positive) for f in law.functions)) for law in laws]
+    terms = _terms(declared, groups)
     called = {symbol for symbols in extra.values() for symbol in symbols}
     events = tuple(_event(one, declared, groups, called) for one in declared.events.values())
-    used = called.union(*(one.symbols for one in events))
+    touched = set().union(*(known.gap.free_symbols for known in declared.criteria.values()))
+    used = called.union(*(one.symbols for one in events), terms.symbols if terms else ())
+    used |= {group.symbol for group in groups.values() if group.quantity.symbol in touched}
     kept = tuple(group for group in groups.values() if group.symbol in used)
     unused = [one.name for one in declared.quantities.values() if one.name not in {g.quantity.name for g in kept}]
     if unused:
-        raise ScalingError(f"{', '.join(unused)}: declared, but no law or event depends on it")
-    return UserModel(name, meaning, declared, tuple(laws), written, kept, extra, events)
+        raise ScalingError(f"{', '.join(unused)}: declared, but no law, term, event or criterion depends on it")
+    return UserModel(name, meaning, declared, tuple(laws), written, kept, extra, events, terms)
+
+
+def _terms(declared: Declarations, groups: Mapping[str, Group]) -> Terms | None:
+    """The declared terms with their quantities as groups; None without any."""
+    if not (declared.energies or declared.forces):
+        return None
+    quantities = _as_groups(groups)
+
+    def put(*parts: sp.Expr) -> sp.Expr:
+        return sp.sympify(sp.Add(*(unfolded(part, declared) for part in parts))).xreplace(quantities)
+
+    energy = put(*declared.energies)
+    potential = energy.subs(dict.fromkeys(VELOCITIES.values(), 0))
+    forces = {on: put(*(part for name, part in declared.forces if name == on)) for on in VELOCITIES}
+    acting = tuple((on, force) for on, force in forces.items() if force != 0)
+    return Terms(sp.expand(energy - potential), potential, acting, tuple(group.symbol for group in groups.values()))
 
 
 def _event(
@@ -188,6 +241,8 @@ def _scale(one: Declared, declared: Declarations) -> sp.Expr:
         for name, formula in known.functions.items()
     ]
     functions += [(each, sp.Integer(1)) for event in declared.events.values() for each in event.expressions]
+    functions += [(known.gap, sp.Integer(1)) for known in declared.criteria.values()]
+    functions += [(each, sp.Integer(1)) for each in (*declared.energies, *(force for _, force in declared.forces))]
     near: list[sp.Symbol] = []
     for expression, scale in functions:
         full = unfolded(expression, declared)
@@ -284,9 +339,9 @@ def _settled(label: str, place: Place, expression: sp.Expr, groups: Mapping[str,
     return cancelled(label, by_term, expression)
 
 
-def _in_si(law: Law, groups: Mapping[str, Group]) -> Law:
+def _in_si(law: Law, groups: Iterable[Group]) -> Law:
     """The law with its groups as quantities, in the slot's own arguments only."""
-    back: dict[sp.Basic, sp.Basic] = {g.symbol: g.definition for g in groups.values()}
+    back: dict[sp.Basic, sp.Basic] = {g.symbol: g.definition for g in groups}
     back |= dict(group_definitions())
     functions = []
     for f in law.functions:

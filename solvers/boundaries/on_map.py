@@ -34,7 +34,7 @@ def map_curves(data: xarray.Dataset, package: Package | None = None) -> dict[int
     base = scene_of(data)
     if package is not None:
         base = Scene(base.name, base.given, base.comments, package)
-    if base.package is not None and (base.package.folder is None or base.package.events):
+    if base.package is not None and (base.package.folder is None or base.package.bends):
         return {}  # only described, or without atlas
     angles = data["angle"].values
     impact = impact_axis(data)

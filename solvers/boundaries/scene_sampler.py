@@ -67,8 +67,8 @@ class SceneSampler:
         for name in ("outcome", "reversal", "events", "time"):
             samples[name] = answers[name]
         samples["restitution"] = answers["shown"][:, 0]
-        if self.scene.package is not None and self.scene.package.events:
-            return samples  # no margin is smooth where a declared event may come first
+        if self.scene.package is not None and self.scene.package.bends:
+            return samples  # no margin is known beside declared events and terms
         contact = contact_gap_at(self.scene, stokes / self.scene.stokes_per_speed)
         samples["criterion"] = np.where(outcome == _ROTATE, _margin(answers, peaks, contact), np.nan)
         samples["time"][outcome == _STICK] = np.nan

@@ -62,6 +62,10 @@ def assembled(
             return None
         return outputs[name] * problem.rate if problem.oblique else 0.0
 
+    if scene.package is not None:  # which of the gaps of its group it is
+        touched = {"rough": scene.package.touched(problem.groups)}
+        reversal, events = touched.get(reversal or "", reversal), [(touched.get(word, word), at) for word, at in events]
+
     partner = "final_spin_partner" if "final_spin_partner" in outputs else "final_spin"
     return Collision(
         outcome=outcome,

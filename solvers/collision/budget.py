@@ -39,6 +39,7 @@ FORMULAS = {  # the terms: in words, and as a formula
     "attraction": ("van der Waals work", f"-2 int F_a u dt{_OVER}"),
     "strings": ("strings", f"-2 [U_s(t_f) - U_s(0)]{_OVER}"),
     "own_events": ("declared events", f"-2 D{_OVER}, D taken by their jumps"),
+    "own_terms": ("declared terms", f"-2 [E(t_f) - E(0)]{_OVER} - 2 int P dt{_OVER}, P taken by the forces"),
     "residual": ("residual", "the error of the integration"),
 }
 NONE = "no budget of e_n^2 - 1: a stick never separates, so that it has no e_n"

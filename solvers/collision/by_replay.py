@@ -100,10 +100,10 @@ def terms_of(model: Model, replay: Replay, p: np.ndarray) -> dict[str, float]:
     terms |= {"initial": first["kinetic"], "final": last["kinetic"], "dry_contact": replay.dry_loss}
     terms["strings"] = last["strings"] - first["strings"] if model.strings else 0.0
     terms["dry_friction"] += replay.friction_loss
-    if model.own_events:
-        return terms | {"own_events": replay.own_loss}
-    del terms["own_events"]
-    return terms
+    stored = last.get("own_energy", 0.0) - first.get("own_energy", 0.0)
+    terms |= {"own_events": replay.own_loss, "own_terms": stored + terms.pop("own_work", 0.0)}
+    absent = [name for name, there in (("own_events", model.own_events), ("own_terms", model.own_terms)) if not there]
+    return {name: value for name, value in terms.items() if name not in absent}
 
 
 def _trajectory(

@@ -34,6 +34,7 @@ def absent_terms(scene: Scene) -> set[str]:
     absent = {
         "attraction": scene.attraction, "dry_friction": scene.particles.friction, "strings": scene.pendulum,
         "own_events": (scene.package and scene.package.events) or None,
+        "own_terms": scene.package and scene.package.terms,
     }  # fmt: skip
     return {name for name, part in absent.items() if part is None}
 
@@ -44,8 +45,9 @@ class Energy:
 
     `initial` and `final` are kinetic energies, `strings` is the gain of potential energy, `attraction` the work against
     van der Waals forces (None without them), `dry_friction` the loss by friction of the dry contact (None without),
-    `own_events` the kinetic energy that jumps of a model's declared events take (None if it declares none); `residual`
-    is initial - final - (all losses and works).
+    `own_events` the kinetic energy that jumps of a model's declared events take (None if it declares none), `own_terms`
+    the gain of its declared energies and the work against its forces (None likewise); `residual` is
+    initial - final - (all losses and works).
     """
 
     initial: float
@@ -58,6 +60,7 @@ class Energy:
     attraction: float | None = None
     dry_friction: float | None = None
     own_events: float | None = None
+    own_terms: float | None = None
 
     @classmethod
     def of(cls, problem: Problem, terms: Mapping[str, float]) -> Energy:
@@ -69,7 +72,7 @@ class Energy:
     @property
     def residual(self) -> float:
         spent = self.normal_lubrication + self.tangential_lubrication + self.capillary + self.dry_contact + self.strings
-        more = (self.attraction, self.dry_friction, self.own_events)
+        more = (self.attraction, self.dry_friction, self.own_events, self.own_terms)
         return self.initial - self.final - spent - sum(term or 0.0 for term in more)
 
     def check(self, rtol: float) -> None:

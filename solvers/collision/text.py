@@ -83,7 +83,10 @@ def _cut(text: str, longest: int) -> str:
 def reason(collision: Outcome) -> str:
     """Return the reason of the outcome, in words."""
     if collision.outcome == BOUNCE and collision.reversal is not None:
-        return CRITERIA[collision.reversal].sentence
+        own = collision.scene.package.criteria if collision.scene.package is not None else ()
+        return next((known.sentence for known in own if known.word == collision.reversal), None) or (
+            CRITERIA[collision.reversal].sentence
+        )
     if collision.outcome != STICK:
         declared = _declared(collision)
         if declared is not None and declared.row.actions[-1] == "part":
@@ -310,6 +313,8 @@ def _energy(collision: Outcome) -> list[str]:
         terms.append(("strings", energy.strings))
     if energy.own_events is not None:
         terms.append(("declared events", energy.own_events))
+    if energy.own_terms is not None:
+        terms.append(("declared terms", energy.own_terms))
     rows = [(name, _exponent(value, 3), value) for name, value in terms]
     rows.append(("residual", _exponent(energy.residual, 1), energy.residual))
     if max(abs(value) for _, value in terms) > _SCALE * energy.initial:

@@ -43,9 +43,12 @@ def select_model(scene: Scene, oblique: bool, full: bool = False, fold: bool = F
     partner = "" if equal or not oblique else "wall" if scene.wall else "pair"  # head-on, only a and m matter
     partner = "space" if space else partner
     friction = oblique and scene.particles.friction is not None
-    turned = scene.package is not None and any(each.spins for each in scene.package.events)  # by a declared event
-    free = oblique and not (full or friction or turned or scene.pendulum is not None) and partner in ("", "space")
-    reduced = free and scene.law_has("arm", "balanced")
+    free = oblique and partner in ("", "space") and scene.pendulum is None
+    package = scene.package
+    turned = package is not None and (  # by a declared event or term
+        any(each.spins for each in package.events) or (package.terms is not None and package.terms.rotates)
+    )
+    reduced = free and not (full or friction or turned) and scene.law_has("arm", "balanced")
     spread = scene.law_has("film", "spread")
     words = {
         "bridge": scene.bridge is not None,
@@ -69,7 +72,7 @@ def select_model(scene: Scene, oblique: bool, full: bool = False, fold: bool = F
         laws.append(("strings", scene.pendulum.law))
     if scene.attraction is not None:
         laws.append(("attraction", scene.law_of("attraction")))
-    return ModelKey("_".join(parts), tuple(laws), scene.package)
+    return ModelKey("_".join(parts), tuple(laws), package)
 
 
 def _structure(choice: ModelKey) -> ModuleType:
@@ -168,6 +171,11 @@ class Model:
     def own_events(self) -> tuple[OwnEvent, ...]:
         package = self.choice.package
         return () if package is None else package.events_in(self.choice.structure)
+
+    @property
+    def own_terms(self) -> bool:
+        """True if a user's model adds terms to the equations."""
+        return self.choice.package is not None and self.choice.package.terms is not None
 
     @cached_property
     def events(self) -> tuple[Event, ...]:

@@ -86,6 +86,39 @@ class OwnEvent:
 
 
 @dataclass(frozen=True)
+class OwnCriterion:
+    """A rebound criterion that a model declares: its word in reports, and the group that is its gap."""
+
+    word: str
+    group: str
+    meaning: str
+    source: str
+
+    @property
+    def sentence(self) -> str:
+        return f"rebounded because the gap was down to {self.meaning}"
+
+
+@dataclass(frozen=True)
+class Terms:
+    """What a model adds to the equations of motion, by its entry in the manifest.
+
+    Arguments:
+        forces: the coordinates on which a generalised force acts.
+        inertia: a kinetic energy is declared.
+        rotates: they speak of a rotation, so that the angular momentum of the spheres is not conserved.
+        drives: they turn what does not turn.
+        admits_barrier: the energy certificate holds with them.
+    """
+
+    forces: tuple[str, ...]
+    inertia: bool
+    rotates: bool
+    drives: bool
+    admits_barrier: bool
+
+
+@dataclass(frozen=True)
 class Package:
     """A user's model as part of a scene.
 
@@ -194,6 +227,41 @@ class Package:
     def events(self) -> tuple[OwnEvent, ...]:
         return tuple(OwnEvent.from_manifest(entry) for entry in self.manifest.get("events", ()))
 
+    @cached_property
+    def terms(self) -> Terms | None:
+        entry = self.manifest.get("terms")
+        return None if entry is None else Terms(**entry | {"forces": tuple(entry["forces"])})
+
+    @cached_property
+    def criteria(self) -> tuple[OwnCriterion, ...]:
+        return tuple(OwnCriterion(**entry) for entry in self.manifest.get("criteria", ()))
+
+    def touched(self, groups: Mapping[str, float]) -> str:
+        """The word of the gap at which the solids meet by roughness or by a declared criterion, at these groups."""
+        own = max(self.criteria, key=lambda known: groups[known.group], default=None)
+        return own.word if own is not None and 0 < groups["rough_gap"] <= groups[own.group] else "rough"
+
+    @property
+    def bends(self) -> bool:
+        """It declares what no margin, and no curve of an atlas, is known beside: events, terms or criteria."""
+        return bool(self.events or self.criteria) or self.terms is not None
+
+    def check_terms(self, structure: str) -> None:
+        """InputError if the terms do not apply in a structure."""
+        parts, terms = structure.split("_"), self.terms
+        if terms is None:
+            return
+        if structure.startswith("head_on") and terms.drives:
+            problem = "of a model whose terms turn what does not turn"
+            raise InputError("impact.angle", "0 deg", "an angle above 0, or a spin", problem)
+        other = next((name for name in ("pair", "wall", "space", "friction") if name in parts), None)
+        if other is not None and terms.rotates:
+            accepted = "equal spheres without friction in a plane, or terms of x and u on the gap"
+            raise InputError("model", self.name, accepted, f"has terms on a rotation, which a {other} has not alone")
+        if other in ("space", "friction") and terms.inertia:
+            accepted = "a scene in a plane without friction, or a model without kinetic energy"
+            raise InputError("model", self.name, accepted, "adds inertia, which friction and space do not know")
+
     def events_in(self, structure: str) -> tuple[OwnEvent, ...]:
         """The events that a structure can have: it needs their rotations, and the spin as a state if they change it."""
         head_on = structure.startswith("head_on")
@@ -216,7 +284,7 @@ class Package:
 
     def changes(self, slots: tuple[str, ...]) -> bool:
         """True if this model changes the structure with these slots."""
-        return bool(self.events) or self.widens(slots)
+        return bool(self.events) or self.terms is not None or bool(self.criteria) or self.widens(slots)
 
     def widens(self, slots: tuple[str, ...]) -> bool:
         """True if this model passes more arguments to the laws in these slots."""

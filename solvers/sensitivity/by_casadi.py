@@ -199,6 +199,9 @@ def results(course: Course, p: MX, end: End, tolerance: Tolerance) -> dict[str, 
         named["rotation"] = y[list(model.state).index("rotation")]
     for k, (name, unit) in enumerate(zip(course.extras, extra_units(model, course.extras, p), strict=True)):
         named[name if name == "rotation" else f"energy.{name}"] = unit * (end.y[size + k] - tolerance.offset)
+    if model.own_terms:
+        before, after = energies.get("own_energy", (MX(0), MX(0)))
+        named["energy.own_terms"] = after - before + named.pop("energy.own_work", MX(0))
     named["energy.dry_friction"] = named.get("energy.dry_friction", MX(0)) + end.friction
     return named | {STATE + name: y[k] for k, name in enumerate(model.state)}
 
@@ -208,7 +211,8 @@ def quadratures(model: Model, of: Iterable[str]) -> tuple[str, ...]:
     turns = model.has("turning_rate") and not model.strings
     has = {*model.names("energy_rates"), *(("rotation",) if turns else ())}
     rows = (DEFINITIONS[name] for name in of if name in DEFINITIONS)
-    return tuple(row.term for row in rows if row.integral and row.term in has)
+    wanted = ["own_work" if row.term == "own_terms" else row.term for row in rows if row.integral]
+    return tuple(name for name in wanted if name in has)
 
 
 # ---- its derivatives

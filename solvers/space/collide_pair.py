@@ -133,6 +133,8 @@ def check_scene(scene: Scene) -> None:
         raise InputError("particles.friction", scene.particles.friction, "a scene without friction", problem)
     if scene.package is not None and scene.package.events:
         raise InputError("model", "declared events", "a model without events", "are of collisions in a plane")
+    if scene.package is not None and scene.package.terms is not None:
+        raise InputError("model", "declared terms", "a model without terms", "are of collisions in a plane")
     if not scene.wall and not scene.law_has("arm", "balanced"):
         problem = "does not conserve the angular momentum of a pair in space"
         raise InputError("model.arm", scene.model.arm, ", ".join(scene.laws_with("arm", "balanced")), problem)

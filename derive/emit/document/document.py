@@ -72,7 +72,11 @@ def document(
     """
     result: dict[str, Law] = {slot: law_of(slot, name, user) for slot, name in laws.items()}
     with naming(_names(user)):
-        lines = [line for line in _without(theory(result, friction), tuple(absent)) if line.expression != 0]
+        lines = [
+            line
+            for line in _without(theory(result, friction, user.terms_in_si if user else None), tuple(absent))
+            if line.expression != 0
+        ]
         lines += [
             Equation("Groups", latex(group.symbol), group.definition, group.quantity.meaning)
             for group in (user.groups if user else ())

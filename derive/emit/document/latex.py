@@ -9,13 +9,15 @@ from contextlib import contextmanager
 
 import sympy as sp
 
-from ...physics.mechanics import F_c, F_n, F_t, F_w, S_n, S_t
+from ...physics.mechanics import F_c, F_n, F_t, F_w, M_beta, M_spin, M_x, Q_beta, Q_spin, Q_x, S_n, S_t
 from ...vocabulary.quantities import A_H, VOCABULARY, a, beta, e_dry, g, m, mu, r, sigma, v0
 from ..casadi.printer import EmissionError, signed_sum
 
 NAMES: dict[str, str] = {
     **{name: quantity.latex for name, quantity in VOCABULARY.items()},
     # symbols outside the vocabulary: the paper's forces, and intermediates of laws
+    Q_x.name: "Q_x", Q_beta.name: r"Q_\beta", Q_spin.name: r"Q_\xi",
+    M_x.name: "M_x", M_beta.name: r"M_\beta", M_spin.name: r"M_\xi",
     F_n.name: "F_{L,n}", F_t.name: "F_{L,t}", F_c.name: "F_c", F_w.name: "F_w", S_n.name: "F_{S,n}",
     S_t.name: "F_{S,t}",
     "swing": "d", "rim": "H", "v_s": "v_s", "m_t": "m_t", "Q": "Q", "compliance": r"\theta_e", "decay": "A",

@@ -13,6 +13,7 @@ from ...physics.contact_friction import equal_spheres
 from ...physics.forces import FILM, SHEAR, force_laws
 from ...physics.pendulum import r as string_distance
 from ...physics.pendulum import swing_squared
+from ...physics.terms import Terms
 from ...vocabulary import quantities as q
 from .latex import latex
 
@@ -25,6 +26,10 @@ _SWING, _COMPLIANCE = sp.symbols("swing compliance", positive=True)  # distance 
 _SLIP, _TANGENTIAL_MASS, _IMPULSE = sp.symbols("v_s m_t Q")
 _RIM = sp.Symbol("rim", positive=True)  # rim H of a film of constant volume, in SI
 _ROMAN = ("i", "ii", "iii", "iv", "v", "vi", "vii", "viii", "ix", "x")
+_ADDED = {
+    "gap": (mechanics.M_x, mechanics.Q_x), "rotation": (mechanics.M_beta, mechanics.Q_beta),
+    "spin": (mechanics.M_spin, mechanics.Q_spin),
+}  # fmt: skip
 _TWO_FIFTHS = sp.Rational(2, 5)
 
 
@@ -43,15 +48,25 @@ class Equation:
         return f"{self.left} {self.relation} {latex(self.expression)}"
 
 
-def theory(choice: Mapping[str, str | Law] | None = None, friction: bool = False) -> tuple[Equation, ...]:
+def theory(
+    choice: Mapping[str, str | Law] | None = None, friction: bool = False, terms: Terms | None = None
+) -> tuple[Equation, ...]:
     """Every line of the theory, with laws from `choice` (slot to name, or a law in SI) or else the default ones.
 
     Arguments:
         friction: of the dry contact.
+        terms: of a model file.
     """
     chosen = {**DEFAULTS, **(choice or {})}
     laws = {slot: law if isinstance(law, Law) else LAWS[slot][law] for slot, law in chosen.items()}
-    parts = (_motion(laws), _film(laws), _bridge(laws["bridge"]), _attraction(laws), _strings(laws), _course(laws))
+    parts = (
+        _motion(laws, terms),
+        _film(laws),
+        _bridge(laws["bridge"]),
+        _attraction(laws),
+        _strings(laws),
+        _course(laws),
+    )
     rubbing = tuple(_friction(laws)) if friction else ()
     return (*(line for part in parts for line in part), *rubbing, *_groups())
 
@@ -60,8 +75,15 @@ def _rate(symbol: sp.Symbol) -> str:
     return rf"\frac{{d {latex(symbol)}}}{{dt}}"
 
 
-def _motion(laws: Mapping[str, Law]) -> Iterator[Equation]:
+def _motion(laws: Mapping[str, Law], terms: Terms | None) -> Iterator[Equation]:
     group, motion = "Motion", mechanics.equations_of_motion()
+    masses, forces = dict[sp.Symbol, sp.Expr](), dict[sp.Symbol, sp.Expr]()
+    heavier, more = dict.fromkeys(_ADDED, sp.S.Zero), dict.fromkeys(_ADDED, sp.S.Zero)
+    for on, parts in terms.parts.items() if terms else ():
+        for symbol, part, named, into in zip(_ADDED[on], parts, (masses, forces), (heavier, more), strict=True):
+            if part != 0:
+                named[symbol] = part
+                into[on] = symbol
     opened = motion.separation_acceleration.subs({} if "attraction" in laws else {mechanics.F_w: 0})
     radial = sp.collect(sp.expand(q.m * opened), q.omega**2, evaluate=False)
     balance = sp.Add(*(sp.factor(part) * power if power != 1 else part for power, part in radial.items()))
@@ -69,14 +91,21 @@ def _motion(laws: Mapping[str, Law]) -> Iterator[Equation]:
     turning = sp.simplify(mechanics.sphere_inertia() * motion.spin_acceleration).subs(mechanics.arm, lever)
     yield Equation(group, _rate(q.x), q.u, "gap; the paper's $v_n$ is $-u$")
     yield Equation(group, _rate(q.beta), q.omega, "angle of the line of centres")
-    yield Equation(group, f"{latex(q.m)} {_rate(q.u)}", balance, "along the line of centres")
+    pushed = f"{_mass(q.m + heavier['gap'])} {_rate(q.u)}"
+    yield Equation(group, pushed, balance + more["gap"], "along the line of centres")
     momentum = rf"\frac{{d}}{{dt}} \left[ {latex(motion.orbital_momentum)} \right]"
-    yield Equation(group, momentum, motion.orbital_momentum_rate, "across the line of centres")
-    spun = f"{latex(mechanics.sphere_inertia())} {_rate(q.xi)}"
-    yield Equation(group, spun, turning, f"spin of each sphere ({laws['arm'].name} arm)")
+    momentum += f" + {latex(heavier['rotation'])} {_rate(q.omega)}" if heavier["rotation"] != 0 else ""
+    yield Equation(group, momentum, motion.orbital_momentum_rate + more["rotation"], "across the line of centres")
+    spun = f"{_mass(mechanics.sphere_inertia() + heavier['spin'] / 2)} {_rate(q.xi)}"
+    yield Equation(group, spun, turning + more["spin"] / 2, f"spin of each sphere ({laws['arm'].name} arm)")
     scaled, square = sp.expand(mechanics.doublet_inertia() / (q.m * q.a**2)), (4 + q.x / q.a) ** 2  # as in the paper
     inertia = sp.Mul(q.m * q.a**2, square + sp.expand(scaled - square), evaluate=False)
     yield Equation(group, f"I({latex(q.x)})", inertia, "inertia in rigid rotation")
+    yield from (Equation("Declared terms", latex(symbol), value) for symbol, value in (masses | forces).items())
+
+
+def _mass(inertia: sp.Expr) -> str:
+    return rf"\left( {latex(inertia)} \right)" if inertia.is_Add else latex(inertia)
 
 
 def _film(laws: Mapping[str, Law]) -> Iterator[Equation]:

@@ -21,7 +21,10 @@ from .program import Operation
 
 _UNUSED = "(void)bar; (void)d; (void)c; (void)film; (void)shear; (void)moving;"
 # Cost of a transposed recurrence in products of series; a call costs one for each series that it is given.
-TRANSPOSED = {"product": 2.0, "square": 1.0, "quotient": 2.0, "sine": 1.0, "cosine": 1.0}
+TRANSPOSED = {
+    "product": 2.0, "square": 1.0, "quotient": 2.0, "sine": 1.0, "cosine": 1.0, "exp": 1.0, "arctangent": 1.0,
+    "sqrt": 1.0, "log": 1.0, "reciprocal": 2.0, "power": 2.0,
+}  # fmt: skip
 
 
 class Adjoint:
@@ -160,17 +163,43 @@ class Adjoint:
             return lines + self._product(operation)
         if kind == "call":
             return lines + self._call(operation)
-        (part,) = operation.series
+        if kind in ("sqrt", "log", "power"):
+            return self._divided(operation, total)
+        part = operation.series[0]
         factors = {  # the series that a change is correlated with, and what of it goes to the operand
             "square": (part, f"2.0*by_{name}"),
             "sine": (f"cosine_of_{part}", f"by_{name}"),
             "cosine": (f"sine_of_{part}", f"(-by_{name})"),
+            "exp": (name, f"by_{name}"),
+            "arctangent": (operation.series[-1], f"by_{name}"),
+            "reciprocal": (name, f"(-by_{name})"),
         }
         if kind not in factors:  # in laws only, whose derivatives have headers of their own
             raise EmissionError(f"no transposed recurrence of {name}, a {kind}")
         beside, term = factors[kind]
+        if kind == "reciprocal":
+            self._arrays.append(f"once_{name}")
+            lines.append(f"bar->once_{name}[k] = {self._correlated(self._array(name), adjoint)};")
+            adjoint = f"bar->once_{name}"
         self._pull(part, term)
         return [*lines, f"vec by_{name} = {self._correlated(self._array(beside), adjoint)};"]
+
+    def _divided(self, operation: Operation, total: str) -> list[str]:
+        """Of a root, a logarithm or a power: a change of its operand over a series, 2 q, a, or a/(r q)."""
+        name, (part,) = operation.name, operation.series
+        adjoint, lines, under, twice = f"bar->{name}", list[str](), part, ""
+        if operation.kind == "sqrt":
+            under, twice = name, "2.0*"
+        if operation.kind == "power":
+            if operation.factors[0].free_symbols:
+                raise EmissionError(f"no transposed recurrence of {name}, a power with an exponent of its own")
+            self._arrays.append(f"once_{name}")
+            lines.append(f"bar->once_{name}[k] = {total};")
+            whole = self._correlated(self._array(name), f"bar->once_{name}")
+            total = f"{self._flow.factors[name][0]}*{whole}"
+        beyond = self._correlated(self._array(under), adjoint, "beyond")
+        self._pull(part, f"{adjoint}[k]")
+        return [*lines, f"{adjoint}[k] = ({total} - {twice}{beyond})*of->over_{name};"]
 
     def _linear(self, operation: Operation, total: str) -> list[str]:
         weight = f"by_{operation.name}"

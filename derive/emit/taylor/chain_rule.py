@@ -76,7 +76,8 @@ class Chain:
     def _short(self, symbol: sp.Symbol, variable: sp.Symbol) -> sp.Expr:
         """The derivative of a definition; for a power in a product, in terms of the product if that cannot be zero."""
         value = self._definitions[symbol]
-        if isinstance(value, sp.Add):
+        powers = value.as_powers_dict().values()
+        if isinstance(value, sp.Add) or any(sp.sympify(power).free_symbols for power in powers):  # exponentials
             return self.by(value, variable)
         total = sp.Integer(0)
         for base, power in value.as_powers_dict().items():

@@ -138,6 +138,11 @@ class Header:
         lines += ["enum { CAPILLARY_WORK = MODEL_STATES, TURNED = MODEL_STATES + CAPILLARY_STATE };"]
         lines += self.ledger.places()
         lines.append(f"enum {{ GROUPS = {len(self.model.groups)} }};")
+        if terms := shape.terms:
+            barrier = "effective_potential" in self.model and not self.beside.events
+            flags = {"": True, "_ROTATE": terms.rotates, "_STORE": terms.potential != 0}
+            flags |= {"_ADD_INERTIA": terms.kinetic != 0, "_BARRIER": barrier}
+            lines += [f"#define OWN_TERMS{name} {int(flag)}" for name, flag in flags.items()]
         return [*lines, ""]
 
     def _constants(self) -> list[str]:
@@ -301,7 +306,7 @@ class Header:
             lines += self._scalar("wobble")
             momenta = {f"momentum_{axis}": f"found[{k}]" for k, axis in enumerate("xyz")}
             lines += self._vector("precession", "found", {**momenta, "per_momentum": "found[3]"})
-        elif shape.oblique and not shape.strings and shape.partner != "wall":
+        elif "rigid_rotation" in model and shape.oblique and shape.partner != "wall":
             lines += self._scalar("rigid_momentum", "orbital_momentum", "rigid_rotation")
             if not shape.reduced:
                 lines += self._vector("rigid_rotation", "rigid", by_state("rigid", model.states[2:]))
@@ -315,8 +320,8 @@ class Header:
             lines += self._valued([("share", share)], head, {"share": "return"}, doc)
         prepared = {(slot, call): name for name, (slot, call, _) in self.calls.items()}
         lines += margins(model, self.constants, prepared)
-        if self.beside.events:
-            lines += ["#define SLOW_MANIFOLD 0", ""]  # the bounds of the slow manifold do not hold with declared events
+        if self.beside.events or shape.terms:
+            lines += ["#define SLOW_MANIFOLD 0", ""]  # its bounds do not hold with declared events or terms
         else:
             lines += slow_manifold_functions(model, self.constants, prepared)
         if attracting(model):

@@ -10,6 +10,7 @@ from typing import Protocol
 import sympy as sp
 
 from ...equations.model import Model
+from ...equations.terms import mass
 from ...physics.law import needed
 from ..casadi.printer import EmissionError
 from .c_text import Constants, Recurrences
@@ -19,13 +20,14 @@ from .program import Program
 # Terms of the ledger with a series of their own; the work against all attractions together is a state already.
 TERMS = {
     "normal_lubrication": "normal_loss", "tangential_lubrication": "tangential_loss", "attraction": "attraction_work",
-    "dry_friction": "friction_loss",
+    "dry_friction": "friction_loss", "own_work": "own_work",
 }  # fmt: skip
 _MEANING = {
     "normal_loss": "energy dissipated by the normal force of the film, over m v0^2",
     "tangential_loss": "energy dissipated by the tangential force, over m v0^2",
     "attraction_work": "work against van der Waals forces, over m v0^2",
     "friction_loss": "energy dissipated by the friction of the dry contact, over m v0^2",
+    "own_work": "work against declared forces, over m v0^2",
 }
 _FLAG = "WITH_LEDGER"
 BOOKED = "c->ledger."
@@ -128,6 +130,7 @@ class Ledger:
         lines += valued(energies.outputs, head, places, doc, self.constants)
         head = "static inline vec rebound_loss(const constants *c, const vec *y)"
         lines += valued(loss.outputs, head, {"dry_contact": "return"}, loss.doc, self.constants)
+        lines += self._of_terms(valued, list(places))
         head = "static inline vec booked_momentum(const constants *c, const vec *y)"
         if "angular_momentum" in self.model:
             momentum = self.model["angular_momentum"]
@@ -136,3 +139,14 @@ class Ledger:
             doc = "No angular momentum is conserved."
             lines += documented(doc, head, ["(void)c; (void)y;", "return splat(1.0);"])
         return [*compiled_if(_FLAG, lines[:-1]), ""]
+
+    def _of_terms(self, valued: Valued, energies: list[str]) -> list[str]:
+        """What the ledger takes of declared terms: the place of their energy, their work, the inertia of the gap."""
+        if self.model.structure.terms is None:
+            return []
+        lines = [f"#define OWN_ENERGY {energies.index('own_energy')}"] if "own_energy" in energies else []
+        lines += ["#define OWN_WORKS 1"] if "own_work" in self._rates else []
+        head = "static inline vec own_inertia(const constants *c, const vec *y)"
+        inertia = [("inertia", mass(self.model.structure) - 1)]
+        doc = "Declared inertia of the motion along the line of centres, over m."
+        return lines + valued(inertia, head, {"inertia": "return"}, doc, self.constants)

@@ -176,7 +176,9 @@ class Run:
         """True if a bridge's energy barrier proved the stick: not at rest, nor at a turning point, which has others."""
         path, model, last = self.path, self.model, self.path.steps[-1]
         proved = path.certified and not path.separated and (path.decided is None or path.decided <= path.time)
-        bound = model.bridge and not (model.strings or model.space or model.own_events or "attraction" in model.works)
+        bound = model.bridge and not (
+            model.strings or model.space or model.own_events or model.own_terms or "attraction" in model.works
+        )
         return proved and bound and last.duration > 0 and not last.phase.resting
 
     def _is_below_barrier(self) -> bool:
@@ -267,7 +269,11 @@ class Run:
             at.y = np.concatenate([jump.after, at.y[size:]])
         if step.holds:  # chatter dissipates what remains of the rebound's energy
             at.dry_loss += float(at.y[1]) ** 2 / 2
+            moving = at.y.copy()
             at.y[1] = 0.0
+            if model.own_terms and "own_energy" in model.names("energies"):
+                before, after = (model.values("energies", y, self.p)["own_energy"] for y in (moving, at.y))
+                at.dry_loss += before - after
         if step.own:
             jumped = np.array([*model.values(f"jump_{step.own}", at.y, self.p).values(), *at.y[size:]])
             before, after = (model.values("energies", y, self.p)["kinetic"] for y in (at.y, jumped))

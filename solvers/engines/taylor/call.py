@@ -21,7 +21,7 @@ from ...scene.groups import rate_scales, sideways
 from ...scene.scene import Scene
 from ..settings import KERNEL_STEPS, KERNEL_STEPS_IN_SPACE
 from .build import kernel
-from .headers import has_events
+from .headers import books_own
 from .layout import ANSWER, ANSWER_IN_SPACE, LEDGER, OWN_LEDGER, Task, names
 from .orders import order_for
 from .source import Variant
@@ -98,6 +98,8 @@ def variant(
     """The kernel of a scene's collisions at a tolerance; arguments as of `run_recorded` and `select_model`."""
     own_rupture = scene.bridge is not None and scene.bridge.rupture == "own"
     choice = select_model(scene, oblique, ledger, fold, space)
+    if scene.package is not None:
+        scene.package.check_terms(choice.structure)
     return Variant(choice, order_for(rtol), rotation and not space, own_rupture, ledger=ledger, trajectory=trajectory)
 
 
@@ -124,7 +126,7 @@ def run_kernel(
     steps = budget or (KERNEL_STEPS_IN_SPACE if space else KERNEL_STEPS)
     for oblique, which in impacts.by_kind():
         wanted = variant(scene, oblique, rtol, rotation or ledger, ledger, fold=not impacts.others, space=space)
-        library, terms_of = kernel(wanted), OWN_LEDGER if has_events(wanted.choice) else LEDGER
+        library, terms_of = kernel(wanted), OWN_LEDGER if books_own(wanted.choice) else LEDGER
 
         def chunk(first: int, library: Any = library, which: np.ndarray = which, terms_of: Any = terms_of) -> None:
             whole, last = which.size == answers.size, min(first + CHUNK, which.size)

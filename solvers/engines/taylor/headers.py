@@ -13,6 +13,11 @@ def has_events(choice: ModelKey) -> bool:
     return choice.package is not None and bool(choice.package.events_in(choice.structure))
 
 
+def books_own(choice: ModelKey) -> bool:
+    """True if the ledger has what a user's model declares: events or terms."""
+    return has_events(choice) or (choice.package is not None and choice.package.terms is not None)
+
+
 @once
 def automaton(choice: ModelKey) -> dict[str, str]:
     """Texts of the automaton's headers by name, each with what it includes."""

@@ -64,20 +64,21 @@ TASK = np.dtype(
 MORE_RESULTS = ("time", "smallest_gap", "turned")  # that have derivatives, in columns after those of the outputs
 RESULTS = SHOWN + len(MORE_RESULTS)
 MOST_STEPS = 300  # most steps of a trajectory with an adjoint sweep
-OWN_LEDGER = np.dtype([*LEDGER.descr, ("own_events", "f8")], align=True)  # of a model that declares events
+# of a model that declares events or terms
+OWN_LEDGER = np.dtype([*LEDGER.descr, ("own_events", "f8"), ("own_terms", "f8")], align=True)
 _STRUCTURES = {"buffer": BUFFER, "answer": ANSWER, "happening": HAPPENING, "ledger": LEDGER, "nearness": NEARNESS}
 _C_TYPES = {"f8": "double", "i8": "int64_t", "i4": "int32_t"}
 
 
-def declarations(ledger: bool, events: bool = False, space: bool = False) -> str:
+def declarations(ledger: bool, own: bool = False, space: bool = False) -> str:
     """C structures of these types, with static assertions that the compiler lays them out as numpy does.
 
     Arguments:
-        events: the ledger has a term for declared events.
+        own: the ledger has what a model declares.
         space: answers have room for vectors.
     """
     lines = ["#include <stddef.h>", "#include <stdint.h>"]
-    structures = {**_STRUCTURES, **({"ledger": OWN_LEDGER} if events else {})}
+    structures = {**_STRUCTURES, **({"ledger": OWN_LEDGER} if own else {})}
     structures |= {"answer": ANSWER_IN_SPACE} if space else {}
     for name, layout in (*structures.items(), ("task", TASK)):
         if name == "ledger" and not ledger:

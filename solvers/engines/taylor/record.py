@@ -12,7 +12,7 @@ from ..settings import KERNEL_STEPS, KERNEL_STEPS_IN_SPACE
 from ..steps import Steps
 from .build import kernel
 from .call import Impacts, task, variant
-from .headers import has_events
+from .headers import books_own
 from .layout import ANSWER, ANSWER_IN_SPACE, HAPPENING, LEDGER, OWN_LEDGER, number, step_row
 
 _ROOM = 64, 256  # events and steps of a collision
@@ -71,7 +71,7 @@ def run_recorded(
     log_room, step_room = room[0] * events, room[1] * size
     while True:
         answers, log = np.zeros(size, ANSWER), np.zeros((size, log_room), HAPPENING)
-        books = np.zeros(size if ledger else 0, OWN_LEDGER if has_events(wanted.choice) else LEDGER)
+        books = np.zeros(size if ledger else 0, OWN_LEDGER if books_own(wanted.choice) else LEDGER)
         rows = np.empty(step_room, step_row(library)) if keep else None  # the kernel counts the rows that it fills
         call = task(library, impacts, rtol, budget, answers)
         call.number("purpose", purpose)

@@ -12,7 +12,7 @@ from pathlib import Path
 from ...host.compiler import more_flags
 from ...model.key import ModelKey
 from ..machine import InstructionSet, lanes
-from .headers import automaton, has_events, headers, tangents
+from .headers import automaton, books_own, has_events, headers, tangents
 from .layout import MORE_RESULTS, MOST_STEPS, SHOWN, SHOWN_IN_SPACE, declarations
 
 # No -ffast-math: NaN and infinity are compared. Products may be fused with sums; sqrt does not set errno.
@@ -24,10 +24,10 @@ RECORD_FLAGS = ("-O1", "-fexpensive-optimizations", "-ftree-pre", "-fgcse", *_CO
 RUNTIME = Path(__file__).resolve().parent / "runtime"
 _LINE = re.compile(r'#(?<![^\n]#)(?:pragma once\n|include "([^"]+)"\n)')  # a search for "#" is faster than for lines
 _ONCE = "#pragma once"
-# What only kernels of models with declared events contain is taken out of the others' text, and so out of their digest.
-_OWN_EVENTS, _KINKS = (
+# What only kernels of models with declared events or terms contain is taken out of the others' text and digest.
+_OWN_EVENTS, _OWN_TERMS, _KINKS = (
     re.compile(rf"#if {name}\n.*?^#endif /\* {name} \*/\n", re.MULTILINE | re.DOTALL)
-    for name in ("OWN_EVENTS", "KINKS")
+    for name in ("OWN_EVENTS", "OWN_TERMS", "KINKS")
 )
 _GUARDS = re.compile(r"^#define (\w+)_kinks\(s\) (.*)$", re.MULTILINE)
 _STRUCT, _MEMBER = re.compile(r"typedef struct \{([^}]*)\} series;"), re.compile(r"\b(\w+)_series (\w+);")
@@ -77,6 +77,7 @@ def source(variant: Variant, emitted: tuple[str, ...]) -> str:
     """C source of a kernel, from its emitted headers."""
     whole = resolved('#include "entry.h"\n', files(variant, emitted))
     whole = whole if has_events(variant.choice) else _OWN_EVENTS.sub("", whole)
+    whole = whole if "#define OWN_TERMS 1" in whole else _OWN_TERMS.sub("", whole)
     return whole if "#define KINKS_OF" in whole else _KINKS.sub("", whole)
 
 
@@ -102,7 +103,7 @@ def files(variant: Variant, emitted: tuple[str, ...]) -> dict[str, str]:
         "MOST_STEPS": MOST_STEPS,
         "MIDGAP_ARM": int("arm" in slots and not variant.choice.drifts),
     }
-    kinks = _kinks(emitted)
+    kinks, layout = _kinks(emitted), declarations(variant.ledger, books_own(variant.choice), variant.space)
     settings["READS_SERIES"] |= int(bool(kinks))
     return {
         **({} if own else {"own_events.h": ""}),
@@ -110,7 +111,7 @@ def files(variant: Variant, emitted: tuple[str, ...]) -> dict[str, str]:
         "settings.h": "\n".join(
             [_ONCE, *(f"#define {name} {value}" for name, value in settings.items()), _binomials(variant.order), ""]
         ),
-        "layout.h": f'{_ONCE}\n#include "vector.h"\n{declarations(variant.ledger, own, variant.space)}\n',
+        "layout.h": f'{_ONCE}\n#include "vector.h"\n{layout}\n',
         **automaton(variant.choice),
         "model.h": "\n".join([_ONCE, '#include "series.h"', '#include "whole_series.h"', *emitted, *kinks]),
     }

@@ -22,7 +22,7 @@ def no_kernel(why: str = "is not shipped, and no C compiler answers here") -> Co
 
 
 def undecided(
-    answer: Mapping[str, Any], states: tuple[str, ...], declared: str = "", resting: bool = False
+    answer: Mapping[str, Any], states: tuple[str, ...], declared: str = "", resting: bool = False, own: bool = False
 ) -> ComputationError:
     """The error for an answer without an outcome, dimensionless.
 
@@ -31,6 +31,7 @@ def undecided(
         states: names of the model's states.
         declared: the last declared event that happened, by its word.
         resting: it rests on the solids.
+        own: a user's model is in the scene.
     """
     state = {"gap": float(answer["final_gap"])}
     state |= {name: float(value) for name, value in zip(states[1:], answer["shown"], strict=False)}
@@ -38,9 +39,10 @@ def undecided(
     phase = Phase(int(gap < 1), 0, OPENING if velocity > 0 else CLOSING, resting=resting)
     spent = f"{answer['steps']} steps with {answer['events']} events have not decided the outcome"
     why = RESTS if phase.resting else CREEPS
+    ended = ', or an event with ends="stick" in the model' * own
     message, advice = {
-        Status.NO_BUDGET: (spent, f"{why}: try a larger --rtol, or another impact"),
-        Status.CHATTER: (spent, f"{CHATTERS}: try another impact"),
+        Status.NO_BUDGET: (spent, f"{why}: try a larger --rtol, or another impact{ended}"),
+        Status.CHATTER: (spent, f"{CHATTERS}: try another impact{ended}"),
         Status.TOO_OBLIQUE: (
             f"at this angle, with these spins, {REVERSED} within a rounding error of the film thickness",
             "try a smaller angle or slower spins",

@@ -136,6 +136,10 @@ def kernels(scene: Scene, rtol: float, ledger: bool = False) -> tuple[Kernel, ..
 
     Each of two spheres has its own spin; only on strings they share one.
     """
+    package = scene.package
+    if package is not None and package.terms is not None and package.terms.rotates:
+        problem = "has terms on a rotation, and the spheres of an exported law have spins of their own"
+        raise InputError("model", package.name, "a model with terms of x and u on the gap", problem)
     spinning = scene
     if not scene.wall and scene.pendulum is None:
         spinning = scene.with_entries({"impact.partner_spin": 0.0})

@@ -23,6 +23,15 @@
 #define PROOF_BY_FILM 0
 #endif
 #endif /* OWN_EVENTS */
+#if OWN_TERMS
+/* The energy decides where the terms store or take it and L is conserved; the film alone, where they only take. */
+#undef PROOF_BY_ENERGY
+#define PROOF_BY_ENERGY (OWN_TERMS_BARRIER && !DRIFTS && (ATTRACTS || STRINGS || OWN_TERMS_STORE))
+#if !OWN_TERMS_BARRIER || OWN_TERMS_STORE || OWN_TERMS_ADD_INERTIA
+#undef PROOF_BY_FILM
+#define PROOF_BY_FILM 0
+#endif
+#endif /* OWN_TERMS */
 #if PROOF_BY_FILM
 #if ATTRACTION
 enum { DEPTHS = ATTRACTED_FILM_DEPTHS };
@@ -232,10 +241,18 @@ static inline mask spun_down(const constants *c, const vec *y, mask candidates, 
 #undef CHATTER_TESTS
 #define CHATTER_TESTS 0
 #endif /* OWN_EVENTS */
+#if OWN_TERMS
+#undef CHATTER_TESTS
+#define CHATTER_TESTS 0
+#endif /* OWN_TERMS */
 /* Whether the test of chatter is a proof. */
 #define CHATTER_PROVES (SPACE || (ORBITAL_MARGINS && !STRINGS))
 
 #define HELD_AT_REST (TURNS && ATTRACTS && !STRINGS)
+#if OWN_TERMS
+#undef HELD_AT_REST
+#define HELD_AT_REST 0 /* its bound is of the library's energy */
+#endif /* OWN_TERMS */
 #if HELD_AT_REST
 #if SPACE
 /* Resting contact that persists: the slip energy never grows, which bounds the orbital momentum for good. */

@@ -44,6 +44,15 @@ static void close_book(ledger *book, const constants *c, const vec *y, int lane)
 #if CAPILLARY_STATE
     book->capillary = LANE(y[CAPILLARY_WORK], lane) - book->attraction; /* the state includes all attractions */
 #endif
+#if OWN_TERMS
+    book->lifted = STRINGS ? LANE(stored[1][STRINGS], lane) - LANE(stored[0][STRINGS], lane) : 0.0;
+#if defined(OWN_ENERGY)
+    book->own_terms += LANE(stored[1][OWN_ENERGY], lane) - LANE(stored[0][OWN_ENERGY], lane);
+#endif
+#if defined(OWN_WORKS)
+    book->own_terms += LANE(y[OWN_WORK], lane);
+#endif
+#endif /* OWN_TERMS */
     book->momentum = in_lane(booked_momentum(c, y), lane);
 }
 #endif

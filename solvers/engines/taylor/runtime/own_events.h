@@ -23,7 +23,7 @@ static inline mask own_watched(const vec *y, int which, mask closing, vec film)
     return wanted;
 }
 
-#if defined(POTENTIAL) && (!DRIFTS || WALL || !OBLIQUE)
+#if defined(POTENTIAL) && !defined(OWN_TERMS) && (!DRIFTS || WALL || !OBLIQUE)
 #define OWN_PROOFS 1
 enum { OWN_PARTS = 24 }; /* of the film, and as many beyond it, within which the potential is bounded by its parts at their ends */
 

@@ -139,6 +139,10 @@ static void rebounds(queue *q, lanes *l, fixed *f, int lane, int kind)
 #endif
 #if WITH_LEDGER
         book_rest(q->books + LANE(l->index, lane), l->y, lane);
+#if OWN_TERMS
+        vec more = 0.5*own_inertia(&f->c, l->y)*l->y[NORMAL_VELOCITY]*l->y[NORMAL_VELOCITY];
+        q->books[LANE(l->index, lane)].dry += LANE(more, lane);
+#endif /* OWN_TERMS */
 #endif
         LANE(l->y[NORMAL_VELOCITY], lane) = 0.0;
         opens(l, f, lane);
@@ -150,6 +154,10 @@ static void rebounds(queue *q, lanes *l, fixed *f, int lane, int kind)
         LANE(l->sliding, lane) = 1.0;
 #endif
         note_mode(q, l, lane);
+#if OWN_TERMS
+        if (OWN_TERMS_ROTATE) /* the reaction may vanish where no shear acts */
+            return;
+#endif /* OWN_TERMS */
         if (!TURNS || (!STRINGS && LANE(l->shear, lane) == 0.0)) /* the reaction never vanishes (derive/checks/friction.py) */
             sticks_for_good(q, l, f, lane, 1);
     } else {

@@ -1,0 +1,212 @@
+"""Terms of a model file beside Lagrange's equations written out here in SI, and what follows from them exactly."""
+
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+import sympy as sp
+from scipy.integrate import solve_ivp
+from wetdoublet.solvers import InputError, Scene, collide, sensitivities
+from wetdoublet.solvers.export.hybrid import equations
+from wetdoublet.solvers.export.law.kernels import kernels
+
+from ...helpers.judged_models import judged
+
+HEAD = "from wetdoublet.derive.user import *\n"
+FREE = """
+[particles]
+reduced_radius = "50 um"
+reduced_mass = "5.2e-9 kg"
+roughness = "0.2 um"
+dry_restitution = 0.9
+[liquid]
+viscosity = "0.5 Pa s"
+film_thickness = "8 um"
+[impact]
+stokes = 0.6
+angle = "60 deg"
+"""
+GAS = 'drag = quantity("gas", unit="kg/s", default="2e-7 kg/s", bounds=">= 0")\n'
+LIQUID = 'added = quantity("added_mass", unit="kg", default="8e-10 kg", bounds=">= 0")\n'
+PULL = 'pull = quantity("pull", unit="N", default="2e-6 N")\n'
+TWIST = 'twist = quantity("twist", unit="N m", default="1e-10 N m", bounds="> -1")\n'
+# what a model file says, and energy and generalised forces of the same in the symbols of the reference below
+CASES = {
+    "gravity": (PULL + "energy(pull*x)", "-2e-6*x", {}),
+    "gravity by angle": (PULL + "energy(pull*r*cos(beta + pi/3))", "-2e-6*(4*a + x)*cos(beta + pi/3)", {}),
+    "gas": (GAS + 'force_on("gap", -drag*u)', "0", {"x": "-2e-7*u"}),
+    "added mass": (LIQUID + "energy(added*u**2/2*x0/(x0 + x))", "4e-10*u**2*x0/(x0 + x)", {}),
+    "added inertia": (
+        LIQUID + "energy(added*r**2*omega**2/2*(1 + cos(beta)/2) + added*R**2*xi**2*x/x0)",
+        "4e-10*(4*a + x)**2*omega**2*(1 + cos(beta)/2) + 8e-10*4*a**2*xi**2*x/x0", {},
+    ),
+    "torque": (TWIST + 'force_on("rotation", twist)', "0", {"beta": "1e-10"}),
+    "spring": (TWIST + "energy(50*twist*beta**2/2)", "-50e-10*beta**2/2", {}),
+    "friction between": (
+        TWIST + 'c = 30000*twist*x0/v0\nforce_on("spin", c*(omega - xi))\nforce_on("rotation", c*(xi - omega))',
+        "0", {"spin": "3e-6*x0/v0*(omega - xi)", "beta": "3e-6*x0/v0*(xi - omega)"},
+    ),
+}  # fmt: skip
+
+
+def scene(folder: Path, body: str, text: str = FREE) -> Scene:
+    """A scene with a model of these lines."""
+    path = folder / "mine.py"
+    path.write_text(HEAD + body)
+    return Scene.from_toml(text).with_model(path)
+
+
+def reference(given: Scene, lagrangian: str, forces: dict[str, str]) -> np.ndarray:
+    """Angle, velocities u, omega, xi and time at separation: Lagrange's equations with a full matrix of inertia."""
+    si = dict(given.si)
+    speed, angle = given.need_impact()
+    names = "x beta spin u omega xi a m mu x0 v0"
+    x, beta, spin, u, omega, xi, a, m, mu, x0, v0 = sp.symbols(names)
+    space = {str(symbol): symbol for symbol in (x, beta, u, omega, xi, a, x0, v0)}
+    r, q, rates = 4 * a + x, (x, beta, spin), (u, omega, xi)
+    energy = m * u**2 / 2 + m * r**2 * omega**2 / 2 + sp.Rational(16, 5) * m * a**2 * xi**2
+    energy += sp.sympify(lagrangian, space)
+    film = 6 * sp.pi * mu * a**2 * u / x * (1 - x / x0) ** 2
+    shear = 8 * sp.pi * mu * a**2 * (omega - xi) * sp.log(2 * a / x)
+    work = {"x": -film, "beta": -shear * r, "spin": shear * r}
+    work = [work[name] + sp.sympify(forces.get(name, "0"), space) for name in ("x", "beta", "spin")]
+    momenta = [energy.diff(rate) for rate in rates]
+    inertia = sp.Matrix([[p.diff(rate) for rate in rates] for p in momenta])
+    left = [
+        force + energy.diff(at) - sum(p.diff(other) * rate for other, rate in zip(q, rates))
+        for force, at, p in zip(work, q, momenta)
+    ]
+    values = {
+        a: si["particles.reduced_radius"], m: si["particles.reduced_mass"], mu: si["liquid.viscosity"],
+        x0: si["liquid.film_thickness"], v0: speed,
+    }  # fmt: skip
+    compiled = sp.lambdify((*q, *rates), [inertia.subs(values), sp.Matrix(left).subs(values)])
+
+    def rate(_: float, y: np.ndarray) -> np.ndarray:
+        matrix, vector = compiled(*(y * units))
+        found = np.linalg.solve(matrix, np.ravel(vector))
+        return np.concatenate([y[3:] * units[3:], found]) / units * time
+
+    film_thickness = values[x0]
+    time, turning = film_thickness / speed, speed * math.tan(angle) / (4 * values[a])
+    units = np.array([film_thickness, 1.0, 1.0, speed, turning, turning])
+
+    def parts(_: float, y: np.ndarray) -> float:
+        return y[0] - 1.0
+
+    parts.terminal, parts.direction = True, 1
+    first = np.array([1.0 - 1e-15, 0.0, 0.0, -1.0, 1.0, 0.0])
+    found = solve_ivp(rate, (0, 1e4), first, "DOP853", events=[parts], rtol=1e-11, atol=1e-13)
+    last = found.y_events[0][0] * units
+    return np.array([last[1], *last[3:], found.t_events[0][0] * time])
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_lagranges_equations_in_si(case: str, tmp_path: Path):
+    """Angle, velocities and time at separation are those of the equations in SI, and the ledger closes."""
+    body, lagrangian, forces = CASES[case]
+    given = scene(tmp_path, body)
+    found = collide(given, rtol=1e-11)
+    values = [
+        found.rotation, found.restitution * found.speed, found.final_rotation_rate, found.final_spin,
+        found.contact_time,
+    ]  # fmt: skip
+    assert values == pytest.approx(reference(given, lagrangian, forces), rel=1e-7)
+    assert abs(found.energy.residual) < 1e-9 * found.energy.largest
+    plain = collide(Scene.from_toml(FREE), rtol=1e-11)
+    assert abs(found.restitution / plain.restitution - 1) > 1e-4  # the term is seen
+
+
+def test_a_torque_changes_the_angular_momentum_by_its_impulse(tmp_path: Path):
+    """L(t) - L(0) is the torque times the time; the drift that is reported says so."""
+    found = collide(scene(tmp_path, CASES["torque"][0]), rtol=1e-11)
+    mass, radius = found.scene.reduced_mass, found.scene.particles.reduced_radius
+    first = mass * (4 * radius + 8e-6) ** 2 * found.speed * math.tan(found.angle) / (4 * radius)
+    assert found.angular_momentum_drift == pytest.approx(1e-10 * found.contact_time / first, rel=1e-9)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("case", ["gravity by angle", "added mass", "friction between"])
+def test_every_engine_and_their_derivatives(case: str, tmp_path: Path):
+    """Three engines agree on results and ledger, and forward, adjoint and the kernel's derivatives with each other."""
+    given = scene(tmp_path, CASES[case][0])
+    (name,) = given.package.quantities
+    wrt = [f"custom.{name}", "liquid.viscosity", "impact.angle"]
+    found = [collide(given, rtol=1e-11, engine=engine) for engine in ("taylor", "cvodes", "rosenbrock")]
+    for each in found[1:]:
+        assert each.restitution == pytest.approx(found[0].restitution, rel=1e-8)
+        assert each.energy.own_terms == pytest.approx(found[0].energy.own_terms, rel=1e-7)
+    ways = [("taylor", "forward"), ("rosenbrock", "forward"), ("cvodes", "adjoint")]
+    slopes = [sensitivities(given, wrt=wrt, rtol=1e-11, engine=by, method=how).gradient for by, how in ways]
+    assert slopes[0]["restitution"] == pytest.approx(slopes[1]["restitution"], rel=1e-6)
+    assert slopes[2]["restitution"] == pytest.approx(slopes[1]["restitution"], rel=1e-6)
+
+
+def test_terms_are_in_the_functions_to_build_on(tmp_path: Path):
+    """The rates of `equations` hold the term: a pull changes du/dt by pull/(m v0^2/x0)."""
+    given = scene(tmp_path, CASES["gravity"][0])
+    rates = []
+    for built in (equations(given), equations(Scene.from_toml(FREE))):
+        groups = list(built.groups.values())
+        first = built.functions["start"](groups)
+        rates.append(built.functions["rates_0"](first, groups).full()[1, 0])
+    speed, _ = given.need_impact()
+    assert rates[0] - rates[1] == pytest.approx(-2e-6 * 8e-6 / (5.2e-9 * speed**2), rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("body", "entries", "said"),
+    [
+        ("torque", {"impact.angle": "0 deg"}, "impact.angle"),
+        ("torque", {"partner.wall": True}, "a wall has not alone"),
+        ("spring", {"partner.radius": "150 um", "partner.density": "2500 kg/m^3"}, "a pair has not alone"),
+        ("added mass", {"particles.friction": 0.2}, "adds inertia, which friction and space do not know"),
+    ],
+)
+def test_scenes_that_cannot_have_the_terms(body: str, entries: dict[str, object], said: str, tmp_path: Path):
+    """A term that a structure has no coordinate for is refused with a sentence."""
+    given = scene(tmp_path, CASES[body][0]).with_entries(entries)
+    with pytest.raises(InputError, match=said):
+        collide(given)
+
+
+def test_a_law_is_exported_with_terms_on_the_gap_only(tmp_path: Path):
+    """The spheres of an exported law have spins of their own, of which a torque on both does not speak."""
+    with pytest.raises(InputError, match="has terms on a rotation, and the spheres of an exported law have spins"):
+        kernels(scene(tmp_path, CASES["torque"][0]), 1e-9)
+    assert len(kernels(scene(tmp_path, CASES["gas"][0]), 1e-9)) == 2  # head-on and in a plane, none in space
+
+
+def test_a_stick_is_proved_with_a_potential_and_a_drag(tmp_path: Path):
+    """A pull without a bridge holds a doublet that the library lets part, by the barrier of the energy."""
+    text = FREE.replace("stokes = 0.6", "stokes = 0.02").replace("60 deg", "10 deg")
+    held = collide(scene(tmp_path, PULL.replace("2e-6 N", "1e-4 N") + "energy(pull*x)\n", text), rtol=1e-10)
+    assert (held.outcome, held.certified) == ("stick", True)
+
+
+def test_a_criterion_is_a_roughness_of_its_own_name(tmp_path: Path):
+    """The gap of a soft layer takes the roughness's place to the last bit, with its derivative, under its own word."""
+    text = FREE.replace("stokes = 0.6", "stokes = 4")
+    body = 'soft = quantity("soft", unit="m", default="3 um", bounds=">= 0")\ncriterion("layer", gap=soft)'
+    own, rough = scene(tmp_path, body, text), Scene.from_toml(text.replace("0.2 um", "3 um"))
+    found, library = (collide(each, rtol=1e-11) for each in (own, rough))
+    assert (found.reversal, library.reversal) == ("layer", "rough")
+    assert found.restitution == library.restitution
+    assert "layer" in {event.kind for event in found.events}
+    mine = sensitivities(own, wrt=["custom.soft", "particles.roughness"], engine="rosenbrock").gradient["restitution"]
+    theirs = sensitivities(rough, wrt=["particles.roughness"], engine="rosenbrock").gradient["restitution"]
+    assert mine["custom.soft"] == pytest.approx(theirs["particles.roughness"], rel=1e-9)
+    assert mine["particles.roughness"] == 0.0
+    assert collide(own.with_entries({"custom.soft": "0.1 um"}), rtol=1e-11).reversal == "rough"
+
+
+@pytest.mark.slow
+@pytest.mark.filterwarnings("ignore::wetdoublet.solvers.ModelWarning")
+@pytest.mark.parametrize(
+    ("number", "verdict"), [(0, "right"), (1, "right"), (5, "refused"), (13, "right"), (101, "right")]
+)
+def test_models_drawn_at_random(number: int, verdict: str, tmp_path: Path):
+    """Terms, criteria, events and laws: refused with a sentence, or right by three engines, with the derivatives."""
+    found, how = judged(number, tmp_path)
+    assert found == verdict, how
