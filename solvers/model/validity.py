@@ -19,6 +19,7 @@ from ..errors import ModelWarning
 from ..host.emitted import LAWS
 from ..scene.contact import GAPS, NEVER_MET
 from ..scene.groups import formulas, law_module, si_values
+from ..scene.liquids import is_named, liquid
 from ..scene.scene import Scene
 
 Values = Mapping[str, Any]  # quantities under the vocabulary's names and results, SI: floats, arrays, expressions
@@ -127,7 +128,7 @@ def _bent(scene: Scene, values: Values) -> Any:
 
 def _wall_coupling(scene: Scene, values: Values) -> Any:
     """Torque of sliding along a wall by the leading logarithm over the published one, at the smallest gap."""
-    if not scene.wall or scene.model.tangential not in LAWS["shear"]:
+    if not scene.wall or scene.law_of("shear") not in LAWS["shear"]:
         return math.nan
     edge = law_module(scene, "shear", scene.model.tangential).edge
     outer = edge(values["film_thickness"] / values["reduced_radius"]) * values["film_thickness"]
@@ -316,7 +317,9 @@ def remarks(scene: Scene) -> tuple[str, ...]:
     """What of the scene lies outside the range its laws were made for, a sentence each."""
     values = si_values(scene, None, None)
     numbers = [(limit, float(limit.number(scene, values))) for limit in law_limits(scene)]
-    return tuple(limit.says(number) for limit, number in numbers if limit.exceeded(number))
+    named = dict(scene.given)["liquid.viscosity"]
+    sources = liquid(str(named)).remarks if is_named(named) else ()
+    return (*sources, *(limit.says(number) for limit, number in numbers if limit.exceeded(number)))
 
 
 def law_limits(scene: Scene) -> list[Limit]:

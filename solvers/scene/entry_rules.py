@@ -16,7 +16,9 @@ from .schema import (
     ALTERNATIVES,
     FIELDS,
     FROM_COATING,
+    LIQUIDS,
     MEETING,
+    NEWTONIAN,
     ONE_OF_EACH,
     REQUIRED_TABLES,
     SPINS,
@@ -116,6 +118,36 @@ def check_complete(entries: Mapping[str, Any], tables: Mapping[str, Any] | None 
         if here in entries and absent not in entries:
             problem = f"missing while {here} = {shown(entries[here])} is given"
             raise InputError(absent, None, f"{FIELDS[absent].accepts}, or neither of the two", problem)
+
+
+def check_liquid(entries: Mapping[str, Any], package: Package | None) -> None:
+    """InputError for entries of another law of liquids, or a law that nothing is made for.
+
+    With `newtonian`, given as such, those of the other laws stand idle.
+    """
+    law = entries.get("liquid.law", NEWTONIAN)
+    of_laws = dict.fromkeys(f"liquid.{name}" for names in LIQUIDS.values() for name in names)
+    own = [f"liquid.{name}" for name in LIQUIDS.get(law, ())]
+    for name in (name for name in of_laws if name in entries and name not in own):
+        if law == NEWTONIAN and "liquid.law" in entries:
+            continue
+        known = ", ".join(own) or "no such entry, or liquid.law one of " + ", ".join(LIQUIDS)
+        raise InputError(name, entries[name], known, f"is no entry of liquid.law = {law}")
+    if law not in LIQUIDS:
+        return
+    if package is not None and package.table != "liquid":
+        accepted = f"{NEWTONIAN}: a law of one's own may have a viscosity of its own"
+        raise InputError("liquid.law", law, accepted, f"is given together with the model {package.name}")
+    for name in own:
+        if name not in entries and FIELDS[name].default is None:
+            raise InputError(name, None, FIELDS[name].accepts, f"missing while liquid.law = {law}")
+    if (film := entries.get("model.film", "finite")) not in FILMS_OF_LIQUIDS:
+        raise InputError("model.film", film, ", ".join(FILMS_OF_LIQUIDS), f"is not there for liquid.law = {law}")
+    if law in THINNING and FIELDS["liquid.flow_index"].number(entries["liquid.flow_index"]) > 1:
+        raise InputError("liquid.flow_index", entries["liquid.flow_index"], "a number > 0 and at most 1", f"thickens, which {law} does not")
+
+
+FILMS_OF_LIQUIDS, THINNING = ("finite", "cavitating"), ("cross", "carreau")
 
 
 def check_ways(entries: Mapping[str, Any], values: Mapping[str, Any]) -> None:

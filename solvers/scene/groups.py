@@ -64,6 +64,9 @@ class System:
     def law_of(self, slot: str) -> str:
         """The name of the law in a slot; "" if the scene lacks the table that says it."""
         table, _, key = ENTRIES[slot].partition(".")
+        own = f"{self.entries.get('liquid.law')}-{getattr(self.model, key, '')}"
+        if self.package is not None and own in self.package.laws(slot):  # of the liquid
+            return own
         if ENTRIES[slot] not in self.fields:  # no entry of a scene says it
             return next(iter((*(self.package.laws(slot) if self.package else ()), *LAWS[slot])))
         return str(getattr(getattr(self, table), key, ""))

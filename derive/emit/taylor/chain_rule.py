@@ -80,6 +80,8 @@ class Chain:
             return self.by(value, variable)
         total = sp.Integer(0)
         for base, power in value.as_powers_dict().items():
+            if power.free_symbols and (along := self.by(power, variable)) != 0:
+                total += value * sp.log(base) * along
             inner = self.by(base, variable)
             if inner == 0:
                 continue
