@@ -144,7 +144,12 @@ def check_liquid(entries: Mapping[str, Any], package: Package | None) -> None:
     if (film := entries.get("model.film", "finite")) not in FILMS_OF_LIQUIDS:
         raise InputError("model.film", film, ", ".join(FILMS_OF_LIQUIDS), f"is not there for liquid.law = {law}")
     if law in THINNING and FIELDS["liquid.flow_index"].number(entries["liquid.flow_index"]) > 1:
-        raise InputError("liquid.flow_index", entries["liquid.flow_index"], "a number > 0 and at most 1", f"thickens, which {law} does not")
+        raise InputError(
+            "liquid.flow_index",
+            entries["liquid.flow_index"],
+            "a number > 0 and at most 1",
+            f"thickens, which {law} does not",
+        )
 
 
 FILMS_OF_LIQUIDS, THINNING = ("finite", "cavitating"), ("cross", "carreau")
@@ -172,6 +177,9 @@ def check_ways(entries: Mapping[str, Any], values: Mapping[str, Any]) -> None:
     if volume == FROM_COATING and coating not in entries:
         accepted = f"{coating} beside it, a number V/R^3, or a volume with its unit"
         raise InputError("bridge.volume", volume, accepted, f"is given without {coating}")
+    wetted = "partner.contact_angle"
+    if wetted in entries and volume is None:
+        raise InputError(wetted, entries[wetted], "no such entry, or a [bridge]", "is given without a bridge")
     if fraction in entries and volume != FROM_COATING:
         accepted = f'bridge.volume = "{FROM_COATING}" beside it, or no such entry'
         raise InputError(fraction, entries[fraction], accepted, f"is given with bridge.volume = {shown(volume)}")
@@ -232,7 +240,7 @@ def check_together(scene: System) -> None:
             raise InputError(name, entries[name], accepted, "is not below the film thickness")
     if scene.bridge is not None and not x0 < ruptured < math.inf:
         radius = 2 * scene.reduced_radius
-        ratio = x0 / (radius * (1 + scene.bridge.contact_angle / 2))
+        ratio = x0 / (radius * (1 + scene.material["contact_angle"] / 2))
         least = ratio * ratio * ratio  # ** would raise OverflowError; this becomes inf
         if math.isinf(least):
             name = _given_alternative("particles.reduced_radius", entries)

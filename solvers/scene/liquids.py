@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 import re
+import warnings
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import lru_cache
@@ -21,7 +22,9 @@ AGREED = 0.05
 _ZERO = 273.15  # K
 _ATMOSPHERE = 101325.0  # Pa
 _NAMED = re.compile(r"(?P<what>.+),\s*(?P<number>[+-]?\d+\.?\d*)\s*(?P<unit>°\s*C|deg\s*C|C|K)\s*")
-_PART = re.compile(r"(?P<number>\d+\.?\d*)\s*(?P<kind>(?:wt|w/w|mass|vol|v/v|mol)?)\.?\s*-?\s*%\s*(?:\(?w/w\)?|by mass)?")
+_PART = re.compile(
+    r"(?P<number>\d+\.?\d*)\s*(?P<kind>(?:wt|w/w|mass|vol|v/v|mol)?)\.?\s*-?\s*%\s*(?:\(?w/w\)?|by mass)?"
+)
 _ALIASES = {"glycerine": "glycerol", "glycerin": "glycerol", "ethanediol": "ethylene glycol", "eg": "ethylene glycol"}
 _SOLUTIONS = {
     "glycerol": "MGL", "ethylene glycol": "MEG", "propylene glycol": "MPG", "ethanol": "MEA", "methanol": "MMA",
@@ -92,7 +95,10 @@ def liquid(text: str, label: str = "liquid.viscosity") -> Liquid:
     name, fraction = _named(read["what"], text, label)
     found: list[Value] = []
     refused: list[str] = []
-    for source, low, high, value, at in _sources(name, fraction, text, label):
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # of how `chemicals` reads its tables, and at the edges of CoolProp's
+        sources = list(_sources(name, fraction, text, label))
+    for source, low, high, value, at in sources:
         span = f"{low - _ZERO:.4g} to {high - _ZERO:.4g} degC{at}"
         if low <= kelvin <= high and math.isfinite(number := value(kelvin)):
             found.append(Value(number, source, span))

@@ -130,9 +130,21 @@ def film_laws(liquid: Liquid) -> None:
         law("glass", f"{liquid.name}-{name}", source=(*source, CRADLE), pressure=pressure, **common)
 
 
+@cache
+def _of_power_law() -> tuple[sp.Symbol, sp.Expr]:
+    """The index, and the rate at the wall over the apparent one of a power law between plates: (2n + 1)/(3n).
+
+    The flow between plates, q = h^2/(2 T^2) int rate stress d(stress) up to T at the wall, has the apparent rate 6q/h^2.
+    """
+    index, stress, wall = sp.symbols("index stress wall", positive=True)
+    flow = sp.integrate(sp.powsimp(stress * stress ** (1 / index)), (stress, 0, wall)) / (2 * wall**2)
+    return index, sp.simplify(wall ** (1 / index) / (6 * flow))
+
+
 def index_factor(index: sp.Expr) -> sp.Expr:
-    """(2n + 1)/(3n): the rate at the wall over the apparent one, of a power law between plates."""
-    return (2 * index + 1) / (3 * index)
+    """The rate at the wall over the apparent one, of a power law between plates."""
+    symbol, factor = _of_power_law()
+    return sp.sympify(factor.subs(symbol, index))
 
 
 def representative_squared(index: sp.Expr) -> sp.Expr:

@@ -17,7 +17,7 @@ HERSCHEL = Reference(
 index = quantity("flow_index", "n", bounds="> 0 and <= 2", meaning="slope of the stress above the yield stress")
 reference = quantity("reference_rate", r"\dot\gamma_r", unit="1/s", over=v0 / x0, meaning="rate of that viscosity")
 lowest = quantity("plateau_rate", r"\dot\gamma_p", unit="1/s", over=v0 / x0, meaning="rate below which it is constant")
-stress = quantity("yield_stress", r"\tau_y", unit="Pa", bounds=">= 0", over=mu * v0 / x0, meaning="yield stress")
+stress = quantity("yield_stress", r"\tau_y", unit="Pa", over=mu * v0 / x0, meaning="yield stress")
 at_reference, rest = let("at_reference", reference * x0 / v0), let("rest", (lowest * x0 / v0) ** 2)
 yielding, at_wall = let("yielding", stress * x0 / (mu * v0)), let("at_wall", index_factor(index) ** index)
 power = let("joining_power", 3 * (index + 1) / 4)
