@@ -87,8 +87,8 @@ __all__ = [
     "Design", "Equations", "Explorer", "Fit", "InputError", "ModelWarning", "Proof", "ProvedBoundary", "ProvedMap",
     "Scene", "Sensitivities", "WetDoubletError", "atlas", "band", "boundary", "boundary_sensitivities", "check_data",
     "collide", "collide_many", "collide_pair", "collision_averages", "compile_kernels", "critical",
-    "design", "equations", "explore", "fit", "flow_curve", "gradients_many", "log_likelihood", "pair_gradients", "plot", "prove",
-    "prove_boundary", "prove_map", "regime_map", "sensitivities", "solve", "tracks",
+    "design", "equations", "explore", "fit", "flow_curve", "gradients_many", "log_likelihood", "pair_gradients", "plot",
+    "prove", "prove_boundary", "prove_map", "regime_map", "sensitivities", "solve", "tracks",
 ]  # fmt: skip
 
 if not TYPE_CHECKING:  # so that type checkers know the names above and no others

@@ -35,7 +35,7 @@ ENTRIES = {
     '`"glycerol 85 %, 25 degC"`, with the extra `liquids`; of a `law` its viscosity at low rates (`cross`, `carreau`), '
     "or at `reference_rate`, beside the yield stress",
     "liquid.law": "how the viscosity depends on the shear rate",
-    "liquid.flow_index": "$n$: slope of the stress over the rate where the liquid thins; `cross` and `carreau` at most 1",
+    "liquid.flow_index": "$n$, slope of the stress over the rate where it thins; of `cross` and `carreau` at most 1",
     "liquid.relaxation_time": r"$\lambda$ of `cross` and `carreau`: over $1/\lambda$ the liquid thins",
     "liquid.infinite_shear_viscosity": r"$\mu_\infty$, what is left of the viscosity at high rates",
     "liquid.yield_stress": r"$\tau_y$ of `herschel-bulkley`",

@@ -19,7 +19,8 @@ from .bar import AtWork
 
 COMMANDS = (
     "scenes", "collide", "sensitivity", "map", "boundary", "critical", "solve", "averages", "reproduce", "generate",
-    "diff", "export", "explore", "verify", "bench", "prove", "tracks", "check", "fit", "flow-curve", "design", "compile", "cite",
+    "diff", "export", "explore", "verify", "bench", "prove", "tracks", "check", "fit", "flow-curve", "design",
+    "compile", "cite",
 )  # fmt: skip
 """Each is the function `command` of the module of that name in `commands/`, imported when it is called."""
 

@@ -26,23 +26,27 @@ _FARTHEST = 12.0  # of the logarithm of a parameter from its estimate: an interv
 Curve = Callable[[np.ndarray, Mapping[str, float], float], np.ndarray]
 
 
+def _constant(rate: np.ndarray, p: Mapping[str, float], _: float) -> np.ndarray:
+    return np.full(rate.shape, p["viscosity"])
+
+
 def _power(rate: np.ndarray, p: Mapping[str, float], reference: float) -> np.ndarray:
     powers: np.ndarray = p["viscosity"] * (rate / reference) ** (p["flow_index"] - 1)
     return powers
 
 
-def _plateaus(rate: np.ndarray, p: Mapping[str, float], thinning: np.ndarray) -> np.ndarray:
+def _plateaus(p: Mapping[str, float], thinning: np.ndarray) -> np.ndarray:
     last = p.get("infinite_shear_viscosity", 0.0)
     between: np.ndarray = last + (p["viscosity"] - last) * thinning
     return between
 
 
 def _cross(rate: np.ndarray, p: Mapping[str, float], _: float) -> np.ndarray:
-    return _plateaus(rate, p, 1 / (1 + (p["relaxation_time"] * rate) ** (1 - p["flow_index"])))
+    return _plateaus(p, 1 / (1 + (p["relaxation_time"] * rate) ** (1 - p["flow_index"])))
 
 
 def _carreau(rate: np.ndarray, p: Mapping[str, float], _: float) -> np.ndarray:
-    return _plateaus(rate, p, (1 + (p["relaxation_time"] * rate) ** 2) ** ((p["flow_index"] - 1) / 2))
+    return _plateaus(p, (1 + (p["relaxation_time"] * rate) ** 2) ** ((p["flow_index"] - 1) / 2))
 
 
 def _yielding(rate: np.ndarray, p: Mapping[str, float], reference: float) -> np.ndarray:
@@ -52,7 +56,7 @@ def _yielding(rate: np.ndarray, p: Mapping[str, float], reference: float) -> np.
 
 _PLATEAUS = ("viscosity", "relaxation_time", "flow_index")
 _LAWS: tuple[tuple[str, Curve, tuple[str, ...]], ...] = (
-    ("newtonian", lambda rate, p, _: np.full(rate.shape, p["viscosity"]), ("viscosity",)),
+    ("newtonian", _constant, ("viscosity",)),
     ("power-law", _power, ("viscosity", "flow_index")),
     ("cross", _cross, _PLATEAUS),
     ("cross", _cross, (*_PLATEAUS, "infinite_shear_viscosity")),

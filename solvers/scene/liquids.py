@@ -141,17 +141,17 @@ def _sources(name: str, fraction: float | None, text: str, label: str) -> Iterat
     if fraction is not None:
         yield from _solution(library, name, fraction, text, label)
     else:
-        yield from _pure(library, tables, name, text, label)
+        yield from _pure(library, tables, name)
 
 
 def _extra(text: str, label: str) -> tuple[Any, Any]:
     try:
         import chemicals
-        import CoolProp.CoolProp as coolprop
+        from CoolProp import CoolProp
     except ImportError:
         accepted = "pip install 'wetdoublet[liquids]', or a viscosity with its unit, \"0.08 Pa s\""
         raise InputError(label, text, accepted, "names a liquid, for which an extra is needed") from None
-    return coolprop, chemicals
+    return CoolProp, chemicals
 
 
 def _solution(library: Any, name: str, fraction: float, text: str, label: str) -> Iterator[_Source]:
@@ -167,14 +167,12 @@ def _solution(library: Any, name: str, fraction: float, text: str, label: str) -
     state.set_mass_fractions([fraction])
     low = max(state.trivial_keyed_output(library.iT_min), state.keyed_output(library.iT_freeze))
     fluid = f"INCOMP::{code}[{fraction!r}]"
-    yield (
-        f"CoolProp {library.get_global_param_string('version')} (Melinder 2010)", low,
-        state.trivial_keyed_output(library.iT_max),
-        lambda kelvin: float(library.PropsSI("V", "T", kelvin, "P", _ATMOSPHERE, fluid)), f", {least:.0%} to {most:.0%}",
-    )  # fmt: skip
+    source = f"CoolProp {library.get_global_param_string('version')} (Melinder 2010)"
+    high, parts = state.trivial_keyed_output(library.iT_max), f", {least:.0%} to {most:.0%}"
+    yield source, low, high, lambda kelvin: float(library.PropsSI("V", "T", kelvin, "P", _ATMOSPHERE, fluid)), parts
 
 
-def _pure(library: Any, tables: Any, name: str, text: str, label: str) -> Iterator[_Source]:
+def _pure(library: Any, tables: Any, name: str) -> Iterator[_Source]:
     """Equations of state with a viscosity, and tables, up to the boiling point."""
     fluid = name.replace(" ", "")
     try:
@@ -184,10 +182,8 @@ def _pure(library: Any, tables: Any, name: str, text: str, label: str) -> Iterat
     except ValueError:  # not among its fluids, or one without a viscosity
         pass
     else:
-        yield (
-            f"CoolProp {library.get_global_param_string('version')}", low, boils,
-            lambda kelvin: float(library.PropsSI("V", "T", kelvin, "P", _ATMOSPHERE, fluid)), "",
-        )  # fmt: skip
+        source = f"CoolProp {library.get_global_param_string('version')}"
+        yield source, low, boils, lambda kelvin: float(library.PropsSI("V", "T", kelvin, "P", _ATMOSPHERE, fluid)), ""
     try:
         number = _NUMBERS.get(name) or tables.CAS_from_any(name)
     except ValueError:

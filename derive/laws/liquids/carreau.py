@@ -1,7 +1,7 @@
 """The viscosity of Carreau: a plateau, and a power law that sets in smoothly."""
 
 from wetdoublet.derive.laws.liquids.generalised import Liquid, film_laws, representative_squared
-from wetdoublet.derive.user import *
+from wetdoublet.derive.user import Reference, let, mu, positive, quantity, sp, v0, x0
 
 CARREAU = Reference(
     "carreau1972rheological", ("Carreau, P. J.",),
@@ -16,11 +16,13 @@ deborah, plateau = let("deborah", time * v0 / x0), let("plateau", infinite / mu)
 at_wall = let("at_wall", representative_squared(index))
 
 
-def viscosity(rate):
+def viscosity(rate: sp.Expr) -> sp.Expr:
+    """Of a squared rate, over `liquid.viscosity`."""
     return plateau + (1 - plateau) * positive(1 + deborah**2 * rate) ** ((index - 1) / 2)
 
 
-def in_slit(rate):
+def in_slit(rate: sp.Expr) -> sp.Expr:
+    """The same of a flow between plates."""
     return viscosity(at_wall * rate)
 
 

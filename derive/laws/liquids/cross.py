@@ -1,7 +1,7 @@
 """The viscosity of Cross: two plateaus, and between them a power of the shear rate."""
 
 from wetdoublet.derive.laws.liquids.generalised import Liquid, film_laws, representative_squared
-from wetdoublet.derive.user import *
+from wetdoublet.derive.user import Rational, Reference, let, mu, quantity, sp, v0, x0
 
 CROSS = Reference(
     "cross1965rheology", ("Cross, M. M.",),
@@ -16,11 +16,13 @@ deborah, plateau = let("deborah", time * v0 / x0), let("plateau", infinite / mu)
 at_wall = let("at_wall", representative_squared(index))
 
 
-def viscosity(rate):
+def viscosity(rate: sp.Expr) -> sp.Expr:
+    """Of a squared rate, over `liquid.viscosity`."""
     return plateau + (1 - plateau) / (1 + (deborah**2 * rate) ** ((1 - index) / 2))
 
 
-def in_slit(rate):
+def in_slit(rate: sp.Expr) -> sp.Expr:
+    """The same of a flow between plates."""
     return viscosity(at_wall * rate)
 
 

@@ -134,7 +134,7 @@ def film_laws(liquid: Liquid) -> None:
 def _of_power_law() -> tuple[sp.Symbol, sp.Expr]:
     """The index, and the rate at the wall over the apparent one of a power law between plates: (2n + 1)/(3n).
 
-    The flow between plates, q = h^2/(2 T^2) int rate stress d(stress) up to T at the wall, has the apparent rate 6q/h^2.
+    The flow q = h^2/(2 T^2) int rate stress d(stress), up to the stress T at the wall, has the apparent rate 6 q/h^2.
     """
     index, stress, wall = sp.symbols("index stress wall", positive=True)
     flow = sp.integrate(sp.powsimp(stress * stress ** (1 / index)), (stress, 0, wall)) / (2 * wall**2)

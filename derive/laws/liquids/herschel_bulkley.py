@@ -6,7 +6,7 @@ and for large y, and right to 1.5 % between them with p = 3 (n + 1)/4 (0.3 <= n 
 """
 
 from wetdoublet.derive.laws.liquids.generalised import Liquid, film_laws, index_factor
-from wetdoublet.derive.user import *
+from wetdoublet.derive.user import Reference, let, mu, quantity, sp, sqrt, v0, x0
 
 HERSCHEL = Reference(
     "herschel1926konsistenzmessungen", ("Herschel, W. H.", "Bulkley, R."),
@@ -25,16 +25,18 @@ joint = let("joint", (index + 1) / index * ((index + 1) / (2 * index + 1)) ** (i
 yielded = let("yielded", yielding ** (power / (index + 1)))
 
 
-def viscous(rate):
+def viscous(rate: sp.Expr) -> sp.Expr:
     """The stress without the yield stress."""
     return at_reference ** (1 - index) * rate ** (index / 2)
 
 
-def viscosity(rate):
+def viscosity(rate: sp.Expr) -> sp.Expr:
+    """Of a squared rate, over `liquid.viscosity`."""
     return (yielding + viscous(rate)) / sqrt(rate)
 
 
-def in_slit(rate):
+def in_slit(rate: sp.Expr) -> sp.Expr:
+    """The same of a flow between plates."""
     plain = at_wall * viscous(rate)
     flowing = joint * plain ** (1 / (index + 1))
     between = yielding * flowing / (yielded + flowing**power) ** (1 / power)

@@ -1,7 +1,7 @@
 """A liquid whose stress is a power of the shear rate; its viscosity is that at a reference rate."""
 
 from wetdoublet.derive.laws.liquids.generalised import Liquid, film_laws, index_factor
-from wetdoublet.derive.user import *
+from wetdoublet.derive.user import Reference, let, quantity, sp, v0, x0
 
 RODIN = Reference(
     "rodin1996squeeze", ("Rodin, G. J.",),
@@ -16,11 +16,13 @@ at_reference, rest = let("at_reference", reference * x0 / v0), let("rest", (lowe
 at_wall = let("at_wall", index_factor(index) ** index)
 
 
-def viscosity(rate):
+def viscosity(rate: sp.Expr) -> sp.Expr:
+    """Of a squared rate, over `liquid.viscosity`."""
     return (rate / at_reference**2) ** ((index - 1) / 2)
 
 
-def in_slit(rate):
+def in_slit(rate: sp.Expr) -> sp.Expr:
+    """The same of a flow between plates."""
     return at_wall * viscosity(rate)
 
 

@@ -13,7 +13,8 @@ ROWS = "0.1{c}5.5{c}0.55\n1{c}5{c}5\n10{c}4{c}40\n100{c}2{c}200"
 WRITTEN = {
     "brackets": "shear rate [1/s],viscosity [Pa s],stress [Pa]\n" + ROWS.format(c=","),
     "TRIOS": "[step]\nFlow sweep - 1\nShear rate\tViscosity\tStress\n1/s\tPa.s\tPa\n" + ROWS.format(c="\t"),
-    "RheoCompass": "Test:\tprobe\nInterval data:\tPoint No.\tShear Rate\tViscosity\tShear Stress\n\t\t[1/s]\t[mPa·s]\t[Pa]\n"
+    "RheoCompass": "Test:\tprobe\nInterval data:\tPoint No.\tShear Rate\tViscosity\tShear Stress\n"
+    "\t\t[1/s]\t[mPa·s]\t[Pa]\n"
     + "\n".join(f"\t{k}\t{g}\t{e}\t{t}" for k, (g, e, t) in enumerate(
         [("0,1", "5500", "0,55"), ("1", "5000", "5"), ("10", "4000", "40"), ("100", "2000", "200")])),
     "RheoWin": "GP in 1/s;Eta in Pas;Tau in Pa\n" + ROWS.format(c=";").replace(".", ","),
@@ -34,7 +35,8 @@ def test_what_rheometers_export(kind: str, tmp_path: Path):
 @pytest.mark.parametrize(
     ("text", "says"),
     [("shear rate,viscosity\n1,2\n2,3\n3,4", "no unit"), ("speed [m/s],viscosity [Pa s]\n1,2", "no line that names"),
-     ("shear rate [1/s],viscosity [Pa s]\n1,2\n2,-3\n3,4", "> 0"), ("shear rate [1/s],viscosity [m]\n1,2\n2,3\n3,4", "a length"),
+     ("shear rate [1/s],viscosity [Pa s]\n1,2\n2,-3\n3,4", "> 0"),
+     ("shear rate [1/s],viscosity [m]\n1,2\n2,3\n3,4", "a length"),
      ("shear rate [1/s],viscosity [Pa s]\n1,2\n2,3", "three rates")],
 )  # fmt: skip
 def test_what_is_refused(text: str, says: str, tmp_path: Path):

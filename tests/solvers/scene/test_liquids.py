@@ -229,12 +229,14 @@ def test_glycerol_in_water_as_measured(percent: int, celsius: int, measured: flo
 
 
 NAMED = [
-    ("glycerol 85 %, 25 degC", 0.0802), ("85 wt% glycerol in water, 25 °C", 0.0802), ("glycerine/water 85%, 298.15 K", 0.0802),
+    ("glycerol 85 %, 25 degC", 0.0802), ("85 wt% glycerol in water, 25 °C", 0.0802),
+    ("glycerine/water 85%, 298.15 K", 0.0802),
     ("water, 20 degC", 0.0010016), ("ethylene glycol, 40 degC", 0.0095), ("glycerol, 20 C", 1.414),
     ("propylene glycol 40 %, 25 degC", 0.00358), ("ethanol, 20 degC", 0.001194),
 ]  # fmt: skip
 UNNAMED = [
-    ("water, 120 degC", "99.97"), ("glycerol 85 %, 120 degC", "0 to 100 degC"), ("ethylene glycol 80 %, 20 degC", "60%"),
+    ("water, 120 degC", "99.97"), ("glycerol 85 %, 120 degC", "0 to 100 degC"),
+    ("ethylene glycol 80 %, 20 degC", "60%"),
     ("glycerol 85 vol%, 20 degC", "volume"), ("glycerol 120 %, 20 degC", "fraction"), ("mud 80 %, 20 degC", "in water"),
     ("oleic acid, 20 degC", "no source"), ("glycerol 85 %, 77 degF", "temperature"),
 ]  # fmt: skip
