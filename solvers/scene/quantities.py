@@ -14,7 +14,7 @@ from typing import Any, Literal
 import numpy as np
 
 from ...generated import scaling
-from .schema import DEFAULTS, FIELDS, FROM_COATING
+from .schema import FIELDS, FROM_COATING, acting_defaults
 
 _OWN = "custom."
 SHADOW = "Shi & McCarthy 2008"
@@ -45,8 +45,7 @@ class Ways:
 
 def quantities(entries: Mapping[str, Any], ways: Ways) -> dict[str, Any]:
     """Quantities by vocabulary name, SI, from entries in SI by dotted name; choices, flags and words are ignored."""
-    present = {name.partition(".")[0] for name in entries}
-    entries = {name: value for name, value in DEFAULTS.items() if name.partition(".")[0] in present} | dict(entries)
+    entries = acting_defaults(entries) | dict(entries)
     result = {
         FIELDS[name].quantity: FIELDS[name].factor * value if FIELDS[name].factor != 1 else value
         for name, value in entries.items()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from functools import cached_property
 from numbers import Real
@@ -293,6 +294,13 @@ ALTERNATIVES: tuple[tuple[str, ...], ...] = (
 
 DEFAULTS: dict[str, float] = {name: field.default for name, field in FIELDS.items() if field.default is not None}
 """Dotted name -> number, SI, of what need not be given where its table is."""
+
+
+def acting_defaults(entries: Iterable[str]) -> dict[str, float]:
+    """The numbers of `DEFAULTS` that act beside these entries: of tables that are there, and of a law of liquids."""
+    names = {*entries}
+    tables = {name.partition(".")[0] for name in names} - ({"liquid"} if "liquid.flow_index" not in names else set())
+    return {name: value for name, value in DEFAULTS.items() if name.partition(".")[0] in tables}
 
 
 def unknown_entry(name: str, value: object) -> InputError:

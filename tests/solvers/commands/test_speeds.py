@@ -43,6 +43,7 @@ SILENT = {  # why the others show no speed
     "generate": "files of equations", "diff": "files of equations", "compile": "digests", "cite": "references",
     "explore": "a page, whose labels say which",
     "tracks": "the columns of `fit`; printed, they say normal speed",
+    "flow-curve": "shear rates and viscosities of a liquid",
 }  # fmt: skip
 NAMED = re.compile(r"(normal|relative|rel\.|approach|impact\.)[\s_]?$|_$")
 MACHINE = re.compile(r"""^["']?speed(_sd)?["']?( \[m/s\])?["']?\s*([:,]|$)""")
