@@ -213,7 +213,7 @@ class _Fit:
             with np.errstate(all="ignore"):
                 curve = self._curve(self._rate, values, self.reference)
                 off: np.ndarray = np.log(curve) - self._logarithms
-            return np.nan_to_num(off, nan=1e3, posinf=1e3, neginf=-1e3)
+            return np.where(np.isfinite(off), off, 1e3)
 
         if not free:
             return float((residuals(np.empty(0)) ** 2).sum() / 2), start

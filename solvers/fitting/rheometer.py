@@ -55,10 +55,11 @@ def flow_curve_of(source: str | Path) -> tuple[np.ndarray, np.ndarray]:
         raise InputError("CURVE.csv", str(source), "three rates at least", f"has {len(values)} rows of numbers")
     table = {kind: np.array([row[kind] for row in values]) * factors[kind] for kind in places}
     viscosity = table["viscosity"] if "viscosity" in table else table["stress"] / table["rate"]
-    for kind, numbers in (("shear rate", table["rate"]), ("viscosity", viscosity)):
-        if not (np.isfinite(numbers) & (numbers > 0)).all():
-            row = int(np.flatnonzero(~(np.isfinite(numbers) & (numbers > 0)))[0])
-            raise InputError(f"CURVE.csv {source}, {kind}", float(numbers[row]), "a number > 0", f"of row {row + 1}")
+    for kind, column in (("shear rate", table["rate"]), ("viscosity", viscosity)):
+        wrong = np.flatnonzero(~(np.isfinite(column) & (column > 0)))
+        if wrong.size:
+            row = int(wrong[0])
+            raise InputError(f"CURVE.csv {source}, {kind}", float(column[row]), "a number > 0", f"of row {row + 1}")
     order = np.argsort(table["rate"], kind="stable")
     return table["rate"][order], viscosity[order]
 

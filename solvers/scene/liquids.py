@@ -30,6 +30,7 @@ _SOLUTIONS = {
     "glycerol": "MGL", "ethylene glycol": "MEG", "propylene glycol": "MPG", "ethanol": "MEA", "methanol": "MMA",
     "sodium chloride": "MNA", "calcium chloride": "MCA", "potassium carbonate": "MKC",
 }  # fmt: skip
+_POLYMER = re.compile(r"poly|p[ev][gpa]\b|pdms|dimethicone|.*\bgum\b")
 _NUMBERS = {
     "water": "7732-18-5", "glycerol": "56-81-5", "ethylene glycol": "107-21-1", "propylene glycol": "57-55-6",
     "ethanol": "64-17-5", "methanol": "67-56-1",
@@ -184,6 +185,8 @@ def _pure(library: Any, tables: Any, name: str) -> Iterator[_Source]:
     else:
         source = f"CoolProp {library.get_global_param_string('version')}"
         yield source, low, boils, lambda kelvin: float(library.PropsSI("V", "T", kelvin, "P", _ATMOSPHERE, fluid)), ""
+    if _POLYMER.match(name):  # which `chemicals` takes for its monomer
+        return
     try:
         number = _NUMBERS.get(name) or tables.CAS_from_any(name)
     except ValueError:
@@ -194,12 +197,24 @@ def _pure(library: Any, tables: Any, name: str) -> Iterator[_Source]:
         row = perry.loc[number]
         constants = [float(row[each]) for each in ("C1", "C2", "C3", "C4", "C5")]
         low, high = max(float(row["Tmin"]), melts), min(float(row["Tmax"]), boils)
-        yield "Perry's handbook (8th ed.)", low, high, lambda kelvin: float(tables.dippr.EQ101(kelvin, *constants)), ""
+        yield (
+            f"Perry's handbook, 8th ed. ({row['Chemical'].strip()})",
+            low,
+            high,
+            lambda kelvin: float(tables.dippr.EQ101(kelvin, *constants)),
+            "",
+        )
     vdi = tables.viscosity.mu_data_VDI_PPDS_7
     if number in vdi.index:
         row = vdi.loc[number]
         values = [float(row[each]) for each in "ABCDE"]
-        yield "VDI heat atlas", melts, boils, lambda kelvin: float(tables.viscosity.PPDS9(kelvin, *values)), ""
+        yield (
+            f"VDI heat atlas ({row['Chemical'].strip()})",
+            melts,
+            boils,
+            lambda kelvin: float(tables.viscosity.PPDS9(kelvin, *values)),
+            "",
+        )
 
 
 def cheng(fraction: float, celsius: float) -> float:
@@ -210,4 +225,4 @@ def cheng(fraction: float, celsius: float) -> float:
     b = (4.9 + 0.036 * celsius) * a**2.5
     curved = a * b * fraction * (1 - fraction) / (a * fraction + b * (1 - fraction))
     weight = 1 - fraction + curved
-    return water**weight * glycerol ** (1 - weight)
+    return math.exp(weight * math.log(water) + (1 - weight) * math.log(glycerol))

@@ -13,6 +13,7 @@ The squeeze alone sets the rate, also of the tangential force: at equal speeds, 
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
+from typing import Any
 
 import sympy as sp
 
@@ -118,7 +119,7 @@ def _pressure(liquid: Liquid, name: str, rim: sp.Expr) -> sp.Expr:
 def film_laws(liquid: Liquid) -> None:
     """Declare the laws of its film in every slot, in the order in which scenes choose them."""
     source, remark = (*liquid.source, GIESEKUS), "; derived: a Newtonian film with the mean of its viscosities"
-    common = {"meaning": liquid.meaning, "remark": remark}
+    common: dict[str, Any] = {"meaning": liquid.meaning, "remark": remark}
     resistance = _resistance(liquid)
     law("film", f"{liquid.name}-finite", source=(*source, KANTAK), resistance=resistance, **common)
     law("film", f"{liquid.name}-cavitating", source=(*source, KANTAK), resistance=resistance, suction=0, **common)

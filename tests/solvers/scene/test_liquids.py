@@ -238,7 +238,7 @@ UNNAMED = [
     ("water, 120 degC", "99.97"), ("glycerol 85 %, 120 degC", "0 to 100 degC"),
     ("ethylene glycol 80 %, 20 degC", "60%"),
     ("glycerol 85 vol%, 20 degC", "volume"), ("glycerol 120 %, 20 degC", "fraction"), ("mud 80 %, 20 degC", "in water"),
-    ("oleic acid, 20 degC", "no source"), ("glycerol 85 %, 77 degF", "temperature"),
+    ("oleic acid, 20 degC", "no source"), ("polyethylene glycol, 20 degC", "no source"), ("glycerol 85 %, 77 degF", "temperature"),
 ]  # fmt: skip
 
 
