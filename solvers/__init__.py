@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from .export.hybrid import Equations, equations
     from .fitting.examine import check_data
     from .fitting.fit import fit, log_likelihood
+    from .fitting.flow_curve import flow_curve
     from .fitting.result import Fit
     from .fitting.tracks import tracks
     from .host.pictures import plot
@@ -56,6 +57,7 @@ _NAMES = {
     "export.hybrid": "Equations equations",
     "fitting.examine": "check_data",
     "fitting.fit": "fit log_likelihood",
+    "fitting.flow_curve": "flow_curve",
     "fitting.result": "Fit",
     "fitting.tracks": "tracks",
     "host.pictures": "plot",
@@ -85,8 +87,8 @@ __all__ = [
     "Design", "Equations", "Explorer", "Fit", "InputError", "ModelWarning", "Proof", "ProvedBoundary", "ProvedMap",
     "Scene", "Sensitivities", "WetDoubletError", "atlas", "band", "boundary", "boundary_sensitivities", "check_data",
     "collide", "collide_many", "collide_pair", "collision_averages", "compile_kernels", "critical",
-    "design", "equations", "explore", "fit", "gradients_many", "log_likelihood", "pair_gradients", "plot", "prove",
-    "prove_boundary", "prove_map", "regime_map", "sensitivities", "solve", "tracks",
+    "design", "equations", "explore", "fit", "flow_curve", "gradients_many", "log_likelihood", "pair_gradients", "plot",
+    "prove", "prove_boundary", "prove_map", "regime_map", "sensitivities", "solve", "tracks",
 ]  # fmt: skip
 
 if not TYPE_CHECKING:  # so that type checkers know the names above and no others

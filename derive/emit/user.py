@@ -28,7 +28,13 @@ _DOC = (
 
 
 def package(
-    model: UserModel, source: str, library: str, conserves: Iterable[str], words: Iterable[str], origin: str = ""
+    model: UserModel,
+    source: str,
+    library: str,
+    conserves: Iterable[str],
+    words: Iterable[str],
+    origin: str = "",
+    table: str = "",
 ) -> dict[str, str]:
     """Relative path -> text of every file of a model's package, manifest included.
 
@@ -37,6 +43,7 @@ def package(
         source: text of the model file.
         library: digest of the library's own equations, which the model extends.
         origin: path of the model file as seen from the package.
+        table: of a law of the library, the scene's table that has its quantities.
     """
     names = own_names(model)
     files = {SOURCE: source}
@@ -69,7 +76,7 @@ def package(
     files = {path: text if path == SOURCE else text.replace(PROVENANCE, own, 1) for path, text in files.items()}
     manifest = {
         "kind": "wetdoublet model", "format": FORMAT, "name": model.name, "meaning": model.meaning, "origin": origin,
-        "library": library, "laws": laws,
+        "library": library, "laws": laws, **({"table": table} if table else {}),
         **({"events": [_event(event) for event in model.events]} if model.events else {}),
         **({"criteria": [_criterion(known) for known in model.criteria]} if model.criteria else {}),
         **({"terms": _terms(model.terms)} if model.terms else {}),

@@ -31,7 +31,18 @@ ENTRIES = {
     r"$v_s' = -\beta_0 v_s$ (Walton & Braun 1986, *J. Rheol.* 30, 949); goes with `friction`, 0 without it",
     "particles.youngs_modulus": "$E$ of the spheres; without it there is no elastic criterion",
     "particles.poisson_ratio": r"$\nu$ of the spheres; goes with `youngs_modulus`",
-    "liquid.viscosity": r"viscosity $\mu$",
+    "liquid.viscosity": r"viscosity $\mu$; or a liquid by name, mass fraction in water and temperature, "
+    '`"glycerol 85 %, 25 degC"`, with the extra `liquids`; of a `law` its viscosity at low rates (`cross`, `carreau`), '
+    "or at `reference_rate`, beside the yield stress",
+    "liquid.law": "how the viscosity depends on the shear rate",
+    "liquid.flow_index": "$n$, slope of the stress over the rate where it thins; of `cross` and `carreau` at most 1",
+    "liquid.relaxation_time": r"$\lambda$ of `cross` and `carreau`: over $1/\lambda$ the liquid thins",
+    "liquid.infinite_shear_viscosity": r"$\mu_\infty$, what is left of the viscosity at high rates",
+    "liquid.yield_stress": r"$\tau_y$ of `herschel-bulkley`",
+    "liquid.reference_rate": "rate at which `viscosity` is that of the power law; with 1/s it is the consistency $K$",
+    "liquid.plateau_rate": "rate below which the viscosity of a power law or yield stress stays what it is there: the "
+    "regularisation; ten times below the slowest rate that matters it changes the force by 2 parts in 1000",
+    "liquid.measured_to": "highest rate at which the viscosity was measured; a collision that is faster says so",
     "liquid.film_thickness": "$x_0$, the gap at initial contact: the sum of both coatings",
     "liquid.coating_thickness": "coating on each sphere; $x_0$ is twice that, or the sum with the partner's",
     "liquid.glass_transition_pressure": "$p_{gt}$, film pressure at which the liquid turns solid and the spheres "
@@ -50,6 +61,8 @@ ENTRIES = {
     'beside a wall it must be said (`"0 um"`: dry)',
     "partner.mass": "mass of the partner; 1e-4 to 1e4 of the sphere's",
     "partner.density": "density of the partner; its mass follows from it",
+    "partner.contact_angle": "contact angle on the partner, if another; the bridge has the angle of the mean cosine "
+    "(Orr, Scriven & Rivas 1975, *J. Fluid Mech.* 67, 723), exact for small bridges",
     "partner.wall": "the partner is a flat wall at rest",
     "pendulum.length": "length $l$ of the strings",
     "pendulum.gravity": "acceleration of gravity $g$",
@@ -70,6 +83,14 @@ ENTRIES = {
 """Dotted name -> what the entry is."""
 
 CHOICES = {
+    "liquid.law": {
+        "newtonian": r"$\mu$ at any rate; the default",
+        "power-law": r"$\mu (\dot\gamma/\dot\gamma_r)^{n-1}$, above `plateau_rate`",
+        "cross": r"$\mu_\infty + (\mu - \mu_\infty)/(1 + (\lambda \dot\gamma)^{1-n})$",
+        "carreau": r"$\mu_\infty + (\mu - \mu_\infty)(1 + (\lambda \dot\gamma)^2)^{(n-1)/2}$",
+        "herschel-bulkley": r"stress $\tau_y + \mu \dot\gamma_r^{1-n} \dot\gamma^n$, above `plateau_rate`; "
+        "$n = 1$ is Bingham's",
+    },
     "bridge.law": {
         "mikami": "regression of solutions of the Young-Laplace equation, natural logarithms; the paper's",
         "mikami-log10": "the same with decimal logarithms in two coefficients",

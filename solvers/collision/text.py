@@ -339,6 +339,7 @@ def _model(scene: Scene) -> list[str]:
         used |= {"rupture": scene.bridge.rupture} if scene.bridge.rupture != "common" else {}
     if scene.pendulum is not None:
         used["strings"] = scene.pendulum.law
+    used |= {"liquid": str(law)} if (law := scene.entries.get("liquid.law")) is not None else {}
     if scene.package is not None:  # laws that the user's model chooses, not an entry of the scene
         used |= {slot: scene.package.laws(slot)[0] for slot in scene.package.unnamed}
         used |= {name.replace("_", " "): str(value) for name, value in scene.custom.items()}

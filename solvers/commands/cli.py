@@ -19,7 +19,8 @@ from .bar import AtWork
 
 COMMANDS = (
     "scenes", "collide", "sensitivity", "map", "boundary", "critical", "solve", "averages", "reproduce", "generate",
-    "diff", "export", "explore", "verify", "bench", "prove", "tracks", "check", "fit", "design", "compile", "cite",
+    "diff", "export", "explore", "verify", "bench", "prove", "tracks", "check", "fit", "flow-curve", "design",
+    "compile", "cite",
 )  # fmt: skip
 """Each is the function `command` of the module of that name in `commands/`, imported when it is called."""
 
@@ -41,7 +42,7 @@ class Commands(click.Group):
         """Import and return the command."""
         if cmd_name not in COMMANDS:
             return None
-        command = import_module(f".{cmd_name}", __package__).command
+        command = import_module("." + cmd_name.replace("-", "_"), __package__).command
         assert isinstance(command, click.Command)
         return command
 

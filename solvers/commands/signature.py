@@ -113,7 +113,7 @@ def as_command(
         debug = click.Option(["--debug"], is_flag=True, expose_value=False, help="Show a traceback behind an error.")
         # a scene is the first argument, wherever its options stand
         parameters.sort(key=lambda each: isinstance(each, click.Argument) and each.name != "source")
-        name = function.__module__.rpartition(".")[2]
+        name = function.__module__.rpartition(".")[2].replace("_", "-")
         return kind(name, callback=run, params=[*parameters, debug], help=text, short_help=short_help)
 
     return decorated

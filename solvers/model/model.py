@@ -61,9 +61,9 @@ def select_model(scene: Scene, oblique: bool, full: bool = False, fold: bool = F
     }
     parts = ["oblique" if oblique else "head_on", *([partner] if partner else [])]
     parts += [word for word, there in words.items() if there]
-    laws = [("film", scene.model.film), ("glass", scene.model.glass)]
+    laws = [(slot, scene.law_of(slot)) for slot in ("film", "glass")]
     if oblique:
-        laws.append(("shear", scene.model.tangential))
+        laws.append(("shear", scene.law_of("shear")))
         if not reduced and partner not in ("wall", "space"):
             laws.append(("arm", scene.model.arm))
     if scene.bridge is not None:

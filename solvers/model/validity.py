@@ -19,6 +19,7 @@ from ..errors import ModelWarning
 from ..host.emitted import LAWS
 from ..scene.contact import GAPS, NEVER_MET
 from ..scene.groups import formulas, law_module, si_values
+from ..scene.liquids import is_named, liquid
 from ..scene.scene import Scene
 
 Values = Mapping[str, Any]  # quantities under the vocabulary's names and results, SI: floats, arrays, expressions
@@ -127,7 +128,7 @@ def _bent(scene: Scene, values: Values) -> Any:
 
 def _wall_coupling(scene: Scene, values: Values) -> Any:
     """Torque of sliding along a wall by the leading logarithm over the published one, at the smallest gap."""
-    if not scene.wall or scene.model.tangential not in LAWS["shear"]:
+    if not scene.wall or scene.law_of("shear") not in LAWS["shear"]:
         return math.nan
     edge = law_module(scene, "shear", scene.model.tangential).edge
     outer = edge(values["film_thickness"] / values["reduced_radius"]) * values["film_thickness"]
@@ -164,6 +165,38 @@ def _idle_friction(scene: Scene, values: Values) -> Any:
     oblique = on.logical_or(values["angle"] > 0, scene.turns(0.0))
     with np.errstate(all="ignore"):
         return on.where(on.logical_and(bounced, oblique), values["smallest_gap"] / contact, math.nan)
+
+
+_PLACES = 40  # gaps between the film's edge and the smallest at which the rate is looked for
+
+
+def shear_rate(scene: Scene, values: Values) -> Any:
+    """About the largest shear rate in the film, 1/s, that the squeeze makes at a wall.
+
+    It is 3 |u| s/h^2, on the ring where h = 4x/3 the largest; u falls from v0 to nothing at the smallest gap as in a
+    Newtonian film, and is v0 up to a rebound. A stick's smallest gap is where a film of this viscosity would stop it.
+    """
+    on, bounced = _library(values), values["outcome"] == OUTCOMES.index(BOUNCE)
+    thickness, radius, speed = (values[name] for name in ("film_thickness", "reduced_radius", "speed"))
+    stokes, gap = _group(scene, values, "stokes"), values["smallest_gap"] / thickness
+    largest = 0.0
+    for k in range(1, _PLACES + 1):
+        here = on.where(gap == gap, gap, 1e-3) ** (k / _PLACES)  # a stick has none
+        stopped = on.where(gap == gap, _taken(gap, on), stokes)
+        left = on.where(bounced, 1.0, on.maximum(1 - _taken(here, on) / stopped, 0.0))
+        largest = on.maximum(largest, left * ((1 - here) > 0.25) / here**1.5)
+    return 9 * math.sqrt(6) / 16 * largest * speed / (thickness * radius) ** 0.5
+
+
+def _taken(gap: Any, on: Any) -> Any:
+    """The Stokes number that a film takes from an approach to this gap, over x0."""
+    return on.log(1 / gap) - 1.5 + 2 * gap - gap**2 / 2
+
+
+def _sheared(scene: Scene, values: Values) -> Any:
+    """The largest shear rate over that up to which the liquid was measured; NaN where that is not said."""
+    measured = scene.entries.get("liquid.measured_to")
+    return math.nan if measured is None else shear_rate(scene, values) / measured
 
 
 def _partner(ratio: float) -> str:
@@ -238,6 +271,15 @@ LIMITS: tuple[Limit, ...] = (
         ),
         most=1 + 1e-9,
     ),
+    Limit(
+        "shear_rate",
+        _sheared,
+        lambda n: (
+            f"the film is sheared {n:.3g} times faster than liquid.measured_to: what its viscosity is there, "
+            "nobody has measured"
+        ),
+        most=1.0,
+    ),
 )
 LAW_RANGE = "law_range"
 FLAGS: tuple[str, ...] = (*(limit.flag for limit in LIMITS), LAW_RANGE)
@@ -295,6 +337,7 @@ def counted(mask: np.ndarray) -> list[tuple[str, int]]:
 
 WORDS = {
     "film_reynolds": f"inertia of the liquid, Re > {_REYNOLDS:g}",
+    "shear_rate": "faster shear than measured",
     "film_gap": f"thick film, x0/a > {_FILM_GAP:g}",
     "rupture_gap": f"wide gap at rupture, x_f/a > {_RUPTURE_GAP:g}",
     "bridge_liquid": "bridge larger than the coatings",
@@ -316,7 +359,9 @@ def remarks(scene: Scene) -> tuple[str, ...]:
     """What of the scene lies outside the range its laws were made for, a sentence each."""
     values = si_values(scene, None, None)
     numbers = [(limit, float(limit.number(scene, values))) for limit in law_limits(scene)]
-    return tuple(limit.says(number) for limit, number in numbers if limit.exceeded(number))
+    named = dict(scene.given)["liquid.viscosity"]
+    sources = liquid(str(named)).remarks if is_named(named) else ()
+    return (*sources, *(limit.says(number) for limit, number in numbers if limit.exceeded(number)))
 
 
 def law_limits(scene: Scene) -> list[Limit]:

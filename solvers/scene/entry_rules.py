@@ -16,7 +16,9 @@ from .schema import (
     ALTERNATIVES,
     FIELDS,
     FROM_COATING,
+    LIQUIDS,
     MEETING,
+    NEWTONIAN,
     ONE_OF_EACH,
     REQUIRED_TABLES,
     SPINS,
@@ -118,6 +120,41 @@ def check_complete(entries: Mapping[str, Any], tables: Mapping[str, Any] | None 
             raise InputError(absent, None, f"{FIELDS[absent].accepts}, or neither of the two", problem)
 
 
+def check_liquid(entries: Mapping[str, Any], package: Package | None) -> None:
+    """InputError for entries of another law of liquids, or a law that nothing is made for.
+
+    With `newtonian`, given as such, those of the other laws stand idle.
+    """
+    law = entries.get("liquid.law", NEWTONIAN)
+    of_laws = dict.fromkeys(f"liquid.{name}" for names in LIQUIDS.values() for name in names)
+    own = [f"liquid.{name}" for name in LIQUIDS.get(law, ())]
+    for name in (name for name in of_laws if name in entries and name not in own):
+        if law == NEWTONIAN and "liquid.law" in entries:
+            continue
+        known = ", ".join(own) or "no such entry, or liquid.law one of " + ", ".join(LIQUIDS)
+        raise InputError(name, entries[name], known, f"is no entry of liquid.law = {law}")
+    if law not in LIQUIDS:
+        return
+    if package is not None and package.table != "liquid":
+        accepted = f"{NEWTONIAN}: a law of one's own may have a viscosity of its own"
+        raise InputError("liquid.law", law, accepted, f"is given together with the model {package.name}")
+    for name in own:
+        if name not in entries and FIELDS[name].default is None:
+            raise InputError(name, None, FIELDS[name].accepts, f"missing while liquid.law = {law}")
+    if (film := entries.get("model.film", "finite")) not in FILMS_OF_LIQUIDS:
+        raise InputError("model.film", film, ", ".join(FILMS_OF_LIQUIDS), f"is not there for liquid.law = {law}")
+    if law in THINNING and FIELDS["liquid.flow_index"].number(entries["liquid.flow_index"]) > 1:
+        raise InputError(
+            "liquid.flow_index",
+            entries["liquid.flow_index"],
+            "a number > 0 and at most 1",
+            f"thickens, which {law} does not",
+        )
+
+
+FILMS_OF_LIQUIDS, THINNING = ("finite", "cavitating"), ("cross", "carreau")
+
+
 def check_ways(entries: Mapping[str, Any], values: Mapping[str, Any]) -> None:
     """InputError for entries (as stored, and in SI) without others that they require."""
     for name in ("particles.contact_tangential_restitution", "model.contact_friction"):
@@ -140,6 +177,9 @@ def check_ways(entries: Mapping[str, Any], values: Mapping[str, Any]) -> None:
     if volume == FROM_COATING and coating not in entries:
         accepted = f"{coating} beside it, a number V/R^3, or a volume with its unit"
         raise InputError("bridge.volume", volume, accepted, f"is given without {coating}")
+    wetted = "partner.contact_angle"
+    if wetted in entries and volume is None:
+        raise InputError(wetted, entries[wetted], "no such entry, or a [bridge]", "is given without a bridge")
     if fraction in entries and volume != FROM_COATING:
         accepted = f'bridge.volume = "{FROM_COATING}" beside it, or no such entry'
         raise InputError(fraction, entries[fraction], accepted, f"is given with bridge.volume = {shown(volume)}")
@@ -200,7 +240,7 @@ def check_together(scene: System) -> None:
             raise InputError(name, entries[name], accepted, "is not below the film thickness")
     if scene.bridge is not None and not x0 < ruptured < math.inf:
         radius = 2 * scene.reduced_radius
-        ratio = x0 / (radius * (1 + scene.bridge.contact_angle / 2))
+        ratio = x0 / (radius * (1 + scene.material["contact_angle"] / 2))
         least = ratio * ratio * ratio  # ** would raise OverflowError; this becomes inf
         if math.isinf(least):
             name = _given_alternative("particles.reduced_radius", entries)

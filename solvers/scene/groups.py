@@ -64,6 +64,10 @@ class System:
     def law_of(self, slot: str) -> str:
         """The name of the law in a slot; "" if the scene lacks the table that says it."""
         table, _, key = ENTRIES[slot].partition(".")
+        if self.package is not None:
+            own = f"{self.entries.get('liquid.law')}-{getattr(self.model, key, '')}"
+            if own in self.package.laws(slot):  # of the liquid
+                return own
         if ENTRIES[slot] not in fields(self.package):  # no entry of a scene says it
             return next(iter((*(self.package.laws(slot) if self.package else ()), *LAWS[slot])))
         return str(getattr(getattr(self, table), key, ""))

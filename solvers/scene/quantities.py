@@ -14,7 +14,7 @@ from typing import Any, Literal
 import numpy as np
 
 from ...generated import scaling
-from .schema import DEFAULTS, FIELDS, FROM_COATING
+from .schema import FIELDS, FROM_COATING, acting_defaults
 
 _OWN = "custom."
 SHADOW = "Shi & McCarthy 2008"
@@ -45,8 +45,7 @@ class Ways:
 
 def quantities(entries: Mapping[str, Any], ways: Ways) -> dict[str, Any]:
     """Quantities by vocabulary name, SI, from entries in SI by dotted name; choices, flags and words are ignored."""
-    present = {name.partition(".")[0] for name in entries}
-    entries = {name: value for name, value in DEFAULTS.items() if name.partition(".")[0] in present} | dict(entries)
+    entries = acting_defaults(entries) | dict(entries)
     result = {
         FIELDS[name].quantity: FIELDS[name].factor * value if FIELDS[name].factor != 1 else value
         for name, value in entries.items()
@@ -72,6 +71,8 @@ def quantities(entries: Mapping[str, Any], ways: Ways) -> dict[str, Any]:
         result["volume"] = _from_coating(entries, radius, radius_ratio) / _cube(2 * result["reduced_radius"])
     elif ways.volume == "absolute":
         result["volume"] = result["volume"] / _cube(2 * result["reduced_radius"])
+    if "partner.contact_angle" in entries and "contact_angle" in result:
+        result["contact_angle"] = common_angle(result["contact_angle"], entries["partner.contact_angle"])
     if "impact.stokes" in entries:
         unit = scaling.stokes(result["reduced_radius"], result["reduced_mass"], result["viscosity"], 1.0)
         result["speed"] = entries["impact.stokes"] / unit
@@ -113,6 +114,30 @@ def partner_mass(entries: Mapping[str, Any]) -> Any:
     if "partner.density" in entries:
         return _mass(partner_radius(entries), entries["partner.density"])
     return entries.get("partner.mass")
+
+
+def common_angle(first: Any, second: Any) -> Any:
+    """The contact angle whose cosine is the mean of two (rad); exactly that of both where they are equal.
+
+    The attraction of a small bridge is 2 pi R sigma (cos phi_1 + cos phi_2): Orr, Scriven & Rivas, J. Fluid Mech. 67,
+    723 (1975). With m the mean and d half the difference, cos phi = cos m cos d, so that sin((phi - m)/2) =
+    cos m sin^2(d/2)/sin((phi + m)/2), which is nothing where d is.
+    """
+    mean, apart = (first + second) / 2, _called("sin", (first - second) / 4) ** 2
+    raised = _called("cos", mean) * apart
+    rough = 2 * _called("asin", _called("sqrt", _called("sin", mean / 2) ** 2 + raised))
+    return mean + 2 * _called("asin", raised / (_called("sin", (rough + mean) / 2) + 1e-300))
+
+
+def _called(name: str, value: Any) -> Any:
+    """A function of numpy, also of CasADi's expressions."""
+    if isinstance(value, float):
+        return getattr(math, name)(value)
+    if hasattr(value, "is_symbolic"):
+        import casadi
+
+        return getattr(casadi, name)(value)
+    return getattr(np, name.replace("asin", "arcsin"))(value)
 
 
 def normal_speed(relative: Any, angle: Any) -> Any:

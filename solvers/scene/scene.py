@@ -15,11 +15,12 @@ from . import entry_rules as rules
 from . import scenefile
 from .groups import System
 from .held import adjusted_impact, held_quantity, impact_quantity
+from .liquids import is_named, liquid
 from .quantities import SHADOW, Ways, coating_fraction
-from .schema import FIELDS, LEAST_ANGLE, SPEEDS, TABLES, Field, Raw
+from .schema import FIELDS, LEAST_ANGLE, NEWTONIAN, SPEEDS, TABLES, Field, Raw
 from .tables import Attraction, Bridge, Impact, Liquid, Model, Particles, Pendulum
 from .user_model import Package, fields
-from .user_model_source import open_package
+from .user_model_source import liquid_package, open_package
 
 
 @dataclass(frozen=True)
@@ -51,6 +52,10 @@ class Scene(System):
         rules.check_pairs(self.comments, "comments")
         rules.check_package(self.package)
         entries = rules.grouped(dict(self.given))
+        rules.check_liquid(entries, self.package)
+        law = entries.get("liquid.law", NEWTONIAN)
+        if self.package is None or self.package.table == "liquid":
+            object.__setattr__(self, "package", None if law == NEWTONIAN else liquid_package(law))
         if self.package is not None:
             entries = self.package.completed(entries)
         rules.check_entries(entries, self.package)
@@ -176,7 +181,12 @@ class Scene(System):
         """One line for each assumed value of this scene."""
         entries = dict(self.given)
         sentences = [f"{name} = {scenefile.written(name, entries[name])} ({text})" for name, text in self.guesses]
-        return (*sentences, *self._flowing())
+        return (*sentences, *self._flowing(), *self._liquid())
+
+    def _liquid(self) -> tuple[str, ...]:
+        """The line on the source of a viscosity that is given by a liquid's name."""
+        text = dict(self.given)["liquid.viscosity"]
+        return (f'liquid.viscosity = "{text}" ({liquid(str(text)).origin})',) if is_named(text) else ()
 
     def _flowing(self) -> tuple[str, ...]:
         """The line on the part of the coatings that is assumed to flow into the bridge; none if its volume is given."""

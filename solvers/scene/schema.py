@@ -3,16 +3,25 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from functools import cached_property
 from numbers import Real
 
 from ..errors import InputError, did_you_mean
 from ..host.emitted import LAWS
-from . import units
+from . import liquids, units
 
 Raw = float | int | str
 """An entry as a scene keeps it: text with its unit, a choice, or a plain number."""
+NEWTONIAN = "newtonian"
+LIQUIDS: dict[str, tuple[str, ...]] = {
+    "power-law": ("flow_index", "reference_rate", "plateau_rate"),
+    "cross": ("flow_index", "relaxation_time", "infinite_shear_viscosity"),
+    "carreau": ("flow_index", "relaxation_time", "infinite_shear_viscosity"),
+    "herschel-bulkley": ("yield_stress", "flow_index", "reference_rate", "plateau_rate"),
+}
+"""Laws of liquids -> their entries beside the viscosity."""
 FROM_COATING = "from coating"
 """Value of `bridge.volume` for a bridge whose liquid flows out of the coatings."""
 
@@ -60,6 +69,7 @@ class Field:
         default: its number, SI, where its table is there without it.
         or_unit: the unit of what a plain number may be given as instead.
         words: what may stand in place of a number.
+        by_name: a liquid at a temperature may stand in place of a number.
     """
 
     name: str
@@ -75,6 +85,7 @@ class Field:
     default: float | None = None
     or_unit: str | None = None
     words: tuple[str, ...] = ()
+    by_name: bool = False
 
     @cached_property
     def measured(self) -> Field:
@@ -101,6 +112,8 @@ class Field:
         text = f"{self.what} {self.range.text}{with_unit}, such as {self.example}"
         if self.or_unit:
             text += f", or {units.DIMENSIONS[self.or_unit]} with its unit"
+        if self.by_name:
+            text += f", or {liquids.ACCEPTED}"
         return text + "".join(f', or "{word}"' for word in self.words)
 
     def read(self, raw: object, *, label: str | None = None, from_file: bool = False) -> float | str:
@@ -156,6 +169,8 @@ class Field:
 
     def _number(self, raw: object, label: str, from_file: bool) -> float:
         if isinstance(raw, str):
+            if self.by_name and liquids.is_named(raw):
+                return liquids.liquid(raw, label).viscosity
             if self.unit:
                 return units.quantity(raw, self.unit, label, self.accepts)
             if from_file:
@@ -203,7 +218,15 @@ FIELDS: dict[str, Field] = _table(
     Field("particles.contact_tangential_restitution", "a number", "0.35", FRACTION),
     Field("particles.youngs_modulus", "a Young's modulus", '"70 GPa"', unit="Pa"),
     Field("particles.poisson_ratio", "a number", "0.2", POISSON),
-    Field("liquid.viscosity", "a viscosity", '"2 Pa s"', unit="Pa s", required=True),
+    Field("liquid.viscosity", "a viscosity", '"2 Pa s"', unit="Pa s", required=True, by_name=True),
+    Field("liquid.law", "a law", "newtonian", choices=(NEWTONIAN, *LIQUIDS)),
+    Field("liquid.flow_index", "a number", "0.5", Range("> 0 and at most 2", 0.0, 2.0, high_open=False)),
+    Field("liquid.relaxation_time", "a time", '"1 ms"', unit="s"),
+    Field("liquid.infinite_shear_viscosity", "a viscosity", '"0.01 Pa s"', NOT_NEGATIVE, unit="Pa s", default=0.0),
+    Field("liquid.yield_stress", "a stress", '"20 Pa"', unit="Pa"),
+    Field("liquid.reference_rate", "a shear rate", '"1 1/s"', unit="rad/s", default=1.0),
+    Field("liquid.plateau_rate", "a shear rate", '"0.1 1/s"', unit="rad/s", default=1.0),
+    Field("liquid.measured_to", "a shear rate", '"1000 1/s"', unit="rad/s"),
     Field("liquid.film_thickness", "a film thickness, the gap at initial contact,", '"8 um"', unit="m"),
     Field("liquid.coating_thickness", "the coating on a sphere", '"4 um"', NOT_NEGATIVE, unit="m", gives=""),
     Field("liquid.glass_transition_pressure", "a pressure", '"20 MPa"', unit="Pa"),
@@ -220,6 +243,7 @@ FIELDS: dict[str, Field] = _table(
     Field("partner.coating_thickness", "the coating on the partner", '"4 um"', NOT_NEGATIVE, unit="m", gives=""),
     Field("partner.mass", "the mass M of the partner", '"8.3e-5 g"', unit="kg", gives=""),
     Field("partner.density", "the density of the partner", '"2500 kg/m^3"', unit="kg/m^3", gives=""),
+    Field("partner.contact_angle", "an angle", '"30 deg"', WETTING_ANGLE, unit="rad", gives=""),
     Field("partner.wall", "a wall", "true", flag=True),
     Field("pendulum.length", "a string length", '"0.5 m"', unit="m", required=True, gives="string_length"),
     Field("pendulum.gravity", "an acceleration", '"9.81 m/s^2"', unit="m/s^2", default=9.81),
@@ -270,6 +294,13 @@ ALTERNATIVES: tuple[tuple[str, ...], ...] = (
 
 DEFAULTS: dict[str, float] = {name: field.default for name, field in FIELDS.items() if field.default is not None}
 """Dotted name -> number, SI, of what need not be given where its table is."""
+
+
+def acting_defaults(entries: Iterable[str]) -> dict[str, float]:
+    """The numbers of `DEFAULTS` that act beside these entries: of tables that are there, and of a law of liquids."""
+    names = {*entries}
+    tables = {name.partition(".")[0] for name in names} - ({"liquid"} if "liquid.flow_index" not in names else set())
+    return {name: value for name, value in DEFAULTS.items() if name.partition(".")[0] in tables}
 
 
 def unknown_entry(name: str, value: object) -> InputError:

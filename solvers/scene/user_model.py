@@ -157,6 +157,8 @@ class Package:
     def fields(self) -> dict[str, Field]:
         """Entries of a scene with this model: the library's, with the model's laws added, and `[custom]`."""
         result = dict(FIELDS)
+        if self.table != TABLE:
+            return result
         for slot, entry in ENTRIES.items():
             names = tuple(law["name"] for law in self.manifest["laws"] if law["slot"] == slot)
             if names and entry in result:
@@ -165,6 +167,11 @@ class Package:
         for one in self.manifest["quantities"]:
             result[f"{TABLE}.{one['name']}"] = _field(one)
         return result
+
+    @property
+    def table(self) -> str:
+        """The table of a scene that has the model's quantities: a user's are custom."""
+        return str(self.manifest.get("table", TABLE))
 
     @property
     def quantities(self) -> tuple[str, ...]:
@@ -185,9 +192,9 @@ class Package:
         if turning is not None and entries.get("partner.wall"):
             accepted = f"another partner, or a model without the event {turning}"
             raise InputError("partner.wall", True, accepted, "has no rotation, of which this event speaks")
-        for name in self.quantities:
-            if f"{TABLE}.{name}" not in entries:
-                raise InputError(f"{TABLE}.{name}", None, self.fields[f"{TABLE}.{name}"].accepts)
+        for name in (f"{self.table}.{name}" for name in self.quantities):
+            if name not in entries and self.fields[name].default is None:
+                raise InputError(name, None, self.fields[name].accepts)
 
     def chosen(self, entries: Mapping[str, Any]) -> dict[str, str]:
         """Entries that select the model's laws; InputError if the scene lacks the table that a law needs."""
@@ -411,7 +418,7 @@ def fields(package: Package | None) -> Mapping[str, Field]:
 
 def tables(package: Package | None) -> dict[str, tuple[str, ...]]:
     """All tables that a scene with this model may have, with the dotted names of their entries."""
-    if package is None:
+    if package is None or package.table != TABLE:
         return TABLES
     return TABLES | {TABLE: tuple(f"{TABLE}.{name}" for name in package.quantities)}
 
@@ -420,7 +427,7 @@ def unknown(name: str, value: object, package: Package | None) -> InputError | N
     """The error for an unknown entry of `[custom]`; None for an entry of another table."""
     if name.partition(".")[0] != TABLE:
         return None
-    if package is None:
+    if package is None or package.table != TABLE:
         accepted = "a scene without [custom], or its model: --model DIR, Scene.load(..., model=DIR)"
         return InputError(name, value, accepted, "is a model's, and no model is given")
     known = tables(package)[TABLE]

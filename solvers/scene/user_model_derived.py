@@ -79,6 +79,18 @@ def derived_package(path: Path, folder: Path | None) -> Derived:
     return Derived("\n".join(lines), files, "", seconds)
 
 
+def liquid_package(law: str) -> Package:
+    """The laws of the library for a liquid (imports sympy); they are checked where they are developed."""
+    from ...derive.emit.user import package
+    from ...derive.laws.liquids import file_of
+    from ...derive.laws.modelfile import read
+
+    path = file_of(law)
+    source = path.read_text(encoding="utf-8")
+    files = package(read(path, source, path.stem), source, library_digest(), (), (), table="liquid")
+    return Package(files["manifest.json"], path, files)
+
+
 def origin_of(path: Path, folder: Path | None) -> str:
     """Path of the model file relative to the folder."""
     if folder is None:

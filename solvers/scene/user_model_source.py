@@ -3,6 +3,7 @@
 import hashlib
 import json
 import os
+from functools import lru_cache
 from pathlib import Path
 
 from ..errors import CheckFailed, InputError
@@ -27,6 +28,21 @@ def open_package(source: str | Path | Package, label: str = "--model") -> Packag
     if path.suffix == ".py" and bounded.is_file(path):
         return _of_file(path, label)
     raise InputError(label, str(source), ACCEPTED, "is neither a folder nor a model file")
+
+
+@lru_cache(maxsize=8)
+def liquid_package(law: str) -> Package:
+    """The library's laws for a law of liquids, as a model; derived on first use, then cached."""
+    from ..host.user_cache import kept
+
+    def derived() -> bytes:
+        from .user_model_derived import liquid_package  # imports sympy
+
+        with DERIVING:
+            return json.dumps(dict(liquid_package(law).files or {})).encode()
+
+    files = json.loads(kept(f"liquid-{law}-{derivation()[:16]}-{library_digest()[:16]}.json", derived))
+    return Package(files["manifest.json"], Path(law), files)
 
 
 def _is_whole(package: Package) -> bool:

@@ -18,7 +18,7 @@ from ..scene.contact import GAPS
 from ..scene.groups import Formula, formulas
 from ..scene.quantities import Ways, initial_gap, normal_speed, quantities
 from ..scene.scene import Scene
-from ..scene.schema import DEFAULTS, FIELDS, MEETING, SPEEDS, SPINS
+from ..scene.schema import FIELDS, MEETING, SPEEDS, SPINS, acting_defaults
 
 SIDEWAYS = ("impact.angle", *SPINS)
 IMPACT = ("impact.speed", "impact.stokes", "impact.angle")
@@ -53,9 +53,8 @@ def check_wrt(scene: Scene, wrt: Sequence[str] | str | None, label: str = "wrt")
 
 def _defaults(scene: Scene) -> dict[str, float]:
     """Numeric entries that take their defaults."""
-    tables = {name.partition(".")[0] for name, _ in scene.si}
     barred = () if scene.pendulum is None else SPINS
-    return {name: value for name, value in DEFAULTS.items() if name.partition(".")[0] in tables and name not in barred}
+    return {name: value for name, value in acting_defaults(scene.entries).items() if name not in barred}
 
 
 @dataclass(frozen=True)

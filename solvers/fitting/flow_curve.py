@@ -1,0 +1,273 @@
+"""The law of a liquid from its flow curve: Newtonian, power law, Cross, Carreau or Herschel and Bulkley.
+
+Logarithms of viscosities are fitted by least squares: the scatter is a part of the value, of unknown size. The law has
+the fewest parameters among those whose information criterion of Bayes is at most 2 above the least; intervals are those
+of the profile of the likelihood.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import asdict, dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ..errors import InputError
+from ..formatting.markdown import aligned
+from ..host.pictures import Drawn
+from ..scene.schema import FIELDS
+from .rheometer import flow_curve_of
+
+_CONFIDENCE = 0.95
+_WORTH = 2.0  # difference of criteria that is worth a mention (Kass & Raftery, J. Am. Stat. Assoc. 90, 773, 1995)
+_FARTHEST = 12.0  # of the logarithm of a parameter from its estimate: an interval that goes on is open
+Curve = Callable[[np.ndarray, Mapping[str, float], float], np.ndarray]
+
+
+def _constant(rate: np.ndarray, p: Mapping[str, float], _: float) -> np.ndarray:
+    return np.full(rate.shape, p["viscosity"])
+
+
+def _power(rate: np.ndarray, p: Mapping[str, float], reference: float) -> np.ndarray:
+    powers: np.ndarray = p["viscosity"] * (rate / reference) ** (p["flow_index"] - 1)
+    return powers
+
+
+def _plateaus(p: Mapping[str, float], thinning: np.ndarray) -> np.ndarray:
+    last = p.get("infinite_shear_viscosity", 0.0)
+    between: np.ndarray = last + (p["viscosity"] - last) * thinning
+    return between
+
+
+def _cross(rate: np.ndarray, p: Mapping[str, float], _: float) -> np.ndarray:
+    return _plateaus(p, 1 / (1 + (p["relaxation_time"] * rate) ** (1 - p["flow_index"])))
+
+
+def _carreau(rate: np.ndarray, p: Mapping[str, float], _: float) -> np.ndarray:
+    return _plateaus(p, (1 + (p["relaxation_time"] * rate) ** 2) ** ((p["flow_index"] - 1) / 2))
+
+
+def _yielding(rate: np.ndarray, p: Mapping[str, float], reference: float) -> np.ndarray:
+    total: np.ndarray = p["yield_stress"] / rate + _power(rate, p, reference)
+    return total
+
+
+_PLATEAUS = ("viscosity", "relaxation_time", "flow_index")
+_LAWS: tuple[tuple[str, Curve, tuple[str, ...]], ...] = (
+    ("newtonian", _constant, ("viscosity",)),
+    ("power-law", _power, ("viscosity", "flow_index")),
+    ("cross", _cross, _PLATEAUS),
+    ("cross", _cross, (*_PLATEAUS, "infinite_shear_viscosity")),
+    ("carreau", _carreau, _PLATEAUS),
+    ("carreau", _carreau, (*_PLATEAUS, "infinite_shear_viscosity")),
+    ("herschel-bulkley", _yielding, ("viscosity", "yield_stress", "flow_index")),
+)
+_MOST = {"cross": 1.0, "carreau": 1.0}  # of the flow index
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """An entry of `[liquid]`, SI, with its 95 % interval; None for an end that the curve does not determine."""
+
+    value: float
+    low: float | None
+    high: float | None
+
+
+@dataclass(frozen=True)
+class FlowCurve(Drawn):
+    """A law fitted to a flow curve.
+
+    Attributes:
+        law: as `liquid.law`.
+        parameters: by entry of `[liquid]`.
+        criteria: information criterion of every law less the least.
+        scatter: standard deviation of the viscosity, a part of it.
+        reference_rate: of `viscosity` where the law has none of its own, 1/s.
+        rate, viscosity: the curve.
+    """
+
+    _picture = "fitting.plot_flow_curve.draw"
+
+    law: str
+    parameters: Mapping[str, Parameter]
+    criteria: Mapping[str, float]
+    scatter: float
+    reference_rate: float
+    rate: np.ndarray = field(repr=False)
+    viscosity: np.ndarray = field(repr=False)
+
+    def __call__(self, rate: np.ndarray) -> np.ndarray:
+        """The viscosity by the law, Pa s."""
+        values = {name: each.value for name, each in self.parameters.items()}
+        return next(curve for law, curve, _ in _LAWS if law == self.law)(np.asarray(rate), values, self.reference_rate)
+
+    @property
+    def entries(self) -> dict[str, str | float]:
+        """The entries of a scene."""
+        result: dict[str, str | float] = {"liquid.law": self.law}
+        for name, each in self.parameters.items():
+            unit = FIELDS[f"liquid.{name}"].unit
+            result[f"liquid.{name}"] = f"{each.value:.6g} {unit}" if unit else float(f"{each.value:.6g}")
+        if self.law in ("power-law", "herschel-bulkley"):
+            result["liquid.reference_rate"] = f"{self.reference_rate:.6g} 1/s"
+            result["liquid.plateau_rate"] = f"{self.rate[0]:.6g} 1/s"
+        return result | {"liquid.measured_to": f"{self.rate[-1]:.6g} 1/s"}
+
+    def to_toml(self) -> str:
+        """The table `[liquid]` of a scene, without the film; intervals are comments."""
+        lines = ["[liquid]"]
+        for name, value in self.entries.items():
+            key = name.partition(".")[2]
+            text = f'{key} = "{value}"' if isinstance(value, str) else f"{key} = {value!r}"
+            lines.append(text + (f"  # {self._interval(key)}" if key in self.parameters else ""))
+        return "\n".join(lines)
+
+    def _interval(self, name: str) -> str:
+        each = self.parameters[name]
+        ends = ["open" if end is None else f"{end:.4g}" for end in (each.low, each.high)]
+        return f"95 %: {ends[0]} to {ends[1]}"
+
+    def to_dict(self) -> dict[str, Any]:
+        """The JSON object of `wetdoublet flow-curve --json`."""
+        return {
+            "law": self.law, "parameters": {name: asdict(each) for name, each in self.parameters.items()},
+            "criteria": dict(self.criteria), "scatter": self.scatter, "points": len(self.rate),
+            "rates": [float(self.rate[0]), float(self.rate[-1])], "reference_rate": self.reference_rate,
+            "entries": self.entries,
+        }  # fmt: skip
+
+    def __str__(self) -> str:
+        """The table to paste, and how the laws compare."""
+        span = f"{self.rate[0]:.4g} to {self.rate[-1]:.4g} 1/s"
+        lines = [f"# {len(self.rate)} points from {span}, scatter {self.scatter:.2%}; beyond {span} the law is a guess"]
+        rows = [(f"# {law}", f"{above:.4g}") for law, above in sorted(self.criteria.items(), key=lambda item: item[1])]
+        return "\n".join(
+            [
+                *lines,
+                f"# information criterion less the least (up to {_WORTH:g}, fewer parameters count):",
+                *aligned(rows),
+                "",
+                self.to_toml(),
+            ]
+        )
+
+
+def flow_curve(source: str | Path | tuple[Any, Any]) -> FlowCurve:
+    """Fit the laws to a flow curve and take the best.
+
+    Arguments:
+        source: a rheometer's file, or shear rates (1/s) and viscosities (Pa s).
+
+    Raises:
+        InputError: no such file or columns, or fewer than three rates.
+    """
+    rate, viscosity = source if isinstance(source, tuple) else flow_curve_of(source)
+    rate, viscosity = np.asarray(rate, float), np.asarray(viscosity, float)
+    if rate.shape != viscosity.shape or rate.ndim != 1 or len(set(rate.tolist())) < 3 or not (viscosity > 0).all():
+        raise InputError("CURVE.csv", len(rate), "three rates at least, each with its viscosity", "is no flow curve")
+    fits = [_Fit(law, curve, names, rate, viscosity) for law, curve, names in _LAWS if len(names) + 1 < len(rate)]
+    least = min(each.criterion for each in fits)
+    near = [each for each in fits if each.criterion - least <= _WORTH]
+    best = min(near, key=lambda each: (len(each.names), each.criterion))
+    criteria: dict[str, float] = {}
+    for each in fits:
+        above = each.criterion - least
+        criteria[each.law] = min(above, criteria.get(each.law, math.inf))
+    scatter = math.sqrt(2 * best.cost / (len(rate) - len(best.names)))
+    return FlowCurve(best.law, best.parameters(), criteria, scatter, best.reference, rate, viscosity)
+
+
+class _Fit:
+    """A law fitted in the logarithms of its parameters."""
+
+    def __init__(self, law: str, curve: Curve, names: tuple[str, ...], rate: np.ndarray, viscosity: np.ndarray) -> None:
+        self.law, self.names, self._curve, self._rate = law, names, curve, rate
+        self._logarithms = np.log(viscosity)
+        self.reference = float(np.exp(np.log(rate).mean()))
+        self._scale = {"viscosity": viscosity.max(), "relaxation_time": 1 / self.reference, "flow_index": 0.5}
+        self._scale |= {"infinite_shear_viscosity": viscosity.min() / 3, "yield_stress": (rate * viscosity).min() / 2}
+        found = (self._search(start) for start in self._starts())
+        self.cost, self.best = min(found, key=lambda each: each[0])
+
+    @property
+    def criterion(self) -> float:
+        points = len(self._rate)
+        return points * math.log(max(self.cost, 1e-300)) + (len(self.names) + 1) * math.log(points)
+
+    def _starts(self) -> list[np.ndarray]:
+        middle = np.log([self._scale[name] for name in self.names])
+        span = (-0.4, 0.0, 0.4) if "relaxation_time" in self.names else (0.0,)
+        width = math.log(self._rate.max() / self._rate.min())
+        moved = [(time * width, index) for time in span for index in (0.3, 0.7)]
+        starts = []
+        for time, index in moved:
+            given = dict(zip(self.names, middle)) | {"flow_index": math.log(index)}
+            given["relaxation_time"] = given.get("relaxation_time", 0.0) + time
+            starts.append(np.array([given[name] for name in self.names]))
+        return starts
+
+    def _search(self, start: np.ndarray, fixed: int | None = None) -> tuple[float, np.ndarray]:
+        """Half the sum of squares and the logarithms, one of them held."""
+        from scipy.optimize import least_squares
+
+        free = [k for k in range(len(start)) if k != fixed]
+        most = [math.log(_MOST.get(self.law, 2.0)) if name == "flow_index" else math.inf for name in self.names]
+
+        def residuals(some: np.ndarray) -> np.ndarray:
+            whole = start.copy()
+            whole[free] = some
+            values = dict(zip(self.names, np.exp(np.clip(whole, -200, 200)), strict=True))
+            with np.errstate(all="ignore"):
+                curve = self._curve(self._rate, values, self.reference)
+                off: np.ndarray = np.log(curve) - self._logarithms
+            return np.where(np.isfinite(off), off, 1e3)
+
+        if not free:
+            return float((residuals(np.empty(0)) ** 2).sum() / 2), start
+        upper = np.array(most)[free]
+        found = least_squares(
+            residuals, np.minimum(start[free], upper - 1e-9), bounds=(-np.inf, upper), xtol=1e-12, ftol=1e-12
+        )
+        whole = start.copy()
+        whole[free] = found.x
+        return float(found.cost), whole
+
+    def parameters(self) -> dict[str, Parameter]:
+        """The estimates with the intervals of their profiles."""
+        from scipy.stats import f
+
+        freedom = len(self._rate) - len(self.names)
+        most = self.cost * (1 + f.ppf(_CONFIDENCE, 1, freedom) / freedom)
+        result = {}
+        for k, name in enumerate(self.names):
+            low, high = (self._end(k, side, most) for side in (-1, 1))
+            result[name] = Parameter(float(np.exp(self.best[k])), low, high)
+        return result
+
+    def _end(self, k: int, side: int, most: float) -> float | None:
+        """Where the profile of a parameter leaves the interval; None where it does not."""
+        from scipy.optimize import brentq
+
+        inside, step, last = self.best, 0.02, 0.0
+        limit = math.log(_MOST.get(self.law, 2.0)) - self.best[k] if self.names[k] == "flow_index" else math.inf
+
+        def held(moved: float) -> tuple[float, np.ndarray]:
+            start = inside.copy()
+            start[k] = self.best[k] + side * moved
+            cost, at = self._search(start, k)
+            return cost - most, at
+
+        while True:
+            if side > 0 and step >= limit:
+                return None
+            above, at = held(step)
+            if above > 0:
+                break
+            if step > _FARTHEST:
+                return None
+            inside, last, step = at, step, 2 * step
+        return float(np.exp(self.best[k] + side * brentq(lambda moved: held(moved)[0], last, step, xtol=1e-6)))

@@ -1,0 +1,130 @@
+"""Shear rates and viscosities of a flow curve, from what rheometers export.
+
+A line names the columns, with units in brackets, behind "in", or in the next line; lines before it are its header. The
+text may be UTF-16 (RheoCompass), have blocks of steps (TRIOS) and decimal commas.
+"""
+
+from __future__ import annotations
+
+import csv
+import re
+from pathlib import Path
+
+import numpy as np
+
+from ..errors import InputError
+from ..host import bounded
+from ..scene import units
+from ..scene.columns import DECIMAL_COMMA
+
+_ACCEPTED = "a CSV file with columns such as shear rate [1/s] and viscosity [mPa s], or shear stress [Pa]"
+_COLUMNS = {
+    "rate": (
+        r"shear[ _-]?rate|strain[ _-]?rate|scherrate|schergeschwindigkeit|taux de cisaillement|gamma[ _]?dot|γ̇|gp|d",
+        "rad/s",
+    ),
+    "viscosity": (r"(?:shear |dynamic |apparent |scher)?[ _]?visco(?:sity|sité)|(?:scher)?viskosität|eta|η", "Pa s"),
+    "stress": (r"(?:shear)?[ _-]?stress|schubspannung|contrainte(?: de cisaillement)?|tau|τ|σ", "Pa"),
+}
+_HEAD = re.compile(r"\s*(?P<name>.*?)\s*(?:[\[(](?P<unit>[^\])]*)[\])]|\bin (?P<plain>\S+))?\s*")
+_SPELT = {"1/sec": "1/s", "sec^-1": "1/s", "sec-1": "1/s", "s-1": "1/s", "hz": "1/s"}
+_LARGEST = 20_000_000  # bytes
+
+
+def flow_curve_of(source: str | Path) -> tuple[np.ndarray, np.ndarray]:
+    """Shear rates (1/s) and viscosities (Pa s), ascending by rate.
+
+    Raises:
+        InputError: no such file, no such columns or units, or a number that is not positive.
+    """
+    rows = [_cells(line) for line in _text(source).splitlines()]
+    found = ((k, names) for k, row in enumerate(rows) if "rate" in (names := _named(row)) and len(names) > 1)
+    line, places = next(found, (0, {}))
+    if not places:
+        raise InputError("CURVE.csv", str(source), _ACCEPTED, "has no line that names a shear rate and a viscosity")
+    factors, first = {}, line + 1
+    for kind, place in places.items():
+        unit = _unit(rows[line][place])
+        while not unit and first < len(rows) and not _numbers(rows[first], places):
+            below = rows[first][place] if place < len(rows[first]) else ""
+            unit = _unit(below) or below.strip()
+            first += 0 if unit else 1
+        factors[kind] = _factor(unit, kind, rows[line][place])
+    values = [numbers for row in rows[line + 1 :] if (numbers := _numbers(row, places))]
+    if len(values) < 3:
+        raise InputError("CURVE.csv", str(source), "three rates at least", f"has {len(values)} rows of numbers")
+    table = {kind: np.array([row[kind] for row in values]) * factors[kind] for kind in places}
+    viscosity = table["viscosity"] if "viscosity" in table else table["stress"] / table["rate"]
+    for kind, column in (("shear rate", table["rate"]), ("viscosity", viscosity)):
+        wrong = np.flatnonzero(~(np.isfinite(column) & (column > 0)))
+        if wrong.size:
+            row = int(wrong[0])
+            raise InputError(f"CURVE.csv {source}, {kind}", float(column[row]), "a number > 0", f"of row {row + 1}")
+    order = np.argsort(table["rate"], kind="stable")
+    return table["rate"][order], viscosity[order]
+
+
+def _text(source: str | Path) -> str:
+    try:
+        content = bounded.read(Path(source), _LARGEST)
+    except FileNotFoundError:
+        raise InputError("CURVE.csv", str(source), _ACCEPTED, "is no file") from None
+    except bounded.NotRead as reason:
+        raise InputError("CURVE.csv", str(source), _ACCEPTED, str(reason)) from None
+    codes = ("utf-16",) if content[:2] in (b"\xff\xfe", b"\xfe\xff") else ("utf-8-sig", "cp1252", "latin-1")
+    for code in codes:
+        try:
+            return content.decode(code)
+        except UnicodeDecodeError:
+            continue
+    raise InputError("CURVE.csv", str(source), _ACCEPTED, "is no text")
+
+
+def _cells(line: str) -> list[str]:
+    separator = next(each for each in "\t;," if each in line or each == ",")
+    cells = next(csv.reader([line], delimiter=separator), [])
+    if separator != ",":
+        cells = [cell.replace(",", ".") if DECIMAL_COMMA.fullmatch(cell) else cell for cell in cells]
+    return cells
+
+
+def _named(row: list[str]) -> dict[str, int]:
+    """The columns that a line names, by what they are; the first of each."""
+    places: dict[str, int] = {}
+    for place, cell in enumerate(row):
+        name = _parts(cell)[0].lower()
+        for kind, (pattern, _) in _COLUMNS.items():
+            if re.fullmatch(pattern, name):
+                places.setdefault(kind, place)
+    return places
+
+
+def _parts(cell: str) -> tuple[str, str]:
+    match = _HEAD.fullmatch(cell)
+    assert match is not None
+    return match["name"].strip(), (match["unit"] or match["plain"] or "").strip()
+
+
+def _unit(cell: str) -> str:
+    return _parts(cell)[1]
+
+
+def _factor(unit: str, kind: str, name: str) -> float:
+    wanted = _COLUMNS[kind][1]
+    if not unit:
+        raise InputError(
+            f"CURVE.csv, {name.strip()}",
+            None,
+            f"a unit behind the name, as [{'1/s' if kind == 'rate' else wanted}]",
+            "has no unit",
+        )
+    spelt = units.spelling(unit)
+    spelt = _SPELT.get(spelt.lower(), spelt)
+    return units.factor(spelt, wanted, f"CURVE.csv, {name.strip()}", _ACCEPTED, unit)
+
+
+def _numbers(row: list[str], places: dict[str, int]) -> dict[str, float]:
+    """The numbers of a row; none where one is missing."""
+    cells = {kind: row[place] if place < len(row) else "" for kind, place in places.items()}
+    whole = all(units.is_number(cell) for cell in cells.values())
+    return {kind: float(cell) for kind, cell in cells.items()} if whole else {}
