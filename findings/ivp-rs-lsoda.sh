@@ -44,7 +44,8 @@ def run(solver, method, rtol):
 print("ivp-rs", version("ivp-rs"), " scipy", version("scipy"))
 print("method  rtol       steps, ivp-rs and scipy    error of cos t            of exp(-t)")
 errors = {}
-for method, rtol in (("RK45", 1e-8), ("BDF", 1e-8), ("LSODA", 1e-4), ("LSODA", 1e-6), ("LSODA", 1e-8), ("LSODA", 1e-10)):
+CASES = [("RK45", 1e-8), ("BDF", 1e-8)] + [("LSODA", rtol) for rtol in (1e-4, 1e-6, 1e-8, 1e-10)]
+for method, rtol in CASES:
     mine, peer = run(ivp.solve_ivp, method, rtol), run(scipy.integrate.solve_ivp, method, rtol)
     errors[method, rtol] = mine[1], peer[1]
     columns = f"{mine[0]:10d} {peer[0]:6d}         {mine[1]:10.1e} {peer[1]:8.1e}   {mine[2]:10.1e} {peer[2]:8.1e}"
