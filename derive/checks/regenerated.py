@@ -10,7 +10,6 @@ from ..emit.compare import compare, count, equations, in_lines
 from ..emit.document.document import EFFECTS, watched
 from ..emit.document.theory import DEFAULTS
 from ..emit.user import own_names
-from ..equations.model import derive
 from ..laws import LAWS, Law
 from ..laws.modelfile import read
 from ..physics.scaling import ScalingError
@@ -20,7 +19,7 @@ from ..user.structures import UserModel
 from ..vocabulary.dimensions import DimensionError
 from .words import conserved
 
-LIBRARY = UserModel("the library", "", Declarations(), (), (), (), (), {})
+LIBRARY = UserModel("the library", "", Declarations(), (), (), (), {})
 
 
 def earlier(file: Path) -> UserModel:
@@ -40,7 +39,7 @@ def changed(before: UserModel, after: UserModel) -> list[str]:
     changes = compare(*(equations(_texts(model, shape, laws)) for model in models))
     lines = [f"Against {before.name}, {count(changes)}" + (":" if changes else "."), *in_lines(changes), ""]
     old, new = (list(_listed(model)) for model in models)
-    for kind in ("law", "group", "event", "conserved"):
+    for kind in ("law", "term", "group", "event", "criterion", "conserved"):
         rows = [("removed", text) for each, text in old if each == kind and (each, text) not in new]
         rows += [("added", text) for each, text in new if each == kind and (each, text) not in old]
         lines += [f"{kind:<10} {word:<8} {text}".rstrip() for word, text in rows or [("as before", "")]]
@@ -49,7 +48,7 @@ def changed(before: UserModel, after: UserModel) -> list[str]:
 
 def _texts(model: UserModel, shape: Structure, laws: tuple[tuple[str, str], ...]) -> dict[str, str]:
     """Emitted modules of a structure, of the laws of these names or what acts in their place, and of groups."""
-    texts = {"": structure_module(model.extended(derive(shape)), own_names(model))}
+    texts = {"": structure_module(model.derived(shape), own_names(model))}
     slots = [slot for slot, _ in laws]
     for slot, name in laws:
         if law := _law(model, slot, name):
@@ -66,6 +65,9 @@ def _law(model: UserModel, slot: str, name: str) -> Law | None:
 
 def _listed(model: UserModel) -> Iterator[tuple[str, str]]:
     yield from (("law", f"{law.slot} {law.name}") for law in model.laws)
+    yield from (("term", f"energy {energy}") for energy in model.declarations.energies)
+    yield from (("term", f"force on the {on}: {force}") for on, force in model.declarations.forces)
+    yield from (("criterion", f"{known.word}: at a gap of {known.gap}") for known in model.criteria)
     for group in model.groups:
         yield "group", f"{group.symbol}" + (f" = {group.definition}" if group.definition != group.symbol else "")
     for event in model.events:
