@@ -241,7 +241,7 @@ def test_files_that_are_named_exist() -> None:
 
 
 _NO_NOUNS = {
-    "each": 534, "one": 275, "part": 197, "known": 116, "left": 19, "kept": 17, "shown": 15, "there": 15, "found": 6,
+    "each": 548, "one": 275, "part": 206, "known": 130, "left": 22, "kept": 17, "shown": 15, "there": 20, "found": 11,
     "made": 1, "late": 0, "said": 0, "spoken": 0,
 }  # fmt: skip
 """Pronouns, particles and participles, and how often each names something in derive/ and solvers/: never more often."""

@@ -10,12 +10,14 @@ from ...generated.automaton import OUTCOMES, STICK
 from ..collision.by_replay import terms_of
 from ..collision.outcome import open_beyond
 from ..engines.casadi.replay import Replay
+from ..engines.taylor.layout import LEDGER
 from ..model.model import Model
 from ..results import TERMS as OF_KERNEL
 from ..scene.scene import Scene
 from .pairs import Bodies, Pairs, dot, length
 
-TERMS = tuple(name for name in OF_KERNEL if name not in ("strings", "own_events"))  # no kernel in space has them
+# no kernel in space has strings, or what a model declares
+TERMS = tuple(name for name, column in OF_KERNEL.items() if column in LEDGER.fields and name != "strings")
 _INITIAL, _FINAL, _SHEAR = (TERMS.index(name) for name in ("initial", "final", "tangential_lubrication"))
 OPEN = "the energy ledger is open: try a smaller rtol, or another engine"
 GREW = "energy has grown: errors have added up over a long trajectory; try a smaller rtol, or another engine"

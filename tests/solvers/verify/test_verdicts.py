@@ -77,4 +77,5 @@ def test_the_derivation_depends_on_its_own_files_and_sympy_alone() -> None:
                     assert name.name.partition(".")[0] in {"sympy", *sys.stdlib_module_names}, file
             elif isinstance(node, ast.ImportFrom):
                 root = (node.module or "").partition(".")[0]
-                assert node.level <= depth if node.level else root in {"sympy", *sys.stdlib_module_names}, file
+                own = (node.module or "").startswith("wetdoublet.derive.")  # of a model file of the library
+                assert own or (node.level <= depth if node.level else root in {"sympy", *sys.stdlib_module_names}), file
