@@ -17,7 +17,7 @@ from ..scene.scene import Scene
 from .pairs import Bodies, Pairs, dot, length
 
 # no kernel in space has strings, or what a model declares
-TERMS = tuple(name for name, column in OF_KERNEL.items() if column in LEDGER.fields and name != "strings")
+TERMS = tuple(name for name, column in OF_KERNEL.items() if column in (LEDGER.names or ()) and name != "strings")
 _INITIAL, _FINAL, _SHEAR = (TERMS.index(name) for name in ("initial", "final", "tangential_lubrication"))
 OPEN = "the energy ledger is open: try a smaller rtol, or another engine"
 GREW = "energy has grown: errors have added up over a long trajectory; try a smaller rtol, or another engine"
