@@ -39,7 +39,10 @@ LONG = re.compile(
 )
 """Commands that take tens of seconds, or do what a cell of their page does: `tests/test_docs.py` holds their options,
 tests of their own what they do; the site has an explorer of its own."""
-DATA = {"synthetic-steel-spheres.csv": "impacts.csv", "films.csv": "films.csv", "materials.csv": "materials.csv"}
+DATA = {
+    "synthetic-steel-spheres.csv": "impacts.csv", "films.csv": "films.csv", "materials.csv": "materials.csv",
+    "synthetic-flow-curve.csv": "curve.csv",
+}  # fmt: skip
 """Tables of the reader's, and what pages call them."""
 TESTED = {"surprises.md"}
 """Pages of which every line has a test of its own."""

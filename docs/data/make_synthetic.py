@@ -46,7 +46,18 @@ def steel_spheres() -> str:
     return file.getvalue()
 
 
-FILES = {"synthetic-steel-spheres.csv": steel_spheres}
+def flow_curve() -> str:
+    """17 viscosities of a liquid by Carreau's law with 3 % of scatter, as the CSV file that `flow-curve` reads."""
+    random, rate = np.random.default_rng(3), np.geomspace(0.1, 1000, 17)
+    viscosity = 5 * (1 + (0.3 * rate) ** 2) ** ((0.4 - 1) / 2) * (1 + 0.03 * random.standard_normal(rate.size))
+    lines = [f"{at:.4g},{value:.4g}" for at, value in zip(rate, viscosity, strict=True)]
+    first = (
+        "# Synthetic: Carreau's law with 5 Pa s, 0.3 s, n = 0.4 and 3 % of scatter, by make_synthetic.py, not measured."
+    )
+    return "\n".join([first, "shear rate [1/s],viscosity [Pa s]", *lines, ""])
+
+
+FILES = {"synthetic-steel-spheres.csv": steel_spheres, "synthetic-flow-curve.csv": flow_curve}
 
 if __name__ == "__main__":
     for name, made in FILES.items():
