@@ -150,6 +150,11 @@ def check_liquid(entries: Mapping[str, Any], package: Package | None) -> None:
             "a number > 0 and at most 1",
             f"thickens, which {law} does not",
         )
+    least, most = "liquid.infinite_shear_viscosity", "liquid.viscosity"
+    ends = [FIELDS[name].number(entries[name]) for name in (least, most) if law in THINNING and name in entries]
+    if len(ends) == 2 and ends[0] > ends[1]:
+        accepted = f"at most {most} = {shown(entries[most])}"
+        raise InputError(least, entries[least], accepted, f"thickens, which {law} does not")
 
 
 FILMS_OF_LIQUIDS, THINNING = ("finite", "cavitating"), ("cross", "carreau")

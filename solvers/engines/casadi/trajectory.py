@@ -33,8 +33,9 @@ _VARIABLES: dict[str, tuple[str, str]] = {
     "tangential_lubrication": ("J", "energy taken so far by the shear"),
     "capillary": ("J", "work so far against the bridge"),
     "attraction": ("J", "work so far against van der Waals forces"),
+    "own_terms": ("J", "gain so far of declared energies, and work against declared forces"),
 }
-TAKEN = ("normal_lubrication", "tangential_lubrication", "capillary", "attraction")
+TAKEN = ("normal_lubrication", "tangential_lubrication", "capillary", "attraction", "own_work")
 """Terms of the ledger that are integrated along with the motion."""
 
 
@@ -127,7 +128,11 @@ def dataset(
     else:
         values |= {"rotation_rate": zero, "spin": zero, "rotation": zero}
     stored = zip(model.names("energies"), np.asarray(model.function("energies")(y, p).full()), strict=True)
-    values |= {name: value * n.energy for name, value in (*stored, *along.items()) if name != "rotation"}
+    energies = dict(stored) | {name: value for name, value in along.items() if name != "rotation"}
+    if model.own_terms:
+        gained = energies.pop("own_energy", zero)
+        energies["own_terms"] = gained - gained[0] + energies.pop("own_work", zero)
+    values |= {name: value * n.energy for name, value in energies.items()}
     variables = {
         name: ("time", value, {"units": _VARIABLES[name][0], "long_name": _VARIABLES[name][1]})
         for name, value in values.items()

@@ -90,11 +90,16 @@ def material(scene: Scene, kernels: Iterable[Kernel]) -> tuple[Number, ...]:
         if name in known:
             unit, meaning = VOCABULARY[name].unit, meaning_of(name, scene)
         else:
-            field = user_model.fields(scene.package)[f"{user_model.TABLE}.{name}"]
+            field = user_model.fields(scene.package)[f"{_table(scene)}.{name}"]
             unit, meaning = field.unit or "1", field.what
         most = LARGE.get(name, LARGEST)
         result.append(Number(name, unit, meaning, _range(name, scene), float(values[name]), most))
     return tuple(result)
+
+
+def _table(scene: Scene) -> str:
+    """The table of a scene that has the quantities of its model."""
+    return user_model.TABLE if scene.package is None else scene.package.table
 
 
 def meaning_of(name: str, scene: Scene) -> str:
@@ -210,7 +215,7 @@ def _range(name: str, scene: Scene) -> Range:
     if name in ("radius_ratio", "mass_ratio"):
         return _RATIO
     field = next((each for each in FIELDS.values() if each.quantity == name), None)
-    field = field or user_model.fields(scene.package).get(f"{user_model.TABLE}.{name}")
+    field = field or user_model.fields(scene.package).get(f"{_table(scene)}.{name}")
     if field is None:
         raise CheckFailed(f"no range of {name} is known")
     return field.range

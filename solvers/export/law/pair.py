@@ -9,7 +9,6 @@ from ...averages.sizes import FIXED, scene_of_sizes
 from ...errors import CheckFailed
 from ...scene.quantities import Ways, quantities
 from ...scene.scene import Scene
-from ...scene.user_model import TABLE
 from .comments import comment
 from .material import LARGE, LARGEST, Number, c_function, meaning_of, refusals
 
@@ -37,11 +36,13 @@ def pair_entries(scene: Scene, of_material: Sequence[Number]) -> tuple[Number, .
     needed = {*_SIZES, "", *(number.name for number in of_material)}
     known = {*_SIZES, *(scene.fields[name].quantity for name in given)}
     added = {number.name: number.value for number in of_material if number.name not in known}
+    package = scene.package
+    own = {f"{package.table}.{name}" for name in package.quantities} if package else set[str]()
     numbers = []
     for name, field in scene.fields.items():
         quantity = field.quantity
         if name in given or quantity in added:
-            plain = name.startswith(f"{TABLE}.") or not quantity or quantity in _SIZES[:2]
+            plain = name in own or not quantity or quantity in _SIZES[:2]
             meaning = field.what if plain else meaning_of(quantity, scene)
             if name == "bridge.volume" and scene.ways.volume == "absolute":
                 meaning = "bridge volume"
