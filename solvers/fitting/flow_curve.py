@@ -164,6 +164,12 @@ def flow_curve(source: str | Path | tuple[Any, Any]) -> FlowCurve:
 
     Raises:
         InputError: no such file or columns, or fewer than three rates.
+
+    Example:
+        >>> from wetdoublet.solvers import flow_curve
+        >>> found = flow_curve(([1, 10, 100, 1000], [5.0, 4.0, 3.2, 2.56]))
+        >>> found.law, round(found.parameters["flow_index"].value, 4)
+        ('power-law', 0.9031)
     """
     rate, viscosity = source if isinstance(source, tuple) else flow_curve_of(source)
     rate, viscosity = np.asarray(rate, float), np.asarray(viscosity, float)

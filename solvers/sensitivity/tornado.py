@@ -111,7 +111,7 @@ def draw_boundaries(boundaries: Any) -> Figure:
     for axis in grid.ravel()[len(panels) :]:
         axis.set_visible(False)
     for axis, (angle, one) in zip(grid.ravel(), panels):
-        of = one.shown[-1]
+        of = one.results[-1]
         values = [one.elasticity[of][name] or 0.0 if one.elasticity else 0.0 for name in parameters]
         _bars(axis, values, parameters, fontsize=7.5)
         symbol = {"centrifugal": "Ce*", "speed": "(normal speed)"}[of]

@@ -60,11 +60,11 @@ _HALF_THE_PULL = sp.sqrt(sp.Min(q.normal_velocity, 0) ** 2 + pendulum.LARGEST_PU
 )
 def test_a_margin_that_is_not_the_worst(mutate: Mutate, healthy: Healthy, bounds, margins, names):
     """Each wrong distance, orbit, contact, pull, speed or reach of a rebound is caught by the margins that have it."""
-    right = {name: value for _, _, outputs in pendulum.functions() for name, value in outputs.items()}
-    wrong = {name: value.subs(margins.get(name, {})) for name, value in right.items()}
+    outputs = {name: value for _, _, values in pendulum.functions() for name, value in values.items()}
+    wrong = {name: value.subs(margins.get(name, {})) for name, value in outputs.items()}
     right = dict(pendulum.definitions())
     assert all(right[name] != value for name, value in bounds.items())
-    assert all(wrong[name] != right[name] for name in margins)
+    assert all(wrong[name] != outputs[name] for name in margins)
     mutate(pendulum.definitions, lambda *_: tuple({**right, **bounds}.items()))
     mutate(pendulum.functions, lambda *_: [("margins", "", wrong)])
     caught(margins_are_the_lemmas(), healthy, *(f"margin of the stick proof: {each}" for each in names.split()))
@@ -143,5 +143,5 @@ def test_a_decomposition_with_half_the_shear(mutate: Mutate, healthy: Healthy):
 
 def test_a_decomposition_with_another_dry_loss(mutate: Mutate, healthy: Healthy):
     """A reversal charged with half its loss leaves the other half unaccounted for."""
-    mutate(rebound_loss, lambda: q.normal_velocity**2 * (1 - q.e_dry**2) / 4)
+    mutate(rebound_loss, lambda *_: q.normal_velocity**2 * (1 - q.e_dry**2) / 4)
     caught(decomposition(), healthy, "decomposition of e_n^2 - 1")
