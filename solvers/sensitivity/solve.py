@@ -167,6 +167,13 @@ class Search(Question):
         side = np.where(np.isnan(result), 2, result > self.value)
         return result, np.where(outcome < 0, -1, (outcome * _KINDS + reversal + 1) * _SIDES + side)
 
+    def _computed(self, place: np.ndarray) -> np.ndarray:
+        """1 where there are collisions, 0 where not."""
+        try:
+            return (self.sampled(place)[1] >= 0).astype(int)
+        except InputError:  # at none of these places
+            return np.zeros(place.size, int)
+
     def solutions(self) -> Solutions:
         """All roots, the jumps over the value, and where it does not change."""
         place, result, label = self._samples()
@@ -175,7 +182,7 @@ class Search(Question):
             raise ComputationError(f"no collision with {self.free} in the range can be computed: {self._failed(place)}")
         failed = place[~known]
         edges = enclose(  # roots may lie between the last sample and where there are no collisions
-            lambda _, at: (self.sampled(at)[1] >= 0).astype(int),
+            lambda _, at: self._computed(at),
             Brackets.between(np.zeros(place.size, int), place, known.astype(int)),
             _SEEN, at_once=4 * _FINER,
         )  # fmt: skip
