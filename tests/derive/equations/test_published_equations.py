@@ -155,20 +155,14 @@ def test_start():
 
 
 GROUPS = {
-    "stokes": m * v0 / (6 * sp.pi * mu * a**2),
-    "capillary": 3 * mu * a * v0 / (sigma * x0),
+    "stokes": m * v0 / (6 * sp.pi * mu * a**2), "capillary": 3 * mu * a * v0 / (sigma * x0),
     "centrifugal": m * (v0 * sp.tan(q.theta0) / (4 * a)) ** 2 / sigma,
-    "adhesion": q.A_H / (36 * sp.pi * mu * v0 * x0 * a),
-    "reynolds": q.rho * v0 * x0 / mu,
-    "aspect": x0 / a,
-    "obliquity": sp.tan(q.theta0),
-    "glass_number": q.p_gt * x0**2 / (3 * mu * a * v0),
-    "weight": g * x0 / v0**2,
-    "string_ratio": length / a,
-    "rough_gap": q.x_b / x0,
+    "adhesion": q.A_H / (36 * sp.pi * mu * v0 * x0 * a), "reynolds": q.rho * v0 * x0 / mu, "aspect": x0 / a,
+    "obliquity": sp.tan(q.theta0), "glass_number": q.p_gt * x0**2 / (3 * mu * a * v0), "weight": g * x0 / v0**2,
+    "string_ratio": length / a, "rough_gap": q.x_b / x0,
     "rupture_gap": 2 * a * q.volume ** sp.Rational(1, 3) * (1 + q.contact_angle / 2) / x0,
     "elastic_gap": (6 * (1 - q.nu**2) / q.E * mu * a ** sp.Rational(3, 2) * v0 / sp.sqrt(2)) ** sp.Rational(2, 5) / x0,
-}
+}  # fmt: skip
 
 
 def test_no_group_is_untested():

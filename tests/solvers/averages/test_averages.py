@@ -182,17 +182,13 @@ def test_a_pair_that_is_impossible_is_marked() -> None:
 @pytest.mark.parametrize(
     ("given", "field"),
     [
-        ({"scene": "pendulum", "speeds": 1.0}, "scene"),
-        ({}, "speeds"),
-        ({"speeds": ([1.0, 0.5], [1.0, 1.0])}, "speeds"),
-        ({"speeds": ([0.5, 1.0], [0.0, 0.0])}, "speeds"),
-        ({"speeds": "there-is-none.csv"}, "speeds"),
-        ({"speeds": 1.0, "radii": [1e-4, 1e-4]}, "radii"),
-        ({"speeds": 1.0, "films": "thick"}, "films"),
-        ({"speeds": 1.0, "tolerance": 1.0}, "tolerance"),
+        ({"scene": "pendulum", "speeds": 1.0}, "scene"), ({}, "speeds"),
+        ({"speeds": ([1.0, 0.5], [1.0, 1.0])}, "speeds"), ({"speeds": ([0.5, 1.0], [0.0, 0.0])}, "speeds"),
+        ({"speeds": "there-is-none.csv"}, "speeds"), ({"speeds": 1.0, "radii": [1e-4, 1e-4]}, "radii"),
+        ({"speeds": 1.0, "films": "thick"}, "films"), ({"speeds": 1.0, "tolerance": 1.0}, "tolerance"),
         ({"speeds": 1.0, "wrt": "impact.speed"}, "wrt"),
     ],
-)
+)  # fmt: skip
 def test_bad_input_is_named(given: dict[str, Any], field: str) -> None:
     """An InputError names the argument."""
     with pytest.raises(InputError) as caught:

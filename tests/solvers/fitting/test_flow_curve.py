@@ -1,5 +1,6 @@
 """Flow curves: what rheometers export, the law that is found, and its intervals."""
 
+from collections.abc import Iterable
 from pathlib import Path
 
 import numpy as np
@@ -74,10 +75,10 @@ def known(law: str, random: np.random.Generator) -> tuple[np.ndarray, dict[str, 
 LAWS = ("newtonian", "power-law", "cross", "carreau", "herschel-bulkley")
 
 
-def found(count: int, seed: int) -> tuple[int, list[bool]]:
+def found(numbers: Iterable[int], seed: int) -> tuple[int, list[bool]]:
     """How many laws of known liquids with 3 % noise are found, and whether intervals have the true entries."""
     random, laws, inside = np.random.default_rng(seed), 0, []
-    for number in range(count):
+    for number in numbers:
         law = LAWS[number % len(LAWS)]
         viscosity, entries = known(law, random)
         fitted = flow_curve((RATES, viscosity * np.exp(0.03 * random.normal(size=RATES.size))))
@@ -90,8 +91,8 @@ def found(count: int, seed: int) -> tuple[int, list[bool]]:
 
 def test_a_law_is_found_and_pasted(tmp_path: Path):
     """The table that is printed is read as a scene, whose collision says that it shears faster than was measured."""
-    laws, _ = found(5, 7)
-    assert laws == 5
+    laws, _ = found((3, 4), 7)
+    assert laws == 2
     fitted = flow_curve((RATES, np.full(RATES.shape, 2.0) * np.exp(0.01 * np.cos(40 * np.log(RATES)))))
     assert fitted.law == "newtonian"
     scene = Scene.load("granulation").with_entries(fitted.entries)
@@ -104,7 +105,7 @@ def test_a_law_is_found_and_pasted(tmp_path: Path):
 @pytest.mark.slow
 def test_laws_and_intervals_of_sixty_liquids():
     """Sixty flow curves with 3 % noise: the law of nearly all, and intervals that hold in 95 % within their scatter."""
-    laws, inside = found(60, 1)
+    laws, inside = found(range(60), 1)
     print(f"{laws} of 60 laws found; {np.mean(inside):.1%} of {len(inside)} intervals hold")  # noqa: T201
     assert laws >= 56
     assert 0.90 <= np.mean(inside) <= 0.99  # 2.5 standard deviations of so many draws

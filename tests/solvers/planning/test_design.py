@@ -138,14 +138,11 @@ def test_the_table_shows_the_impacts(found: Design) -> None:
         ({"free": ["bridge.contact_angle"], "over": {"stokes": (1e-4, 2e-4), "angle": 0.0}, "n": 1}, "free"),
         ({"over": {"stokes": (0.1, 0.2)}}, "over"),
         ({"over": {"stokes": (0.1, 0.2), "angle": (0.0, 1.6)}}, "over angle"),
-        ({"over": {"stokes": 0.1, "speed": 1.0, "angle": 0.0}}, "over"),
-        ({"n": 0}, "n"),
-        ({"target": "particles.roughness"}, "target"),
-        ({"speed_sd": "40 %"}, "speed_sd"),
-        ({"restitution_sd": 0}, "restitution_sd"),
-        ({"prior": {"particles.roughness": "1 um +- 10 %"}}, "prior"),
+        ({"over": {"stokes": 0.1, "speed": 1.0, "angle": 0.0}}, "over"), ({"n": 0}, "n"),
+        ({"target": "particles.roughness"}, "target"), ({"speed_sd": "40 %"}, "speed_sd"),
+        ({"restitution_sd": 0}, "restitution_sd"), ({"prior": {"particles.roughness": "1 um +- 10 %"}}, "prior"),
     ],
-)
+)  # fmt: skip
 def test_what_is_refused(changes: dict[str, Any], field: str) -> None:
     """A wrong argument is named, and so is an entry on which nothing in the window depends."""
     asked: dict[str, Any] = {"scene": "granulation", "free": FREE, "over": OVER, "n": 4} | changes

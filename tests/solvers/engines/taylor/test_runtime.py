@@ -81,13 +81,9 @@ def _pointer(array: np.ndarray) -> ctypes.c_void_p:
 
 
 RANGES = {
-    "exp": (-700.0, 700.0),
-    "log": (-690.0, 690.0),
-    "sin": (-50.0, 50.0),
-    "cos": (-50.0, 50.0),
-    "tan": (0.0, 1.57),
+    "exp": (-700.0, 700.0), "log": (-690.0, 690.0), "sin": (-50.0, 50.0), "cos": (-50.0, 50.0), "tan": (0.0, 1.57),
     "atan": (-10.0, 10.0),
-}
+}  # fmt: skip
 
 
 @pytest.mark.parametrize("name", RANGES)
