@@ -93,7 +93,7 @@ def test_the_probability_moves_with_the_boundary() -> None:
     )
 
 
-@pytest.mark.parametrize("speed", [2.5, 4.0])
+@pytest.mark.parametrize("speed", [2.5, pytest.param(4.0, marks=pytest.mark.slow)])
 def test_a_jump_that_begins_as_a_square_root_moves_with_its_change(speed: float) -> None:
     """Where the glass criterion is just met, e_n leaves its limit as a square root: the jump is that of the limits.
 

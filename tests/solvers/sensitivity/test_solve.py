@@ -116,15 +116,6 @@ def test_any_result_may_have_a_value(of, target):
         assert (getattr(one.energy, term) if term else getattr(one, name)) == pytest.approx(expected, rel=1e-6)
 
 
-def test_what_the_impact_keeps():
-    """A scene given by its Stokes number keeps the speed; with hold="stokes" it keeps that."""
-    at_speed, at_stokes = (solve(GRANULATION, **FREE, restitution=0.5, **hold)[0] for hold in ({}, {"hold": "stokes"}))
-    assert collide(GRANULATION.with_entries({"liquid.viscosity": at_speed})).restitution == pytest.approx(0.5, abs=1e-7)
-    kept = GRANULATION.with_entries({"liquid.viscosity": at_stokes}, hold="stokes")
-    assert kept.stokes == pytest.approx(0.13) and collide(kept).restitution == pytest.approx(0.5, abs=1e-7)
-    assert abs(at_stokes / at_speed - 1) > 1e-2
-
-
 def test_the_command():
     """A table, JSON with the list, and one line that names the option that is wrong."""
     arguments = ["solve", "granulation", "--stokes", 0.13, "--angle", 20, "--for", "restitution=0.5"]
