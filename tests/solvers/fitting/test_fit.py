@@ -151,22 +151,6 @@ def test_a_row_without_a_scene_is_named():
         fit("granulation", data, VISCOSITY)
 
 
-@pytest.mark.parametrize(
-    ("free", "prior", "said"),
-    [
-        ("liquid.viscosty", None, "did you mean liquid.viscosity?"),
-        ("bridge.law", None, "bridge.law"),
-        (VISCOSITY, {FILM: "8 um +- 10 %"}, "is not free"),
-        (VISCOSITY, {VISCOSITY: "2 Pa s"}, "is no prior"),
-        (VISCOSITY, {VISCOSITY: "2 m +- 10 %"}, "a length"),
-    ],
-)
-def test_bad_requests(free, prior, said):
-    """What is wrong is named."""
-    with pytest.raises(InputError, match=said.replace("?", r"\?")):
-        fit("granulation", {"stokes": [0.1], "angle": [0.5], "outcome": ["stick"]}, free, prior=prior)
-
-
 @pytest.mark.slow
 def test_one_stick_bounds_and_does_not_identify():
     """A stick at some viscosity is none at a lower one, nor at a much higher: ends are closed, flat between."""

@@ -38,6 +38,7 @@ def test_missing_entries(name):
     assert refused({**BASE, name: None}).field == name
 
 
+THINNING = {"liquid.law": "carreau", "liquid.flow_index": 0.5, "liquid.relaxation_time": "20 us"}
 COATED = {**PEOPLE, "bridge.volume": "from coating"}
 PARTNER = {"partner.diameter": "320 um", "partner.density": "2 g/cm^3", "partner.coating_thickness": "3 um"}
 
@@ -60,6 +61,12 @@ PARTNER = {"partner.diameter": "320 um", "partner.density": "2 g/cm^3", "partner
         (BASE, {"liquid.glass_transition_pressure": None, "particles.roughness": "0 um"}, "particles.roughness", ""),
         (BASE, {"liquid.viscosty": "2 Pa s"}, "liquid.viscosty", "an unknown name, did you mean liquid.viscosity?"),
         (BASE, {"liqid.viscosity": "2 Pa s"}, "liqid", "did you mean liquid?"),
+        (BASE, {"liquid.flow_index": 0.5}, "liquid.flow_index", ""),
+        (BASE, {"liquid.law": "cross"}, "liquid.flow_index", ""),
+        (BASE, {**THINNING, "liquid.flow_index": 1.5}, "liquid.flow_index", ""),
+        (BASE, {**THINNING, "liquid.yield_stress": "1 Pa"}, "liquid.yield_stress", ""),
+        (BASE, {**THINNING, "model.film": "infinite"}, "model.film", ""),
+        (BASE, {"liquid.law": "bingham"}, "liquid.law", ""), (BASE, {**THINNING, "custom.x": 1.0}, "custom.x", ""),
         (BASE, {"model.arm": "surface"}, "model.arm", "docs/reference/models.md"),
         (BASE, PARTNER, "partner.coating_thickness", "both coatings together"),
         (COATED, {"liquid.film_thickness": "8 um"}, "liquid.coating_thickness", "together with liquid.film_thickness"),

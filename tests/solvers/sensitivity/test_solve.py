@@ -6,7 +6,7 @@ import pickle
 
 import numpy as np
 import pytest
-from wetdoublet.solvers import InputError, ModelWarning, Scene, boundary, collide, collide_many, solve
+from wetdoublet.solvers import ModelWarning, Scene, boundary, collide, collide_many, solve
 
 from ...helpers.command import run
 
@@ -142,23 +142,6 @@ def test_the_command():
         assert wrong.exit_code == 2 and wrong.stderr.startswith(message), wrong.stderr
     again = pickle.loads(pickle.dumps(solve(GRANULATION, **FREE, restitution=0.5)))
     assert again == pytest.approx([value], rel=1e-12) and again.found[0].outcome == "bounce"
-
-
-@pytest.mark.parametrize(
-    ("options", "field"),
-    [
-        ({"restitution": 0.5, "within": (3.0, 1.0)}, "within"),
-        ({"restitution": 0.5, "contact_time": 1e-3}, "target"),
-        ({}, "target"),
-        ({"restitution": "half"}, "restitution"),
-        ({"contact_time": "5 Pa"}, "contact_time"),
-        ({"restitution": 0.5, "free": "bridge.law"}, "free"),
-    ],
-)
-def test_what_is_refused(options, field):
-    """The error names the argument."""
-    with pytest.raises(InputError, match=rf"^{field}"):
-        solve(GRANULATION, **{**FREE, **options})
 
 
 def test_samples_without_a_collision_are_counted_with_a_reason():
