@@ -119,7 +119,7 @@ class Segments:
             np.where(first < 0, 0.0, width[first]),
         )  # fmt: skip
 
-    def part(self, which: np.ndarray) -> Segments:
+    def subset(self, which: np.ndarray) -> Segments:
         return Segments(*(values[which] for values in vars(self).values()))
 
     def hints(self, lines: int) -> np.ndarray:
@@ -167,7 +167,7 @@ def over_angles(
     for k in (STICKS, ROTATES, BOUNCES):
         mean[:, k] = np.bincount(parts.line, share * (outcome_of(parts.label) == k), pair.size)
     error += np.bincount(parts.line, np.sin(2 * parts.low) * parts.width, pair.size)[:, None]
-    wide = parts.part(parts.high - parts.low > WIDTH)
+    wide = parts.subset(parts.high - parts.low > WIDTH)
 
     def columns(which: np.ndarray, angle: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         line, weight = wide.line[which], np.sin(2 * angle)

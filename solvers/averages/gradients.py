@@ -27,7 +27,7 @@ def gradients(
         ComputationError: the kernel has no derivatives of this scene.
     """
     parts = segments(experiment, pair, speed, hints, _WIDTH)
-    wide = parts.part((parts.high - parts.low > WIDTH) & (outcome_of(parts.label) != 0))
+    wide = parts.subset((parts.high - parts.low > WIDTH) & (outcome_of(parts.label) != 0))
     entries = len(experiment.rows.names)
 
     def columns(which: np.ndarray, angle: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -106,9 +106,9 @@ def _slopes(experiment: Experiment, lines: Lines, changes: Brackets) -> np.ndarr
     by_free = np.zeros((changes.size, len(experiment.rows.names)))
     differ = outcomes.before != outcomes.after
     if differ.any():
-        by_free[differ] = slopes(experiment, lines, outcomes.part(differ))
+        by_free[differ] = slopes(experiment, lines, outcomes.subset(differ))
     if not differ.all():  # bounces by other events, or none
-        by_free[~differ] = slopes_by_differences(experiment, lines, changes.part(~differ), labels=_labels)
+        by_free[~differ] = slopes_by_differences(experiment, lines, changes.subset(~differ), labels=_labels)
     return by_free
 
 

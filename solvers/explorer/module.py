@@ -12,7 +12,7 @@ from ..engines.taylor.shipped import content_of
 from ..errors import InputError
 from ..export.law.texts import LawSource
 from ..host.compiler import CannotCompile, webassembly
-from ..host.user_cache import digest_of, kept
+from ..host.user_cache import digest_of, fetch
 from ..model.validity import LIMITS, NEEDS, WORDS, law_limits
 from ..scene.groups import si_values
 from ..scene.scene import Scene
@@ -74,7 +74,7 @@ def module(law: LawSource, behind: str = "") -> bytes:
     """
     text, digest = compilation(law, behind)
     try:
-        return shipped(digest) or kept(f"explorer-{digest}.wasm", lambda: webassembly(text, FLAGS))
+        return shipped(digest) or fetch(f"explorer-{digest}.wasm", lambda: webassembly(text, FLAGS))
     except CannotCompile as error:
         accepted = "an installed ziglang (pip install 'wetdoublet[explorer]'), or clang with lld and wasi-libc"
         problem = f"has no module of this law in the package, and no compiler for WebAssembly ({error})"

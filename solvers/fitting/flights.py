@@ -75,7 +75,7 @@ class Flights:
         passing = values[1] + 3 * sd[1]  # a line that passes beyond has no angle there
         return cls(tuple(measured), np.maximum(reach, passing), np.where(valid, values, 0.0), regression), sd * own.T
 
-    def part(self, which: np.ndarray) -> Flights:
+    def subset(self, which: np.ndarray) -> Flights:
         return Flights(self.names, self.reach[which], self.values[:, which], self.regression[which])
 
 

@@ -202,9 +202,9 @@ class Likelihood:
         )
         changes = lines.changes(experiment, resolution)
         segments = Segments.between(lines, changes)
-        unknown = segments.part(segments.outcome < 0)
+        unknown = segments.subset(segments.outcome < 0)
         undecided = np.bincount(unknown.row, unknown.share * unknown.mass(), size)
-        segments = segments.part((segments.outcome >= 0) & data.allowed[segments.row, segments.outcome])
+        segments = segments.subset((segments.outcome >= 0) & data.allowed[segments.row, segments.outcome])
         mass = segments.mass()
         probability = np.bincount(segments.row, segments.share * mass, size)
         dense = data.separated[segments.row]
@@ -215,11 +215,11 @@ class Likelihood:
         plain = ~dense & counts
         terms: list[_Terms] = [(segments.row[plain], np.log((segments.weight * mass)[plain]), by_free[plain])]
         which = np.flatnonzero(dense & counts)
-        dense_part = segments.part(which)
+        dense_part = segments.subset(which)
         results = dense_part.results(experiment, lines, ends[:, which], self.measured, resolution)
         for part, mapping, value, slope in results:
             for some, finer in self._resolved(dense_part.row[part], noise, mapping, value):
-                at_ends, of = ends[:, which[part[some]]], dense_part.part(part[some])
+                at_ends, of = ends[:, which[part[some]]], dense_part.subset(part[some])
                 terms.append(self._integrals(of, noise, at_ends, finer, value[:, some], slope[:, some], moments))
         rows, scores = _sums(terms, size, len(self.names))
         rare = np.flatnonzero((probability < RARE) & (factors > 0))

@@ -136,7 +136,7 @@ class Measurements:
         )
         return allowed
 
-    def part(self, which: np.ndarray) -> Measurements:
+    def subset(self, which: np.ndarray) -> Measurements:
         """The rows of these indices."""
         alone = ("speed", "angle", "speed_sd", "angle_sd", "outcome")
         return replace(
@@ -144,7 +144,7 @@ class Measurements:
             **{name: getattr(self, name)[which] for name in alone},
             observed={name: (values[which], sds[which]) for name, (values, sds) in self.observed.items()},
             columns={name: values[which] for name, values in self.columns.items()},
-            flights=self.flights and self.flights.part(which),
+            flights=self.flights and self.flights.subset(which),
             labels=tuple(self.labels[k] for k in which.tolist()) if self.labels else (),
         )
 
@@ -360,7 +360,7 @@ class _Table:
             named, more = ", ".join(labels[k] for k in rest[:_NAMED]), f" ... ({rest.size} rows)"
             more = more if rest.size > _NAMED else ""
             self.remarks.append(f"Left out, for neither outcome nor result is given: {named}{more}.")
-            data = data.part(np.flatnonzero(observation))
+            data = data.subset(np.flatnonzero(observation))
         return replace(data, remarks=tuple(self.remarks))
 
     def _angle(self) -> np.ndarray:

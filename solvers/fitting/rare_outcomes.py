@@ -56,7 +56,7 @@ def _from_nearest_change(
     resolution: Resolution,
 ) -> tuple[np.ndarray, np.ndarray]:  # fmt: skip
     """The likelihoods in full, as functions of the distance of the nearest change and of the results beyond it."""
-    part = data.part(rows)
+    part = data.subset(rows)
     both = ((part.speed_sd > 0) & (part.angle_sd > 0)).astype(int)
     fan = [ScatterLines.through(part, direction[rows] + turn, both if turn else 1, _FARTHEST) for turn in _TURNS]
     columns = {
@@ -75,7 +75,7 @@ def _from_nearest_change(
         return log, slope
     sign, distance = np.where(y < 0, -1.0, 1.0), np.maximum(np.abs(y), least[line])
     log[at] = log_ndtr(-distance)
-    moves = np.nan_to_num(slopes(experiment, lines, changes.part(which), resolution.approximate))
+    moves = np.nan_to_num(slopes(experiment, lines, changes.subset(which), resolution.approximate))
     hazard = np.exp(-(distance**2) / 2 - np.log(2 * np.pi) / 2 - log[at])
     slope[at] = -(np.where(distance > least[line], hazard, 0.0) * sign)[:, None] * moves
     misfit, by_free = _misfit(experiment, data, measured, lines, line, y + _BESIDE * sign, moves)

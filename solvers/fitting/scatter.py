@@ -148,7 +148,7 @@ def nearest_normals(experiment: Experiment, data: Measurements) -> tuple[np.ndar
         which = order[np.unique(changes_row[order] * _OUTCOMES + pair[order], return_index=True)[1]]
         if not which.size:
             continue
-        normal_of = normals(experiment, lines, changes.part(which), approximate=True)
+        normal_of = normals(experiment, lines, changes.subset(which), approximate=True)
         row, line, place = changes_row[which], changes.line[which], changes.place[which]
         unit = in_deviations(data, row, *lines.at(line, place), normal_of.speed, normal_of.angle)
         with np.errstate(invalid="ignore", divide="ignore"):
@@ -201,9 +201,9 @@ class Segments:
         low = np.where(first < 0, lines.low[line], upper[first])
         high = np.where(last < 0, lines.high[line], lower[last])
         segments = cls(line, lines.row[line], lines.weight[line], lines.share[line], outcome, low, high, first, last)
-        return segments.part(high > low)
+        return segments.subset(high > low)
 
-    def part(self, which: np.ndarray) -> Segments:
+    def subset(self, which: np.ndarray) -> Segments:
         return Segments(*(values[which] for values in vars(self).values()))
 
     @property
@@ -238,7 +238,7 @@ class Segments:
         needed = needed[needed >= 0]
         by_free = np.zeros((changes.size + 1, len(experiment.rows.names)))  # the last for ends that stay
         if needed.size:
-            by_free[needed] = np.nan_to_num(slopes(experiment, lines, changes.part(needed), approximate))
+            by_free[needed] = np.nan_to_num(slopes(experiment, lines, changes.subset(needed), approximate))
         moving: np.ndarray = by_free[np.stack([self.first, self.last])]
         return moving
 

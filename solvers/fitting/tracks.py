@@ -284,7 +284,7 @@ def _impact(
 
     def free(gap: float) -> list[Flight]:
         """Both flights, or the approach to a stick, where the spheres are farther apart than a gap."""
-        flights = [path.part(each & (distance >= solids + gap)) for each in (before, after) if each.any()]
+        flights = [path.subset(each & (distance >= solids + gap)) for each in (before, after) if each.any()]
         return flights if min(each.time.size for each in flights) >= LEAST else []
 
     def check_times(gap: float, most: float = math.inf) -> None:

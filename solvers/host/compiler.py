@@ -212,7 +212,7 @@ def _accepted(command: tuple[str, ...], limit: float) -> Compiler | str:
         name = f"compiler-{hashlib.sha256(content.encode(errors='replace')).hexdigest()[:32]}.txt"
         if not cache.has(name.removesuffix("txt")):
             _try(command, limit)
-            cache.kept(name, lambda: f"{shlex.join(command)}\n{version}\n".encode(errors="replace"))
+            cache.fetch(name, lambda: f"{shlex.join(command)}\n{version}\n".encode(errors="replace"))
     except subprocess.TimeoutExpired:
         return f"it has not ended after {limit:g} s"
     except CannotCompile as error:

@@ -159,7 +159,7 @@ def derivation() -> str:
 
 def derived_once(name: str, function: str, *arguments: str | bool) -> str:
     """A text from the cache; `function` of `derive.emit.one` makes it if there is none of that name and derivation."""
-    from .user_cache import kept
+    from .user_cache import fetch
 
     def alone() -> bytes:
         with DERIVING:  # one thread at a time
@@ -168,4 +168,4 @@ def derived_once(name: str, function: str, *arguments: str | bool) -> str:
             text: str = getattr(one, function)(*arguments)
             return text.encode()
 
-    return kept(f"emitted-{derivation()[:32]}-{name}", alone).decode()
+    return fetch(f"emitted-{derivation()[:32]}-{name}", alone).decode()

@@ -42,7 +42,7 @@ def collide_by_kernel(
     for first in range(0, which.size, _STRETCH):
         part = which[first : first + _STRETCH]
         whole = part.size == request.size and bool((part == np.arange(part.size)).all())
-        impacts, sound = impacts_of(request if whole else request.part(part))
+        impacts, sound = impacts_of(request if whole else request.subset(part))
         books = np.zeros(impacts.size, OWN_LEDGER) if ledger else None
         answers = run_kernel(impacts, request.rtol, "rotation" in request.of, threads, jumps=jumps, ledgers=books)
         decided = answers["status"] <= LAST_ANSWER
@@ -55,7 +55,7 @@ def collide_by_kernel(
         done[sound] = decided
         finished(
             part[done],
-            block_of(request.of, answers[decided], impacts.part(decided), None if books is None else books[decided]),
+            block_of(request.of, answers[decided], impacts.subset(decided), None if books is None else books[decided]),
         )
         incomplete.append(part[~done])
     return np.concatenate(incomplete)
@@ -77,7 +77,7 @@ def impacts_of(request: Impacts) -> tuple[call.Impacts, np.ndarray]:
         speed = request.speed if request.speed is not None else np.asarray(request.stokes) / unit
         sound &= _usual(speed, _MOST)
     impacts = call.Impacts(scene, speed, request.angle, values)
-    return impacts if sound.all() else impacts.part(np.flatnonzero(sound)), sound
+    return impacts if sound.all() else impacts.subset(np.flatnonzero(sound)), sound
 
 
 def _usual(values: np.ndarray, most: float) -> np.ndarray:

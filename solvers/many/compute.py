@@ -70,9 +70,9 @@ def _compute(request: Impacts, which: np.ndarray, finished: Finished, cores: int
     cores = min(len(blocks), cores)
     if which.size <= few or cores == 1:
         for block in blocks:
-            finished(block, run(request.part(block)))
+            finished(block, run(request.subset(block)))
         return
-    for block, result in in_workers(cores, run, ((block, (request.part(block),)) for block in blocks)):
+    for block, result in in_workers(cores, run, ((block, (request.subset(block),)) for block in blocks)):
         finished(block, result)
 
 

@@ -138,7 +138,7 @@ class Impacts:
         assert self.stokes is not None
         return scene, scene.speed_of(float(self.stokes[k])), float(self.angle[k])
 
-    def part(self, which: np.ndarray) -> Impacts:
+    def subset(self, which: np.ndarray) -> Impacts:
         """These impacts alone, in one dimension."""
         columns = {name: (LISTED, np.asarray(self._flat(name))[which]) for name in self.columns}
         return replace(self, columns=columns, dims=LISTED, shape=which.shape, beside=None)
@@ -161,7 +161,7 @@ class Impacts:
             except InputError as error:
                 yield which, error
             else:
-                part = self.part(which)
+                part = self.subset(which)
                 numbers = {name: column for name, column in part.columns.items() if name not in self.texts}
                 yield which, replace(part, scene=scene, columns=numbers)
 

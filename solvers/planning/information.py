@@ -71,7 +71,7 @@ def _integrated(
     lines = ScatterLines.through(plan, direction, resolution.lines)
     changes = lines.changes(experiment, resolution)
     segments = Segments.between(lines, changes)
-    segments = segments.part(segments.outcome >= 0)
+    segments = segments.subset(segments.outcome >= 0)
     mass = segments.mass()
     ends = segments.moving_ends(experiment, lines, changes, mass > NEGLIGIBLE, resolution.approximate)
     share = segments.weight * mass
@@ -86,7 +86,7 @@ def _integrated(
     noise = plan.observed[RESTITUTION][1] if RESTITUTION in plan.observed else np.full(size, np.nan)
     dense = (mass > NEGLIGIBLE) & (segments.outcome != OUTCOMES.index(STICK)) & np.isfinite(noise[segments.row])
     counts = np.bincount(lines.row, minlength=size)
-    for row, points in _points(experiment, lines, segments.part(dense), ends[:, dense], resolution):
+    for row, points in _points(experiment, lines, segments.subset(dense), ends[:, dense], resolution):
         degree = _DEGREE if counts[row] == 1 else min(_DEGREE, int(counts[row]) - 1)
         total[row] += _beyond_outcome(*points, float(noise[row]), degree)
     return Information(total, outcome, probability)

@@ -270,7 +270,7 @@ def _judged(unit: str) -> tuple[float, Powers, float]:
     import hashlib
     from importlib.metadata import version
 
-    from ..host.user_cache import kept
+    from ..host.user_cache import fetch
 
     content = json.dumps(["pint", version("pint"), unit, "zero"])
 
@@ -282,7 +282,7 @@ def _judged(unit: str) -> tuple[float, Powers, float]:
         zero = float(registry.Quantity(0.0, parsed).to_root_units().magnitude)
         return json.dumps([float(size), dict(registry.Quantity(1, root).unit_items()), zero]).encode()
 
-    size, powers, zero = json.loads(kept(f"unit-{hashlib.sha256(content.encode()).hexdigest()[:32]}.json", ask_pint))
+    size, powers, zero = json.loads(fetch(f"unit-{hashlib.sha256(content.encode()).hexdigest()[:32]}.json", ask_pint))
     return size, powers, zero
 
 

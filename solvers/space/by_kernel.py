@@ -42,9 +42,9 @@ def by_kernel(pairs: Pairs, rtol: float, threads: int, ledger: bool = False) -> 
     ends = Ends.blank(pairs.size)
     planar, axis, along = planes(pairs)
     if (which := np.flatnonzero(planar)).size:
-        ends.put(which, _in_planes(pairs.part(which), axis[which], along[which], rtol, threads, ledger))
+        ends.put(which, _in_planes(pairs.subset(which), axis[which], along[which], rtol, threads, ledger))
     if (which := np.flatnonzero(~planar)).size:
-        ends.put(which, _in_space(pairs.part(which), rtol, threads, ledger))
+        ends.put(which, _in_space(pairs.subset(which), rtol, threads, ledger))
     if ledger:  # where it is open the trajectory is wrong
         wrong = is_open(ends.energy, ends.outcome > 0, rtol)
         ends.outcome[wrong], ends.reason[wrong] = FAILED, OPEN

@@ -116,7 +116,7 @@ def collide_pair(
         warn(loaded)
         chosen = asked or "taylor"
         which = np.flatnonzero(sound)
-        ends.put(which, _ends(pairs.part(which), chosen, rtol, ledger))
+        ends.put(which, _ends(pairs.subset(which), chosen, rtol, ledger))
     until = ends.put_at_contact(pairs)
     with np.errstate(invalid="ignore"):
         motions = after(pairs, ends)
@@ -194,7 +194,7 @@ def _validity(pairs: Pairs, ends: Ends, motions: Motions) -> list[str]:
     which = np.flatnonzero(ends.outcome != FAILED)
     if not which.size:
         return []
-    some = pairs.part(which)
+    some = pairs.subset(which)
     before, after = (velocities[:, 1] - velocities[:, 0] for velocities in (some.velocities, motions.velocities[which]))
     bent = np.arctan2(length(np.cross(before, after)), dot(before, after)[:, 0])
     known: dict[str, Any] = si_values(some.scene, None, None)
