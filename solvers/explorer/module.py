@@ -98,12 +98,12 @@ def limits(scene: Scene, material: Sequence[str], entries: Sequence[str]) -> tup
     results = ("speed", "angle", "outcome", *NEEDS, "density")
     others = {name: SX.sym(name) for name in results}
     dense = "liquid_density" in entries
-    known = {**si_values(scene, None, None), **members, **others}
+    values = {**si_values(scene, None, None), **members, **others}
     if not dense:
-        del known["density"]
+        del values["density"]
     limits, numbers = [], []
     for limit in (*LIMITS, *law_limits(scene)):
-        number = limit.number(scene, known)
+        number = limit.number(scene, values)
         if isinstance(number, float) and math.isnan(number):
             continue  # the question does not arise for this scene
         numbers.append(number)

@@ -217,9 +217,9 @@ class Likelihood:
         which = np.flatnonzero(dense & counts)
         dense_part = segments.subset(which)
         results = dense_part.results(experiment, lines, ends[:, which], self.measured, resolution)
-        for part, mapping, value, slope in results:
-            for some, finer in self._resolved(dense_part.row[part], noise, mapping, value):
-                at_ends, of = ends[:, which[part[some]]], dense_part.subset(part[some])
+        for indices, mapping, value, slope in results:
+            for some, finer in self._resolved(dense_part.row[indices], noise, mapping, value):
+                at_ends, of = ends[:, which[indices[some]]], dense_part.subset(indices[some])
                 terms.append(self._integrals(of, noise, at_ends, finer, value[:, some], slope[:, some], moments))
         rows, scores = _sums(terms, size, len(self.names))
         rare = np.flatnonzero((probability < RARE) & (factors > 0))
@@ -259,13 +259,13 @@ class Likelihood:
         precision, pull = np.tile(np.eye(2), (row.size, 1, 1)), np.zeros((row.size, 2))
         spread = {}
         for k, name in enumerate(self.measured):
-            values, sd = (each[row] for each in data.observed[name])
+            values, sd = (column[row] for column in data.observed[name])
             by = in_deviations(data, row, *at, at_point.speed[k], at_point.angle[k])
             spread[name] = np.linalg.norm(by, axis=1)
-            known = np.isfinite(values - at_point.value[k])
-            steep = np.where(known, 1.0, 0.0)[:, None] * np.nan_to_num(by) / sd[:, None]
+            mask = np.isfinite(values - at_point.value[k])
+            steep = np.where(mask, 1.0, 0.0)[:, None] * np.nan_to_num(by) / sd[:, None]
             precision += steep[:, :, None] * steep[:, None]
-            pull += steep * np.where(known, (values - np.nan_to_num(at_point.value[k])) / sd, 0.0)[:, None]
+            pull += steep * np.where(mask, (values - np.nan_to_num(at_point.value[k])) / sd, 0.0)[:, None]
         across = np.column_stack([-np.sin(self.direction[row]), np.cos(self.direction[row])])
         covariance = np.linalg.inv(precision)
         size = _ROOM * np.sqrt(np.einsum("ni,nij,nj->n", across, covariance, across))
@@ -273,7 +273,7 @@ class Likelihood:
         mean = np.einsum("ni,nij,nj->n", across, covariance, pull)
         centre[row[less]], width[row[less]] = np.clip(mean, -REACH, REACH)[less], size[less]
         values_there = {name: at_point.value[k][less] for k, name in enumerate(self.measured)}
-        return _Narrow(centre, width, row[less], values_there, {name: each[less] for name, each in spread.items()})
+        return _Narrow(centre, width, row[less], values_there, {name: column[less] for name, column in spread.items()})
 
     def _resolved(
         self, row: np.ndarray, noise: Mapping[str, float], mapping: SegmentMap, value: np.ndarray
@@ -281,13 +281,13 @@ class Likelihood:
         """Indices of segments, and the map with points so dense that results change by their noise between two."""
         steps = np.ones(row.size)
         for k, name in enumerate(self.measured):
-            measured, sd = (each[row] for each in self.data.observed[name])
+            measured, sd = (column[row] for column in self.data.observed[name])
             change = np.abs(np.diff(value[k] @ mapping.interpolate.T)).max(axis=1) / (sd * noise.get(name, 1.0))
             steps = np.fmax(steps, np.where(np.isfinite(measured), change, 1.0))
         times = 2 ** np.ceil(np.log2(np.minimum(steps, _FINEST))).astype(int)
-        for each in np.unique(times).tolist():
-            count = each * mapping.at_points.size
-            yield np.flatnonzero(times == each), segment_map(mapping.kind, mapping.at_nodes.size, count)
+        for factor in np.unique(times).tolist():
+            count = factor * mapping.at_points.size
+            yield np.flatnonzero(times == factor), segment_map(mapping.kind, mapping.at_nodes.size, count)
 
     def _integrals(
         self, segments: Segments, noise: Mapping[str, float], ends: np.ndarray, mapping: SegmentMap, value: np.ndarray,
@@ -303,7 +303,7 @@ class Likelihood:
         exponent = scatter.copy()
         pulls, squares = [], dict.fromkeys(self.noise, np.zeros(exponent.shape))
         for k, name in enumerate(self.measured):
-            measured, sd = (each[row, None] for each in self.data.observed[name])
+            measured, sd = (column[row, None] for column in self.data.observed[name])
             sd = sd * noise.get(name, 1.0)
             at = value[k] @ mapping.interpolate.T
             for power in range(3):
@@ -338,8 +338,8 @@ def _widened(slopes: np.ndarray, width: int) -> np.ndarray:
 
 def _sums(terms: Sequence[_Terms], rows: int, width: int) -> tuple[np.ndarray, np.ndarray]:
     """Logarithms of the sums of terms by row, -1e300 for an empty one, and their derivatives, in `width` columns."""
-    row, log = (np.concatenate(each) for each in list(zip(*terms, strict=True))[:2])
-    slope = np.concatenate([_widened(each, width) for *_, each in terms])
+    row, log = (np.concatenate(column) for column in list(zip(*terms, strict=True))[:2])
+    slope = np.concatenate([_widened(block, width) for *_, block in terms])
     top = np.full(rows, -1e300)
     np.maximum.at(top, row, log)
     term = np.exp(log - top[row])
@@ -371,6 +371,6 @@ def check_energy(scene: Scene, names: tuple[str, ...], data: Measurements) -> No
         rows = np.flatnonzero((values - _BEYOND * noise) * np.cos(steepest) > 1)
     if rows.size:
         k, more = int(rows[0]), ", ..." if rows.size > _NAMED else ""
-        where = ", ".join(data.label(each) for each in rows[:_NAMED].tolist()) + more
+        where = ", ".join(data.label(row) for row in rows[:_NAMED].tolist()) + more
         most = f"at most 1/cos(angle) = {1 / np.cos(data.angle[k]):.4g} there, and {_BEYOND:g} standard deviations"
         raise InputError("restitution", float(values[k]), most, f"is more than the impact's energy allows ({where})")

@@ -82,7 +82,7 @@ def _ends(objective: Objective, best: np.ndarray) -> list[list[End]]:
     ends = [[_end(objective, best, k, sign) for sign in (-1.0, 1.0)] for k in entries]
     for k in entries:
         for side in (0, 1):
-            others = [each.inner for j, both in enumerate(ends) for each in both if j != k]
+            others = [end.inner for j, both in enumerate(ends) for end in both if j != k]
             ends[k][side] = _from_elsewhere(objective, best, k, ends[k][side], others)
     for _ in range(_ROUNDS):  # a point evaluated on the way to one end may lie outside another
         moved = False
@@ -127,8 +127,8 @@ def _end(objective: Objective, best: np.ndarray, k: int, sign: float, after: np.
         value = float(best[k] + sign * step)
         ahead = np.clip(at + tangent * (step - abs(at[k] - best[k])), free.low, free.high)
         aside = at if after is None else np.clip(best + through * step, free.low, free.high)
-        starts = [_with(each, k, value) for each in (ahead, aside, at, best)]
-        start = next((each for each in starts if np.isfinite(objective.value(each))), starts[0])
+        starts = [_with(guess, k, value) for guess in (ahead, aside, at, best)]
+        start = next((guess for guess in starts if np.isfinite(objective.value(guess))), starts[0])
         point = profile_point(objective, start, k, value)
         height = objective.value(point)
         if height > top + _BETTER * objective.drop:
@@ -197,10 +197,10 @@ def _from_elsewhere(objective: Objective, best: np.ndarray, k: int, end: End, ot
             if way * (value - best[k]) > 0:
                 starts.append(np.clip(best + (point - best) * (value - best[k]) / way, free.low, free.high))
         guess = _with(np.clip(free.start, free.low, free.high), k, value)
-        followed = [each for each in (max(starts, key=coarse.value), guess) if coarse.value(each) > top - _HOPELESS]
+        followed = [start for start in (max(starts, key=coarse.value), guess) if coarse.value(start) > top - _HOPELESS]
         if not followed:
             break
-        point = max((profile_point(objective, each, k, value) for each in followed), key=objective.value)
+        point = max((profile_point(objective, start, k, value) for start in followed), key=objective.value)
         if objective.value(point) > top + _BETTER * objective.drop:
             raise _MoreLikely(point)
         if not objective.value(point) > top - objective.drop * (1 - _BETTER):
@@ -230,15 +230,15 @@ def judged(objective: Objective, best: np.ndarray, k: int, ends: Sequence[End]) 
     With both ends open the data may still tell the entry in combination with others: they do if the likelihood falls
     when the others keep their values.
     """
-    still_open = [each.open for each in ends]
+    still_open = [end.open for end in ends]
     if not any(still_open):
         return IDENTIFIED
     if not all(still_open):
         return ONE_SIDE
     free, least = objective.free, objective.value(best) - objective.drop
     alone = (
-        _with(best, k, best[k] + part * (bound[k] - best[k]))
+        _with(best, k, best[k] + share * (bound[k] - best[k]))
         for bound in (free.low, free.high)
-        for part in (0.02, 0.1, 0.3, 1.0)
+        for share in (0.02, 0.1, 0.3, 1.0)
     )
     return COMBINED if free.size > 1 and any(objective.value(point) < least for point in alone) else NOT_AT_ALL
