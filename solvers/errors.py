@@ -47,7 +47,7 @@ def one_line(text: str) -> str:
     return "".join(c if c.isprintable() else repr(c)[1:-1] for c in text)
 
 
-def nearest(word: object, known: Iterable[str]) -> str | None:
+def nearest(word: object, candidates: Iterable[str]) -> str | None:
     """Return the known name most similar to `word`, preferably one that begins with it, or None if none is near.
 
     Leading dashes of options are ignored.
@@ -56,16 +56,16 @@ def nearest(word: object, known: Iterable[str]) -> str | None:
 
     if not isinstance(word, str):
         return None
-    names = {name.lower().lstrip("-"): name for name in known}
+    names = {name.lower().lstrip("-"): name for name in candidates}
     wanted = word[:_LONGEST].lower().lstrip("-")
     close = get_close_matches(wanted, names, cutoff=_NEAR)
     begun = [name for name in close if name.startswith(wanted)]
     return names[(begun or close)[0]] if close else None
 
 
-def did_you_mean(word: object, known: Iterable[str]) -> str:
+def did_you_mean(word: object, candidates: Iterable[str]) -> str:
     """Return `, did you mean NAME?` for the nearest known name, or an empty text."""
-    name = nearest(word, known)
+    name = nearest(word, candidates)
     return f", did you mean {name}?" if name else ""
 
 
@@ -170,7 +170,7 @@ class ComputationError(WetDoubletError, RuntimeError):
         when = f" at t = {self.time:.6g} s" if self.time is not None else ""
         state = ", ".join(f"{name} = {value:.6g}" for name, value in self.state.items())
         parts = [self.message + where + when, state and f"state {state}", self.advice]
-        return " ".join("; ".join(part for part in parts if part).split())
+        return " ".join("; ".join(text for text in parts if text).split())
 
 
 class CheckFailed(WetDoubletError):

@@ -37,15 +37,15 @@ def gradients(
         results = experiment.results(_RESULTS, row, speed[line] * np.cos(within), within)
         by_free = results.free * scales(experiment, row)
         by_free[0] *= (np.cos(within) / np.cos(angle))[:, None]
-        known = (results.outcome != UNDECIDED)[:, None]
-        steepest = np.abs(by_free * known).max(axis=1, initial=0.0)[:, None]
+        mask = (results.outcome != UNDECIDED)[:, None]
+        steepest = np.abs(by_free * mask).max(axis=1, initial=0.0)[:, None]
         weight = np.sin(2 * angle)[:, None]
-        return weight * np.hstack(by_free * known), weight * np.hstack(~known * steepest)
+        return weight * np.hstack(by_free * mask), weight * np.hstack(~mask * steepest)
 
     total, error = np.zeros((2, pair.size, SLOPES, entries))
     ends = np.column_stack([wide.low, wide.high])
     both = integrals(columns, wide.line, ends, True, tolerance, pair.size)
-    total[:, NORMAL:], error[:, NORMAL:] = (each.reshape(pair.size, -1, entries) for each in both)
+    total[:, NORMAL:], error[:, NORMAL:] = (block.reshape(pair.size, -1, entries) for block in both)
     _add_limits(experiment, pair, speed, parts, total, error)
     return total.reshape(pair.size, -1), error.reshape(pair.size, -1)
 

@@ -40,24 +40,24 @@ def collide_by_kernel(
     ledger = any(name in LEDGER for name in request.of)
     jumps = min((DEFINITIONS[name].jumps for name in request.of if name in DEFINITIONS), default=2)
     for first in range(0, which.size, _STRETCH):
-        part = which[first : first + _STRETCH]
-        whole = part.size == request.size and bool((part == np.arange(part.size)).all())
-        impacts, sound = impacts_of(request if whole else request.subset(part))
+        rows = which[first : first + _STRETCH]
+        whole = rows.size == request.size and bool((rows == np.arange(rows.size)).all())
+        impacts, sound = impacts_of(request if whole else request.subset(rows))
         books = np.zeros(impacts.size, OWN_LEDGER) if ledger else None
         answers = run_kernel(impacts, request.rtol, "rotation" in request.of, threads, jumps=jumps, ledgers=books)
         decided = answers["status"] <= LAST_ANSWER
         if books is not None:  # where the ledger is open the trajectory is wrong
             decided &= _closed(answers, books, request.rtol)
-        if part.size == decided.size and decided.all():  # the usual case; avoids copies
-            finished(part, block_of(request.of, answers, impacts, books))
+        if rows.size == decided.size and decided.all():  # the usual case; avoids copies
+            finished(rows, block_of(request.of, answers, impacts, books))
             continue
         done = sound.copy()
         done[sound] = decided
         finished(
-            part[done],
+            rows[done],
             block_of(request.of, answers[decided], impacts.subset(decided), None if books is None else books[decided]),
         )
-        incomplete.append(part[~done])
+        incomplete.append(rows[~done])
     return np.concatenate(incomplete)
 
 

@@ -333,7 +333,7 @@ class Package:
         return self._derived(f"{kind}{slot}_{name}.h", "user_law_header_text", slot, name, slopes)
 
     def _derived(self, file: str, function: str, *arguments: str | bool) -> str:
-        """Text of a file that was not emitted, by a function of `derive.emit.one` that takes a model."""
+        """Text of a file that was not emitted, by a function of `derive.emit.first_use` that takes a model."""
         return derived_once(f"{self.digest[:16]}-{file}", function, self.source, self.name, *arguments)
 
     @cached_property

@@ -56,7 +56,7 @@ def _in_space(pairs: Pairs, rtol: float, threads: int, ledger: bool) -> Ends:
     answers = run_kernel(pairs.impacts, rtol, False, threads, ledgers=books)
     states = load(select_model(pairs.scene, True, full=ledger, space=True)).state
     ends = _of_answers(pairs, answers, books, tuple(states))
-    known = answers["status"] == Status.DECIDED
+    mask = answers["status"] == Status.DECIDED
     names = load(select_model(pairs.scene, True, space=True)).names("outputs")
     place = {name: k for k, name in enumerate(names)}
     rate = pairs.impacts.rates
@@ -66,11 +66,11 @@ def _in_space(pairs: Pairs, rtol: float, threads: int, ledger: bool) -> Ends:
         spins: np.ndarray = answers["shown"][:, first : first + 3]
         return spins
 
-    ends.normal[known] = vector("final_normal")[known]
-    ends.turning[known] = (vector("final_rotation_rate") * rate[:, None])[known]
+    ends.normal[mask] = vector("final_normal")[mask]
+    ends.turning[mask] = (vector("final_rotation_rate") * rate[:, None])[mask]
     for k, name in enumerate(("final_spin", "final_spin_partner")):
-        ends.spins[known, k] = (vector(name) * rate[:, None])[known]
-    ends.opening[known] = (-pairs.opening * answers["shown"][:, place["restitution"]])[known]
+        ends.spins[mask, k] = (vector(name) * rate[:, None])[mask]
+    ends.opening[mask] = (-pairs.opening * answers["shown"][:, place["restitution"]])[mask]
     return ends
 
 
@@ -87,7 +87,7 @@ def _in_planes(pairs: Pairs, axis: np.ndarray, along: np.ndarray, rtol: float, t
     answers = run_kernel(impacts, rtol, True, threads, ledgers=books)
     states = load(select_model(scene, not bool(pairs.head_on.all()), full=ledger)).state
     ends = _of_answers(pairs, answers, books, tuple(states))
-    known = answers["status"] == Status.DECIDED
+    mask = answers["status"] == Status.DECIDED
     rest = pairs.spins - along[:, 1:, None] * axis[:, None]
     axis, rate, oblique = sense[:, None] * axis, impacts.rates, impacts.oblique
     ends.slip[:] = np.where(oblique, np.abs(ends.slip), np.nan)  # a ratio of lengths, as in space
@@ -96,10 +96,10 @@ def _in_planes(pairs: Pairs, axis: np.ndarray, along: np.ndarray, rtol: float, t
         name: np.where(oblique, values * rate, 0.0) for name, values in outputs.items() if name.startswith("final")
     }
     moved.setdefault("final_spin_partner", moved["final_spin"])
-    turned = np.where(known, answers["turned"], 0.0)[:, None]
+    turned = np.where(mask, answers["turned"], 0.0)[:, None]
     across = np.cross(axis, pairs.normal)
     ends.normal = np.cos(turned) * pairs.normal + np.sin(turned) * across
-    ends.opening[known] = (-pairs.opening * answers["shown"][:, 0])[known]
+    ends.opening[mask] = (-pairs.opening * answers["shown"][:, 0])[mask]
     ends.turning = moved["final_rotation_rate"][:, None] * axis
     ends.energy[:, :2] += spin_energy(pairs, rest)[:, None]
     for k, name in enumerate(("final_spin", "final_spin_partner")):

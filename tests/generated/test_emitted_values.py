@@ -12,7 +12,7 @@ import casadi
 import mpmath
 import pytest
 import sympy as sp
-from wetdoublet.derive.emit.one import structure_text
+from wetdoublet.derive.emit.first_use import structure_text
 from wetdoublet.derive.equations.model import Model, derive
 from wetdoublet.derive.physics.forces import FILM, SHEAR
 from wetdoublet.derive.laws import LAWS
