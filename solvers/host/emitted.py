@@ -158,7 +158,7 @@ def derivation() -> str:
 
 
 def derived_once(name: str, function: str, *arguments: str | bool) -> str:
-    """A text from the cache; `function` of `derive.emit.first_use` makes it if there is none of that name and derivation."""
+    """A text from the cache; `function` of `derive.emit.first_use` makes it if none has that name and derivation."""
     from .user_cache import fetch
 
     def alone() -> bytes:
