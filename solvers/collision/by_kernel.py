@@ -95,7 +95,7 @@ def collision(
         ComputationError: as `recorded` and `assembled`.
     """
     record = followed(problem, rtol, until, ledger=ledger, trajectory=trajectory)
-    answer, books = _row(record.answers), None if record.ledger is None else _row(record.ledger)
+    answer, account = _row(record.answers), None if record.ledger is None else _row(record.ledger)
     separated = answer["outcome"] > 0
     names, words = problem.model(full=ledger).names("outputs"), words_of(problem.scene)
     log = record.events[0, : answer["events"]]
@@ -115,8 +115,8 @@ def collision(
         steps=answer["steps"],
         decided=record.decided,
         rtol=rtol,
-        terms=books and {name: books[field] for name, field in TERMS.items() if field in books},
-        momentum=books["momentum"] if books else 1.0,
+        terms=account and {name: account[field] for name, field in TERMS.items() if field in account},
+        momentum=account["momentum"] if account else 1.0,
         trajectory=_trajectory(problem, rtol, record, ledger) if trajectory else None,
     )
 

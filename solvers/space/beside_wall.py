@@ -45,9 +45,9 @@ class Planar:
 
 def _by_kernel(impacts: Impacts, rtol: float, threads: int, ledger: bool) -> Planar:
     """Planar collisions by the kernel."""
-    books = np.zeros(impacts.size, OWN_LEDGER) if ledger else None
-    answers = run_kernel(impacts, rtol, False, threads, ledgers=books)
-    terms = np.full((answers.size, len(TERMS)), np.nan) if books is None else of_kernel(books)
+    ledgers = np.zeros(impacts.size, OWN_LEDGER) if ledger else None
+    answers = run_kernel(impacts, rtol, False, threads, ledgers=ledgers)
+    terms = np.full((answers.size, len(TERMS)), np.nan) if ledgers is None else of_kernel(ledgers)
     opening, slide, _, roll = answers["shown"].T[:4]
     outcome, certified = answers["outcome"].astype(int), answers["certified"] != 0
     reason = np.full(answers.size, "", object)

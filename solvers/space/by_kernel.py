@@ -52,10 +52,10 @@ def by_kernel(pairs: Pairs, rtol: float, threads: int, ledger: bool = False) -> 
 
 
 def _in_space(pairs: Pairs, rtol: float, threads: int, ledger: bool) -> Ends:
-    books = np.zeros(pairs.size, OWN_LEDGER) if ledger else None
-    answers = run_kernel(pairs.impacts, rtol, False, threads, ledgers=books)
+    ledgers = np.zeros(pairs.size, OWN_LEDGER) if ledger else None
+    answers = run_kernel(pairs.impacts, rtol, False, threads, ledgers=ledgers)
     states = load(select_model(pairs.scene, True, full=ledger, space=True)).state
-    ends = _of_answers(pairs, answers, books, tuple(states))
+    ends = _of_answers(pairs, answers, ledgers, tuple(states))
     mask = answers["status"] == Status.DECIDED
     names = load(select_model(pairs.scene, True, space=True)).names("outputs")
     place = {name: k for k, name in enumerate(names)}
@@ -83,10 +83,10 @@ def _in_planes(pairs: Pairs, axis: np.ndarray, along: np.ndarray, rtol: float, t
     sense = np.where(along[:, 0] < 0, -1.0, 1.0)  # the angle is not negative
     others = {"impact_spin": sense * along[:, 1], "impact_partner_spin": sense * along[:, 2]}
     impacts = Impacts(scene, -pairs.opening, angle, others)
-    books = np.zeros(pairs.size, OWN_LEDGER) if ledger else None
-    answers = run_kernel(impacts, rtol, True, threads, ledgers=books)
+    ledgers = np.zeros(pairs.size, OWN_LEDGER) if ledger else None
+    answers = run_kernel(impacts, rtol, True, threads, ledgers=ledgers)
     states = load(select_model(scene, not bool(pairs.head_on.all()), full=ledger)).state
-    ends = _of_answers(pairs, answers, books, tuple(states))
+    ends = _of_answers(pairs, answers, ledgers, tuple(states))
     mask = answers["status"] == Status.DECIDED
     rest = pairs.spins - along[:, 1:, None] * axis[:, None]
     axis, rate, oblique = sense[:, None] * axis, impacts.rates, impacts.oblique
@@ -107,7 +107,7 @@ def _in_planes(pairs: Pairs, axis: np.ndarray, along: np.ndarray, rtol: float, t
     return ends
 
 
-def _of_answers(pairs: Pairs, answers: np.ndarray, books: np.ndarray | None, states: tuple[str, ...]) -> Ends:
+def _of_answers(pairs: Pairs, answers: np.ndarray, ledgers: np.ndarray | None, states: tuple[str, ...]) -> Ends:
     """Ends from the answers of any structure, whose model has these states."""
     ends = Ends.blank(pairs.size)
     touch = answers["status"] == Status.PROVED_AT_TOUCH
@@ -120,6 +120,6 @@ def _of_answers(pairs: Pairs, answers: np.ndarray, books: np.ndarray | None, sta
     for k in np.flatnonzero(answers["status"] > LAST_ANSWER):
         n = nondimensionalise(without_spins(pairs.scene), -float(pairs.opening[k]), 0.0)
         ends.outcome[k], ends.reason[k] = FAILED, str(n.in_si(undecided(answers[k], states)))
-    if books is not None:
-        ends.energy[:] = of_kernel(books) * (float(pairs.scene.material["reduced_mass"]) * pairs.opening**2)[:, None]
+    if ledgers is not None:
+        ends.energy[:] = of_kernel(ledgers) * (float(pairs.scene.material["reduced_mass"]) * pairs.opening**2)[:, None]
     return ends
