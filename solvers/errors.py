@@ -9,7 +9,7 @@ _LONGEST_NAME = 200  # most characters of its field, which may be a file and a l
 _NEAR = 0.6  # least similarity, 0 to 1, at which a name is suggested
 
 
-def shown(value: object) -> str:
+def excerpt(value: object) -> str:
     """Return `value` as in a scene file, on one line of at most 80 characters."""
     if isinstance(value, str):
         text = '"' + repr(value[: _LONGEST + 1])[1:-1] + '"'  # repr escapes line breaks
@@ -129,7 +129,7 @@ class InputError(WetDoubletError, ValueError):
         if self.value is None:
             text = self.problem or "missing"
         else:
-            text = f"{shown(self.value)} {text}"
+            text = f"{excerpt(self.value)} {text}"
         return one_line(f"{cut(str(self.field), _LONGEST_NAME)}: {text}; accepted: {self.accepted}")
 
 

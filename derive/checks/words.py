@@ -63,7 +63,7 @@ def _of_event(event: OwnEvent) -> str:
         text += "the motion is continuous. "
     if event.harmless:
         return text + "The energy certificate holds beside it."
-    if event.reach(BRIDGED).known:
+    if event.reach(BRIDGED).is_known:
         return text + "Sticks are proved where the energy does not suffice for it, or after it."
     return text + "Sticks are proved after it only."
 

@@ -112,7 +112,7 @@ def _event(event: OwnEvent) -> dict[str, object]:
         **asdict(event.proposed.row),
         **{name: getattr(event, name) for name in ("takes", "harmless", "rotates", "turns", "spins")},
         "mark": event.mark.name, "meaning": event.proposed.meaning, "source": event.proposed.source,
-        "reach": asdict(reach) if reach.known else None,
+        "reach": asdict(reach) if reach.is_known else None,
     }  # fmt: skip
 
 

@@ -235,8 +235,8 @@ def _pint_factor(unit: str, si: str, value: object, field: str, accepted: str) -
         size, root, zero = _judged(unit)
         our_size, ours, _ = _judged(si)
     except _PINT_SAYS_NO:
-        known = [name for name, (kind, _) in COMMON.items() if kind == si]
-        hint = did_you_mean(unit, known) if nearest(unit, known) else did_you_mean(unit, COMMON)
+        names = [name for name, (kind, _) in COMMON.items() if kind == si]
+        hint = did_you_mean(unit, names) if nearest(unit, names) else did_you_mean(unit, COMMON)
         raise InputError(field, value, accepted, f'has the unknown unit "{unit}"{hint}') from None
     # Compare root units, not dimensionality: for pint both an angle and a percentage are dimensionless.
     if root != ours:

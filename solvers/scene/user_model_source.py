@@ -76,12 +76,12 @@ def _read(path: Path, label: str) -> bytes:
 def _of_folder(folder: Path, label: str) -> Package:
     try:
         package = Package(bounded.text(folder / "manifest.json"), folder)
-        known = (
+        current = (
             package.manifest["kind"] == "wetdoublet model" and package.manifest["format"] == 1 and _is_whole(package)
         )
     except (OSError, ValueError, LookupError, AttributeError, TypeError, bounded.NotRead):
-        known = False
-    if not known:
+        current = False
+    if not current:
         raise InputError(label, str(folder), ACCEPTED, "holds no emitted model")
     if package.manifest["library"] != library_digest():
         problem = "was emitted for other equations of the library than these"

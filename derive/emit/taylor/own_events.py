@@ -23,7 +23,7 @@ def own_event_functions(
     Raises:
         EmissionError: a guard has an operation without a recurrence.
     """
-    present = [event for event in events if event.there(model.structure)]
+    present = [event for event in events if event.fits(model.structure)]
     if not present:
         return [], []
     guards = model["events"].by_name
@@ -69,5 +69,5 @@ def own_event_functions(
         numbers = [len(EVENTS) + place, len(WORDS) + place, where.get("motion", 0), where.get("film", -1)]
         signs = [sign or 0 for sign in (reach.by_gap, reach.opening, reach.closing)]
         texts = [*map(str, numbers), event.mark.name.upper(), *map(str, signs)]
-        table.append(f"    {{{', '.join([*texts, str(int(reach.known)), str(int(event.harmless))])}}},")
+        table.append(f"    {{{', '.join([*texts, str(int(reach.is_known)), str(int(event.harmless))])}}},")
     return [*table, "};", ""], [*lines, ""]

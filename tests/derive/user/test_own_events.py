@@ -89,7 +89,7 @@ def test_what_is_shown_decides_the_certificates(body: str, takes: bool, harmless
     event = model(body).events[0]
     assert event.takes is takes
     assert event.harmless is harmless
-    assert event.reach(OBLIQUE).known is known
+    assert event.reach(OBLIQUE).is_known is known
 
 
 def test_structures_that_cannot_have_an_event():
@@ -102,7 +102,7 @@ def test_structures_that_cannot_have_an_event():
         Structure(True, True, False, partner="pair"): True,
         Structure(True, True, False, reduced=True): False,
     }
-    assert {structure: event.there(structure) for structure in wanted} == wanted
+    assert {structure: event.fits(structure) for structure in wanted} == wanted
 
 
 def test_the_angle_turned_and_the_time_are_states():
