@@ -74,7 +74,7 @@ class Differences:
     on_map: OnMap | None = None
 
 
-def differences(one: str, other: str, probe: str = "granulation", changes: dict[str, str] | None = None) -> Differences:
+def differences(old: str, new: str, probe: str = "granulation", changes: dict[str, str] | None = None) -> Differences:
     """Compare two models; InputError for an argument that is none of these.
 
     Arguments:
@@ -85,7 +85,7 @@ def differences(one: str, other: str, probe: str = "granulation", changes: dict[
     from ...derive.emit.compare import compare, equations  # imports sympy
     from ...derive.emit.read import ReadError
 
-    sides = _sides(one, other, probe, changes or {})
+    sides = _sides(old, new, probe, changes or {})
     try:
         equation_changes = compare(*(equations(side.modules) for side in sides))
     except ReadError as error:
