@@ -9,6 +9,6 @@ left after eleven halvings is undecided and black: a sliver along the boundaries
 import numpy as np
 from wetdoublet import prove_map
 
-found = prove_map("granulation", stokes=np.geomspace(0.08, 0.13, 3), angle=np.radians([31, 36]), depth=11)
-print(found)
-found.plot("proved_map.png")
+proved = prove_map("granulation", stokes=np.geomspace(0.08, 0.13, 3), angle=np.radians([31, 36]), depth=11)
+print(proved)
+proved.plot("proved_map.png")
