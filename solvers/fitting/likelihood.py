@@ -24,6 +24,7 @@ from .rare_outcomes import RARE, beyond_reach
 from .scatter import REACH, Resolution, ScatterLines, SegmentMap, Segments, in_deviations, nearest_normals, segment_map
 
 NEGLIGIBLE = 1e-12  # probability of the scatter below which a segment is left out
+_PASSED = 1e-3  # weight of a line, and probability of an outcome on it, that do not count where lines are compared
 FINER = (3, 7)
 """Factors of the number of lines of rows that need more. Odd: the middle line goes through the nominal impact."""
 KNEE, TAIL = 12.0, 4.0
@@ -141,17 +142,33 @@ class Likelihood:
     def refine(self, values: np.ndarray, tolerance: float) -> None:
         """Choose each row's factor of lines: the last of `FINER` that still changes its log-likelihood, else 1.
 
-        A change counts if it is larger than `tolerance`.
+        A change counts if it is larger than `tolerance`. Rows beside a place where three outcomes meet have the largest
+        factor: as the free entries move it across a line, their log-likelihood has a kink.
         """
         experiment, size, noise = self.experiment_at(values), self.size, self._factors(values)
         self.line_factors = np.ones(size, int)
-        now, open_ = self.evaluate(experiment, Resolution(), noise).rows, np.ones(size, bool)
+        now, undecided = self.evaluate(experiment, Resolution(), noise).rows, np.ones(size, bool)
         for factor in FINER:
-            fine = self.evaluate(experiment, Resolution(), noise, np.where(open_, factor, 0)).rows
-            open_ &= np.abs(fine - now) > tolerance
-            self.line_factors[open_], now = factor, fine
-            if not open_.any():
+            fine = self.evaluate(experiment, Resolution(), noise, np.where(undecided, factor, 0)).rows
+            undecided &= np.abs(fine - now) > tolerance
+            self.line_factors[undecided], now = factor, fine
+            if not undecided.any():
                 break
+        self.line_factors[self._beside_meeting(experiment, self.data.noisier(noise))] = FINER[-1]
+
+    def _beside_meeting(self, experiment: Experiment, data: Measurements) -> np.ndarray:
+        """Mask of the rows whose lines do not all have the same outcomes."""
+        lines = ScatterLines.through(data, self.direction, Resolution().lines * FINER[0])
+        segments = Segments.between(lines, lines.changes(experiment, Resolution(within=1e-3)))
+        segments = segments.subset((segments.mass() > _PASSED) & (segments.share > _PASSED))
+        seen = np.zeros((lines.row.size, 4), bool)  # undecided ones in the last column
+        seen[segments.line, segments.outcome] = True
+        count, some = np.zeros((self.size, 4), int), np.unique(segments.line)
+        np.add.at(count, lines.row[some], seen[some])
+        unlike: np.ndarray = ((count > 0) & (count < np.bincount(lines.row[some], minlength=self.size)[:, None])).any(
+            axis=1
+        )
+        return unlike
 
     def experiment_at(self, values: np.ndarray) -> Experiment:
         """The experiment with these values of the free entries; InputError if they make a row's scene impossible."""

@@ -28,11 +28,11 @@ _NEIGHBOURHOOD = np.log(10.0)  # largest distance of these points from the scene
 _CLOSE = 6.0  # log-likelihood within which a coarse optimum is followed at full resolution
 _DIP = 0.1  # of the log-likelihood between two maxima that count as separate
 _EVALUATIONS = 30  # most evaluations of least squares, and most iterations of SLSQP
-_IMPOSSIBLE = 1e3  # loss of log-likelihood where the scene is impossible
+IMPOSSIBLE = 1e3  # loss of log-likelihood where the scene is impossible
 _TOLERANCE = 1e-3  # of the log-likelihood
 _ROUNDS = 3  # of turning the lines and refining rows
 _FAR_OFF = 1.5  # standard errors that a maximum may be from where the lines were turned
-_ROUGH = Resolution(1, 6, 96, 11)
+ROUGH = Resolution(1, 6, 96, 11)
 _DIRECT = 0.02  # error of a row's log-likelihood beyond which it gets more lines
 _LEAST = 1e-9  # residual below which a row has no derivatives
 
@@ -183,7 +183,7 @@ def optimise(
     climbs: list[Optimum] = []
     for start in _screened(likelihood, free, starts, seed, np.inf if everywhere else _NEIGHBOURHOOD):
         likelihood.aim(free.values(start))
-        rough = Objective(likelihood, free, _ROUGH)
+        rough = Objective(likelihood, free, ROUGH)
         if np.isfinite(rough.value(start)):
             inner = rough_maximum(rough, start)
             climbs.append(Optimum(inner, rough.value(inner)))
@@ -230,7 +230,7 @@ def refined_maximum(objective: Objective, start: np.ndarray) -> np.ndarray:
         at = from_white(z)
         value = objective.value(at)
         possible = np.isfinite(value)
-        return (at_start - value, -white.T @ objective.gradient(at)) if possible else (_IMPOSSIBLE, np.zeros(z.size))
+        return (at_start - value, -white.T @ objective.gradient(at)) if possible else (IMPOSSIBLE, np.zeros(z.size))
 
     box = LinearConstraint(white / span[:, None], (low - start) / span, (high - start) / span)
     optimum = minimize(
