@@ -11,7 +11,7 @@ sys.path.insert(0, str(HERE / "_ext"))
 os.environ["PATH"] = str(Path(sys.executable).parent) + os.pathsep + os.environ["PATH"]
 os.environ["WETDOUBLET_DOCS"] = str(HERE)  # and the data
 # as tests/helpers/flags.py, so that kernels are compiled once for both: of -O0 a fit takes more than twice as long
-os.environ.setdefault("WETDOUBLET_CFLAGS", "-O1 -fno-inline -Dalways_inline=")
+os.environ.setdefault("WETDOUBLET_CFLAGS", "-Og -fno-inline -fno-unroll-loops")
 
 from gallery_pictures import WrittenPictures  # noqa: E402 -- found by the path that is set above
 
