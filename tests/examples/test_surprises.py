@@ -22,7 +22,7 @@ from wetdoublet.solvers import (
 from ..helpers.scanned import Arrival, N, Outcome, Scan, W, X, scan_of
 from ..helpers.two_bodies import bodies_of
 
-pytestmark = [pytest.mark.slow, pytest.mark.usefixtures("optimized")]  # many collisions, by an integrator in Python too
+pytestmark = pytest.mark.slow  # many collisions by an integrator in Python
 GRANULATION, PENDULUM = Scene.load("granulation"), Scene.load("pendulum")
 WALL = GRANULATION.with_entries({"partner.wall": True})
 LIQUID = GRANULATION.with_entries({"liquid.glass_transition_pressure": "1 PPa"})
