@@ -137,7 +137,7 @@ def _last(text: str) -> str:
 def main() -> None:
     """Run all pages."""
     os.environ["PATH"] = f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"
-    os.environ.setdefault("WETDOUBLET_CFLAGS", "-Og -fno-inline -Dalways_inline=")  # as conf.py
+    os.environ.setdefault("WETDOUBLET_CFLAGS", "-Og -fno-inline -fno-unroll-loops")  # as conf.py
     os.environ.setdefault("CFLAGS", "-O0")
     for module in ("casadi", "h5netcdf", "matplotlib.figure", "pandas", "scipy.optimize", "xarray", *_COMMANDS):
         __import__(module)

@@ -15,7 +15,7 @@ scene, angle = wd.Scene.load("granulation"), np.radians(60)
 figure = plt.figure(figsize=(11, 6), layout="constrained")
 axes = figure.subplot_mosaic("aabbcc;.ddee.")
 
-viscosity = np.geomspace(0.1, 8, 16)  # Pa s
+viscosity = np.geomspace(0.1, 8, 9)  # Pa s
 for pressure, label in (("20 MPa", "glass at 20 MPa"), ("1 TPa", "glass at 1 TPa")):
     glassy = scene.with_entries({"liquid.glass_transition_pressure": pressure})
     speeds = [wd.critical(glassy.with_entries({"liquid.viscosity": mu}), angle=0.0).rows[0].speed for mu in viscosity]
@@ -51,7 +51,7 @@ for spin in (0.0, -2e4):
 axes["d"].set(xlabel="Stokes number", ylabel="e_t", title="6: backspin: faster can stick (shaded)", ylim=(-4, 2))
 axes["d"].legend(frameon=False, loc="lower right")
 
-speeds = np.geomspace(0.5, 30, 10)  # m/s
+speeds = np.geomspace(0.5, 30, 7)  # m/s
 means = [wd.collision_averages(scene, speeds=float(speed), tolerance=1e-3) for speed in speeds]
 labels = {
     "restitution_all": "mean e_n",

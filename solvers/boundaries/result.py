@@ -244,9 +244,9 @@ class Atlas(Boundaries):
 
     Example:
         >>> from wetdoublet.solvers import atlas
-        >>> found = atlas("granulation", span=("15 deg", "60 deg"), stokes=(0.01, 0.5), lines=5)
-        >>> found.region([0.5, 0.5], [0.02, 0.4])  # points of the plane: a stick and a bounce
-        array([0, 2], dtype=int8)
+        >>> found = atlas("granulation-dry-bridge", span=("20 deg", "30 deg"), stokes=(0.05, 0.3), lines=2)
+        >>> found.region([0.5, 0.5], [0.06, 0.29])  # a doublet that rotates and separates, and a bounce
+        array([1, 2], dtype=int8)
     """
 
     over: str = ANGLE
