@@ -96,12 +96,9 @@ def test_structures_that_cannot_have_an_event():
     """Head-on and beside a wall nothing turns, and a jump of the rotation needs the spin as a state."""
     event = model('event("lock", guard=omega - xi - k, jump={xi: omega})').events[0]
     wanted = {
-        OBLIQUE: True,
-        Structure(False, True, False): False,
-        Structure(True, True, False, partner="wall"): False,
-        Structure(True, True, False, partner="pair"): True,
-        Structure(True, True, False, reduced=True): False,
-    }
+        OBLIQUE: True, Structure(False, True, False): False, Structure(True, True, False, partner="wall"): False,
+        Structure(True, True, False, partner="pair"): True, Structure(True, True, False, reduced=True): False,
+    }  # fmt: skip
     assert {structure: event.fits(structure) for structure in wanted} == wanted
 
 

@@ -27,11 +27,8 @@ def impacts(scene: Scene, stokes: list[float], degrees: list[float], outcome: li
 
 
 PENDULUM = (
-    [1.36, 1.5, 0.42, 1.45, 2.5],
-    [20.0, 60.0, 60.0, 60.0, 40.0],
-    [0, 2, 1, 1, -1],
-    [np.nan, 0.3, 0.08, 0.19, 0.5],
-)
+    [1.36, 1.5, 0.42, 1.45, 2.5], [20.0, 60.0, 60.0, 60.0, 40.0], [0, 2, 1, 1, -1], [np.nan, 0.3, 0.08, 0.19, 0.5],
+)  # fmt: skip
 
 
 @pytest.mark.slow
