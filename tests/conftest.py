@@ -33,6 +33,11 @@ settings.register_profile("unhurried", deadline=None, suppress_health_check=[Hea
 settings.load_profile("unhurried")
 
 _SLOW = re.compile(r"^pytestmark = .*\bmark\.slow\b", re.MULTILINE)
+_SOME_SLOW = re.compile(r"\bmark\.slow\b|^from \.scenes import .*\bparts\b", re.MULTILINE)  # `parts` has marks
+_LONGEST = (
+    "harness/test_mutants.py", "test_recipes.py", "explorer/test_bundle.py", "explorer/test_in_browser.py",
+    "explorer/test_numbers_of_page.py", "checks/test_mutants.py", "paper/test_paper.py", "fitting/test_fit.py",
+)  # fmt: skip
 _IMPORTED = ("hypothesis", "pandas", "pint", "scipy.optimize", "sympy.physics.units", "xarray", "matplotlib.figure")
 
 
@@ -53,10 +58,18 @@ def pytest_collection_finish() -> None:
 
 
 def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool | None:
-    """Leave out files whose tests are all slow where these are not asked for: they need not even be imported."""
-    if not _quick(config) or collection_path.suffix != ".py":
+    """Leave out files of which no test is asked for, as all are slow or none is: they need not even be imported."""
+    asked = config.option.markexpr
+    if asked not in ("slow", "not slow") or collection_path.suffix != ".py":
         return None
-    return bool(_SLOW.search(collection_path.read_text(encoding="utf-8"))) or None
+    text = collection_path.read_text(encoding="utf-8")
+    left_out = _SLOW.search(text) if asked == "not slow" else not _SOME_SLOW.search(text)
+    return bool(left_out) or None
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """The files that take longest come first, lest one processor waits for them at the end."""
+    items.sort(key=lambda item: not str(item.path).endswith(_LONGEST))
 
 
 def _quick(config: pytest.Config) -> bool:

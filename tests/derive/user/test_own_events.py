@@ -89,7 +89,7 @@ def test_what_is_shown_decides_the_certificates(body: str, takes: bool, harmless
     event = model(body).events[0]
     assert event.takes is takes
     assert event.harmless is harmless
-    assert event.reach(OBLIQUE).known is known
+    assert event.reach(OBLIQUE).is_known is known
 
 
 def test_structures_that_cannot_have_an_event():
@@ -99,7 +99,7 @@ def test_structures_that_cannot_have_an_event():
         OBLIQUE: True, Structure(False, True, False): False, Structure(True, True, False, partner="wall"): False,
         Structure(True, True, False, partner="pair"): True, Structure(True, True, False, reduced=True): False,
     }  # fmt: skip
-    assert {structure: event.there(structure) for structure in wanted} == wanted
+    assert {structure: event.fits(structure) for structure in wanted} == wanted
 
 
 def test_the_angle_turned_and_the_time_are_states():

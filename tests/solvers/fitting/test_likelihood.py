@@ -143,7 +143,7 @@ def test_rows_of_other_viscosity_are_those_of_such_a_scene():
     names, values = ("liquid.film_thickness",), np.array([420e-6])
     together = Likelihood(scene, names, varied)(values).rows
     thicker = scene.with_entries({"liquid.viscosity": "13 Pa s"})
-    alone = [Likelihood(one, names, data.part(np.array([0])))(values).rows[0] for one in (scene, thicker)]
+    alone = [Likelihood(one, names, data.subset(np.array([0])))(values).rows[0] for one in (scene, thicker)]
     np.testing.assert_allclose(together, alone, rtol=1e-9)
 
 
