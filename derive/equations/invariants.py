@@ -206,11 +206,16 @@ def _conditions(
     """Matrix whose product with the vector of unknown coefficients gives all coefficients of dI/dt."""
     values: dict[sp.Expr, sp.Symbol] = {}
     givens = {quantity.symbol for quantity in VOCABULARY.values()} | groups
-    plain = {state: _rational(rate, givens - set(rates), values) for state, rate in rates.items()}
+
+    def rational(expression: sp.Expr) -> sp.Expr:
+        return _rational(expression, givens - set(rates), values)
+
+    plain = {state: rational(rate) for state, rate in rates.items()}
     unknown = sp.symbols(f"c:{len(ansatz)}", cls=sp.Dummy)
     change = sp.Integer(0)
     for factor, (momentum, power) in zip(unknown, ansatz, strict=True):
-        change += factor * (power.diff(gap) * plain.get(gap, sp.Integer(0)) * momentum + power * plain[momentum])
+        grows = sp.Add(*(rational(power.diff(state)) * rate for state, rate in plain.items()))
+        change += factor * (grows * momentum + rational(power) * plain[momentum])
     top, _ = sp.fraction(sp.together(change))
     equations = sp.Poly(sp.expand(top), *rates, *values.values(), *_flags(change, {*rates, *unknown, *givens})).coeffs()
     return sp.linear_eq_to_matrix(list(dict.fromkeys(equations)), list(unknown))[0]
