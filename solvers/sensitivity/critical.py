@@ -23,9 +23,8 @@ from ..scene.schema import SPEEDS
 from .boundaries import check_boundary_wrt, moving
 from .critical_result import Critical, CriticalSpeed
 from .materials import Material, materials_of
-from .uncertainty import LEVELS, check_samples, deviations, normal_deviates, possible_values, value_of
+from .uncertainty import LEVELS, check_samples, deviations, drawn, normal_deviates, value_of
 
-_BESIDE = 1e-6  # relative distance of the collisions that confirm a speed on both sides
 _NEAR, _FINE, _COARSE = 3.0, 100, 12  # factor about the speed within which draws are searched finely; samples a decade
 _WIDTH = 1e-5  # to which the speed of a draw is enclosed, relative
 _REACH, _PLACES = 10.0, 21  # factor up to which an entry is followed for an extreme, and number of its values
@@ -45,8 +44,8 @@ def critical(
 ) -> Critical:
     """The speed up to which impacts stick, for each angle and material.
 
-    The boundaries of all lines are traced over the range of Stokes numbers, and every change of outcome is checked by
-    collisions just below and just above it.
+    The boundaries of all lines are traced over the range of Stokes numbers, and every change of outcome is confirmed by
+    collisions just below and just above it (`boundary`).
 
     Arguments:
         scene: a Scene, a path or a preset's name; or a table of materials: a CSV file, a DataFrame, or a mapping of
@@ -102,11 +101,10 @@ def _of_material(
     rows = []
     for k, (at, changes) in enumerate(zip(traced.angles, traced.changes, strict=True)):
         row = CriticalSpeed(material.label, at, traced.window)
-        slowest, failure = ("", traced.failures[k]) if traced.failures[k] else _slowest(scene, row, changes, rtol)
-        if failure:
-            row = replace(row, sentences=(failure,), failed=True)
+        if traced.failures[k]:
+            row = replace(row, sentences=(traced.failures[k],), failed=True)
         else:
-            row = _row(scene, row, changes, slowest, traced.range_text)
+            row = _row(scene, row, changes, traced.range_text, rtol)
         if row.stokes is not None and uncertainty:
             row = _with_interval(scene, row, uncertainty, samples, rtol, traced.range_text)
         if row.stokes is not None and names:
@@ -119,8 +117,16 @@ def _of_material(
     return rows
 
 
-def _row(scene: Scene, row: CriticalSpeed, changes: Sequence[Change], slowest: str, searched: str) -> CriticalSpeed:
-    """The row with what its changes of outcome mean."""
+def _row(scene: Scene, row: CriticalSpeed, changes: Sequence[Change], searched: str, rtol: float) -> CriticalSpeed:
+    """The row with what its changes of outcome mean, or why nothing is known where there are none."""
+    if changes:
+        slowest = changes[0].before
+    else:
+        seen = collide_many(scene, stokes=row.searched[0], angle=row.angle, rtol=rtol, of=("outcome",))
+        if seen.outcome.item() < 0:
+            reason = f"no collision could be computed at the slowest: {seen.reason.item()}"
+            return replace(row, sentences=(reason,), failed=True)
+        slowest = OUTCOMES[seen.outcome.item()]
     per_stokes = 1 / scene.stokes_per_speed / math.cos(row.angle)
     outcomes = [slowest, *(one.after for one in changes)]
     ends = [each * per_stokes for each in (row.searched[0], *(one.stokes for one in changes), row.searched[1])]
@@ -141,31 +147,12 @@ def _row(scene: Scene, row: CriticalSpeed, changes: Sequence[Change], slowest: s
     return replace(row, sentences=tuple(sentences))
 
 
-def _slowest(scene: Scene, row: CriticalSpeed, changes: Sequence[Change], rtol: float) -> tuple[str, str]:
-    """The outcome at the lower end of the range; or why it is unknown, or which change collisions do not confirm."""
-    places = np.array([one.stokes for one in changes])
-    gaps = np.diff(places, prepend=0.0, append=np.inf) / 3
-    below, above = (np.minimum(_BESIDE * places, each) for each in (gaps[:-1], gaps[1:]))
-    stokes = np.concatenate([row.searched[:1], places - below, places + above])
-    seen = collide_many(scene, stokes=stokes, angle=row.angle, rtol=rtol, of=("outcome",))
-    first, *outcome = [OUTCOMES[code] if code >= 0 else "" for code in seen.outcome.values]
-    for one, *beside in zip(changes, outcome[: places.size], outcome[places.size :], strict=True):
-        if beside != [one.before, one.after]:
-            return "", f"collisions beside St {one.stokes:.10g} do not confirm the change of outcome found there"
-    slowest = changes[0].before if changes else first
-    return slowest, "" if slowest else f"no collision could be computed at the slowest: {seen.reason.values[0]}"
-
-
 def _with_interval(
     scene: Scene, row: CriticalSpeed, uncertainty: Mapping[str, Any], samples: int, rtol: float, searched: str
 ) -> CriticalSpeed:
     """The row with the 95 % interval of its relative speed: from draws of the entries, each located by collisions."""
     at = scene.with_impact(angle=row.angle)
-    normal = normal_deviates(samples, len(uncertainty))
-    columns = {
-        name: possible_values(at.fields[name], value_of(at, name), sigma * normal[:, k])
-        for k, (name, sigma) in enumerate(deviations(at, uncertainty).items())
-    }
+    columns = drawn(at, uncertainty, normal_deviates(samples, len(uncertainty)))
     try:
         speeds = _speeds(at, row, columns, samples, rtol)
     except ComputationError as error:  # no compiled kernel

@@ -11,6 +11,7 @@ from ..formatting.markdown import aligned, csv_text
 from ..host.pictures import Drawn
 from ..scene.origin import origin
 from ..scene.scene import Scene
+from .parameters import cell
 
 _SPEEDS = ("relative_speed", "speed", "interval", "bounces_above", "sticks")
 _UNITS = dict.fromkeys(_SPEEDS, "m/s") | {"angle": "rad", "stokes": "1"}
@@ -101,7 +102,11 @@ class Critical(Drawn):
         names = dict.fromkeys(name for one in self.rows for name in one.gradient)
         if names:
             lines += ["", "d ln(relative speed)/d ln p (* its derivative, SI, where p is zero)"]
-            lines += aligned([["", *where], *([name, *(_slope(one, name) for one in self.rows)] for name in names)])
+            slopes = [
+                [name, *(cell(one.elasticity.get(name), one.gradient.get(name), "0") for one in self.rows)]
+                for name in names
+            ]
+            lines += aligned([["", *where], *slopes])
         return "\n".join(lines)
 
     __repr__ = __str__  # what a notebook shows
@@ -130,10 +135,3 @@ def _interval(interval: tuple[float | None, float | None] | None) -> str:
     if low is None or high is None:
         return "open" if low == high else f"below {high:.4g}" if low is None else f"above {low:.4g}"
     return f"{low:.4g} to {high:.4g}"
-
-
-def _slope(one: CriticalSpeed, name: str) -> str:
-    if name not in one.gradient:
-        return "-"
-    elasticity = one.elasticity[name]
-    return f"{elasticity:.5g}" if elasticity is not None else f"* {one.gradient[name]:.4g}"
