@@ -12,11 +12,10 @@ import numpy as np
 
 from ...generated.automaton import OUTCOMES
 from ..boundaries.boundary import boundary
-from ..boundaries.changes import Change, changes_along
+from ..boundaries.changes import Change
 from ..boundaries.result import Boundaries
-from ..boundaries.scene_sampler import SceneSampler
-from ..changes.brackets import Brackets, enclose
-from ..changes.experiment import Rows
+from ..changes.brackets import Brackets, enclose, locate
+from ..changes.experiment import Experiment, Rows
 from ..changes.slopes import Lines, normals, outcomes_along, slopes
 from ..engines.settings import RTOL, check_rtol
 from ..errors import ComputationError, InputError
@@ -24,7 +23,7 @@ from ..formatting.markdown import numbers_aligned
 from ..host.arguments import check_function
 from ..host.pictures import Drawn
 from ..scene.scene import Scene
-from ..scene.schema import DEFAULTS, FIELDS, MEETING, SPEEDS
+from ..scene.schema import DEFAULTS, MEETING, SPEEDS
 from .parameters import Row, cell, check_wrt, elasticities, kind_of, numbers, parameter_map, references
 
 if TYPE_CHECKING:
@@ -260,8 +259,7 @@ def _of_logarithm(scene: Scene, angle: float, change: Change, names: tuple[str, 
         by_entry["impact.angle"] = float(-normal.angle[0] / normal.along[0])
         is_even = angle < _STEP and not scene.turns(0.0)  # beside head-on: the mirror image
         if not math.isfinite(by_entry["impact.angle"]) and (is_even or angle >= _STEP):  # no gradient grows there
-            low, high = (_moved(scene, abs(angle + side), change, rtol) for side in (-_STEP, _STEP))
-            by_entry["impact.angle"] = (high - low) / (2 * _STEP)
+            by_entry["impact.angle"] = _by_angle(experiment, speed, angle, change)
     by_parameter = np.array([by_entry[name] for name in names])
     if not np.isfinite(by_parameter).all():
         lost = ", ".join(name for name in names if not math.isfinite(by_entry[name]))
@@ -269,20 +267,21 @@ def _of_logarithm(scene: Scene, angle: float, change: Change, names: tuple[str, 
     return by_parameter
 
 
-def _moved(scene: Scene, angle: float, change: Change, rtol: float) -> float:
-    """Logarithm of St* over that of the change, at another angle (rad).
+def _by_angle(experiment: Experiment, speed: float, angle: float, change: Change) -> float:
+    """Derivative of ln v* of a change by the angle, from its places at angles beside.
 
     Raises:
         ComputationError: it is not there.
     """
-    FIELDS["impact.angle"].number(angle)
-    stokes = change.stokes * np.exp(_REACH * np.linspace(-1, 1, 6))
-    sampler = SceneSampler(scene, rtol)
-    [changes] = changes_along([angle], sampler, [sampler(np.full(stokes.size, angle), stokes)])
-    if isinstance(changes, ComputationError):
-        raise changes
-    same = [math.log(one.stokes / change.stokes) for one in changes
-            if (one.before, one.after) == (change.before, change.after)]  # fmt: skip
-    if not same:
+    angles = np.array([[angle - _STEP, 0.0], [angle + _STEP, 0.0]])
+    row, ends = np.zeros(2, int), np.full(2, np.expm1(_REACH))
+    beside = outcomes_along(experiment, Lines(row, np.full((2, 2), speed), angles, -ends, ends, relative=False))
+    grid = np.tile(np.expm1(_REACH * np.linspace(-1, 1, 6)), (2, 1))
+    changes = locate(beside, grid, _NARROW, unknown=-1)
+    same = [OUTCOMES.index(change.before), OUTCOMES.index(change.after)]
+    alike = (np.column_stack([changes.before, changes.after]) == same).all(axis=1)
+    places = [changes.place[alike & (changes.line == k)] for k in range(2)]
+    if not all(place.size for place in places):
         raise ComputationError("it is not found at angles beside")
-    return min(same, key=abs)
+    low, high = (math.log1p(min(place.tolist(), key=abs)) for place in places)
+    return (high - low) / (2 * _STEP)

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from casadi import SX, Function, cross, densify, dot, jacobian, norm_2, substitute, vertcat
+from casadi import SX, Function, cross, densify, dot, jacobian, norm_2, substitute, vertcat, vertsplit
 
 from ...generated import scaling
 from ..host.thread_caches import own_cache
@@ -28,8 +28,7 @@ RESULTS: Mapping[str, tuple[int, ...]] = {
 
 def quantities_of(model: Model) -> tuple[str, ...]:
     """Names of the quantities `g` of a pair's maps: groups that no vector changes, and sizes."""
-    moved = {"obliquity", "initial_normal", "initial_turning", "initial_spin", "initial_partner_spin"}
-    groups = (name for name in model.groups if name.rstrip(AXES).rstrip("_") not in moved and name not in moved)
+    groups = (name for name in model.groups if not name.startswith(("obliquity", "initial_")))
     return tuple(dict.fromkeys((*groups, *(SIZES if model.space else SIZES[:1]))))
 
 
@@ -125,7 +124,7 @@ def _of_spheres(
 ) -> SX:
     """Results of two spheres, as `space.ends.after` has them."""
     y, rate, speed = end[:-1], _rate(quantities, scale), quantities["speed"]
-    values = dict(zip(model.names("outputs"), _parts(model.function("outputs")(y, groups)), strict=True))
+    values = dict(zip(model.names("outputs"), vertsplit(model.function("outputs")(y, groups)), strict=True))
 
     def vector(name: str) -> SX:
         return axes.T @ vertcat(*(values[f"{name}_{axis}"] for axis in AXES))
@@ -172,7 +171,3 @@ def _beside_wall(model: Model, end: SX, groups: SX, quantities: Mapping[str, SX]
         cross(later_roll, normal) / radius + dot(inputs.spins[0], normal) * normal,
         nothing,
     )
-
-
-def _parts(column: SX) -> list[SX]:
-    return [column[k] for k in range(column.numel())]

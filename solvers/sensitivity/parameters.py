@@ -142,11 +142,10 @@ class ParameterMap:
 
         Reference values of many collisions, (entries, collisions), put an axis of these before that of the parameters.
         """
-        numbers, (slopes, units) = self.values(reference), self.slopes(reference)
-        shape = (*reference.shape[1:], self.slopes.size2_out(0))
-        return (
-            numbers.full().reshape(-1, *shape[:-1]), slopes.full().reshape(-1, *shape), units.full().T.reshape(shape)
-        )  # fmt: skip
+        results = self.values(reference), *self.slopes(reference)
+        numbers, slopes, units = (np.asarray(each.full()) for each in results)
+        shape, parameters = (len(numbers), *reference.shape[1:]), self.slopes.size2_out(0)
+        return numbers.reshape(shape), slopes.reshape(*shape, parameters), units.T.reshape(*shape[1:], parameters)
 
 
 @own_cache(128)
