@@ -113,9 +113,7 @@ class End:
     y: MX
     time: MX
     smallest_gap: MX
-    dry: MX
-    friction: MX
-    own: MX
+    lost: MX  # by rebounds, by their friction, to declared events
     shifts: list[MX]  # by the landings, relative to the durations
 
 
@@ -125,7 +123,7 @@ def follow(course: Course, p: MX, durations: MX, plugin: str, tolerance: Toleran
     size = len(model.state)
     start = model.function("start")(DM.zeros(size), p)
     y = vertcat(start, DM.ones(len(course.extras)) * tolerance.offset)
-    at = End(start, y, MX(0), start[0], MX(0), MX(0), MX(0), [])
+    at = End(start, y, MX(0), start[0], MX.zeros(3), [])
     for leg in course.legs:
         if leg.duration > 0:
             flow = Flow(course.choice, leg.phase.region, course.extras, course.edge_watched)
@@ -139,10 +137,8 @@ def follow(course: Course, p: MX, durations: MX, plugin: str, tolerance: Toleran
             at.smallest_gap = fmin(at.smallest_gap, at.y[0])
             k += 1
         if leg.rebounds or leg.holds or leg.own:
-            after, dry, friction, own, _ = course.reset(leg)(at.y[:size], p)
-            at.dry += dry
-            at.friction += friction
-            at.own += own
+            after, *lost, _ = course.reset(leg)(at.y[:size], p)
+            at.lost += vertcat(*lost)
             at.y = vertcat(after, at.y[size:])
     return at
 
@@ -169,8 +165,8 @@ def results(course: Course, p: MX, end: End, tolerance: Tolerance) -> dict[str, 
     )
     named = dict(zip(model.names("outputs"), (outputs[k] for k in range(outputs.numel())), strict=True))
     energies = {name: (before[k], after[k]) for k, name in enumerate(model.names("energies"))}
-    named |= {"contact_time": end.time, "smallest_gap": end.smallest_gap, "energy.dry_contact": end.dry}
-    named["energy.own_events"] = end.own
+    named |= {"contact_time": end.time, "smallest_gap": end.smallest_gap}
+    named |= {"energy.dry_contact": end.lost[0], "energy.own_events": end.lost[2]}
     named["energy.initial"], named["energy.final"] = energies["kinetic"]
     if "strings" in energies:
         named["energy.strings"] = energies["strings"][1] - energies["strings"][0]
@@ -184,7 +180,7 @@ def results(course: Course, p: MX, end: End, tolerance: Tolerance) -> dict[str, 
     if model.own_terms:
         before, after = energies.get("own_energy", (MX(0), MX(0)))
         named["energy.own_terms"] = after - before + named.pop("energy.own_work", MX(0))
-    named["energy.dry_friction"] = named.get("energy.dry_friction", MX(0)) + end.friction
+    named["energy.dry_friction"] = named.get("energy.dry_friction", MX(0)) + end.lost[1]
     return named | {STATE + name: y[k] for k, name in enumerate(model.state)}
 
 

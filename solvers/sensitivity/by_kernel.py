@@ -1,25 +1,28 @@
 """Derivatives by the Taylor kernel in a scene's parameters, of one collision or of many of the same scene."""
 
 from collections.abc import Collection, Sequence
+from functools import lru_cache
 
 import numpy as np
 
+from ...generated import scaling
 from ...generated.automaton import LAST_ANSWER, OUTCOMES
 from ..engines.kernels import differentiates
 from ..engines.settings import KERNEL_STEPS
 from ..engines.taylor.call import Impacts
 from ..engines.taylor.orders import order_for
-from ..engines.taylor.tangent import GRIPS, Carried, run_tangent
+from ..engines.taylor.tangent import GRIPS, Carried, Scales, run_tangent
 from ..results import DEFINITIONS, TANGENTS
 from ..scene.groups import si_values
 from ..scene.scene import Scene
-from ..scene.schema import SPINS
+from ..scene.schema import SPEEDS, SPINS
 from .boundary_distance import check_grip
-from .parameters import SCALES, Kind, parameter_map, references
+from .parameters import RELATIVE, SCALES, Kind, parameter_map, references
 from .problem import Problem, Query, Slopes
 
 BACKWARD = ("restitution",)  # results that the kernel's adjoint differentiates
 DIRECTIONS = 4  # most parameters for which forward tangents cost no more than the adjoint (docs/engineering/kernel.md)
+_REFERENCE = 1.0, 0.5  # impact (m/s, rad) at which parameters are mapped
 _OF_UNEQUAL = frozenset(("radius_ratio", "mass_ratio"))  # quantities that make equal spheres unequal
 
 
@@ -55,12 +58,7 @@ def gradients_by_kernel(
         nearest: as for `run_tangent`.
     """
     scene, head_on, oblique = impacts.scene, not impacts.angle[0] > 0, bool(impacts.oblique[0])
-    names = tuple(name for name in si_values(scene, 1.0, 1.0) if name != "density")
-    reference = references(scene, kind.entries, impacts.speed, impacts.angle)
-    numbers, slopes, units = parameter_map(kind, wrt, names).at(reference)
-    moved = {name: rows for name, rows in zip(names, slopes, strict=False) if rows.any()}
-    pairs = zip(numbers[len(names) :], slopes[len(names) :], strict=True)
-    scales = dict(zip(SCALES, ((number, rows / number[:, None]) for number, rows in pairs), strict=True))
+    moved, scales, units = _in_theta(impacts, kind, wrt)
     fold = not _OF_UNEQUAL & moved.keys()
     run = run_tangent(impacts, oblique, rtol, "rotation" in of, tuple(moved), order, budget, backward, fold, nearest)
     if run is None:
@@ -81,6 +79,50 @@ def gradients_by_kernel(
             first[place] *= np.isin(wrt, SPINS) | ~at_once[:, None]
         value[place, separated] = plain[separated]
     return run, value, first / units
+
+
+def _in_theta(impacts: Impacts, kind: Kind, wrt: tuple[str, ...]) -> tuple[dict[str, np.ndarray], Scales, np.ndarray]:
+    """Derivatives of quantities and scales in theta, as `Carried.along` takes them, and dp/dtheta of each impact.
+
+    Only those of speed and angle differ from impact to impact.
+    """
+    scene, speed, angle = impacts.scene, impacts.speed, impacts.angle
+    by_theta, at_reference, units = _at_reference(scene, kind, wrt)
+    log_speed, units = (np.tile(row, (impacts.size, 1)) for row in (at_reference["speed"], units))
+    moved = dict(by_theta)
+    for k, name in enumerate(wrt):
+        if name == "impact.stokes":
+            of = scene.material
+            units[:, k] = scaling.stokes(of["reduced_radius"], of["reduced_mass"], of["viscosity"], speed)
+        elif name in SPEEDS:
+            units[:, k] = references(scene, (name,), speed, angle)[0]
+        elif name == "impact.angle":
+            units[:, k] = np.where(angle > 0, angle, 1.0)
+            moved["angle"] = np.where(np.arange(len(wrt)) == k, units[:, k, None], 0.0)
+            if kind.held == RELATIVE:
+                log_speed[:, k] = -angle * np.tan(angle)
+    if "speed" in moved:
+        moved["speed"] = log_speed * speed[:, None]
+    film, log_film = np.full(impacts.size, scene.liquid.film_thickness), at_reference["length"]
+    scales = {
+        "length": (film, log_film[None]),
+        "time": (film / speed, log_film - log_speed),
+        "rate": (impacts.rates, at_reference["rate"] - at_reference["speed"] + log_speed),
+    }
+    return moved, scales, units
+
+
+@lru_cache(maxsize=64)
+def _at_reference(
+    scene: Scene, kind: Kind, wrt: tuple[str, ...]
+) -> tuple[dict[str, np.ndarray], dict[str, np.ndarray], np.ndarray]:
+    """Derivatives at one impact: of the quantities that move, and of the logarithms of scales; and dp/dtheta."""
+    names = tuple(name for name in si_values(scene, *_REFERENCE) if name != "density")
+    numbers, in_theta, units = parameter_map(kind, wrt, names).at(references(scene, kind.entries, *_REFERENCE))
+    slopes = dict(zip((*names, *SCALES), in_theta, strict=True))
+    values = dict(zip((*names, *SCALES), numbers, strict=True))
+    moved = {name: slopes[name][None] for name in names if slopes[name].any()}
+    return moved, {name: slopes[name] / values[name] for name in ("speed", "length", "rate")}, units
 
 
 def slopes(problem: Problem, query: Query) -> Slopes | None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import partial
@@ -41,7 +42,7 @@ _SLIDES = np.pi / 4  # any angle beside a wall
 INPUTS = ("normal", "velocities", "spins")
 _SHAPES = {"normal": (3,), "velocities": (2, 3), "spins": (2, 3)}
 _STICK = "a stick: the rigid motion that it is given as is not differentiated"
-_ROWS = sum(int(np.prod(shape)) for shape in RESULTS.values())
+_ROWS = sum(map(math.prod, RESULTS.values()))
 
 
 def pair_gradients(
@@ -114,14 +115,17 @@ def pair_gradients(
         "outcome": (dims, outcome.reshape(pairs.shape), outcome_attributes()),
         "reason": (dims, reason.astype(str).reshape(pairs.shape), {"long_name": "why there is no derivative"}),
     }
-    first = 0
-    for name, shape in RESULTS.items():
+    ends = np.cumsum([math.prod(shape) for shape in RESULTS.values()])[:-1]
+    columns = zip(RESULTS.items(), np.split(value, ends, axis=1), np.split(slope, ends, axis=1), strict=True)
+    for (name, shape), values, slopes in columns:
         more, about = ((), NUMBERS[name]) if name in NUMBERS else VECTORS[name]
-        part = slice(first, first := first + int(np.prod(shape)))
-        data[name] = (*dims, *more), value[:, part].reshape((*pairs.shape, *shape)), about
-        slopes = slope[:, part].reshape((*pairs.shape, *shape, len(parameters)))
+        data[name] = (*dims, *more), values.reshape((*pairs.shape, *shape)), about
         meaning = {"long_name": f"derivative of the {about['long_name']}"}
-        data[f"d_{name}"] = (*dims, *more, "parameter"), slopes, meaning
+        data[f"d_{name}"] = (
+            (*dims, *more, "parameter"),
+            slopes.reshape((*pairs.shape, *shape, len(parameters))),
+            meaning,
+        )
     coordinates = {"axis": list(AXES), "parameter": parameters}
     return xr.Dataset(data, coordinates, {"scene": loaded.to_toml(), "rtol": rtol, "engine": "rosenbrock"})
 

@@ -83,18 +83,13 @@ class Kind:
 
     entries: tuple[str, ...]  # names of the reference values, in order
     hold: str
-    shape: tuple[object, ...]  # choices that select the formulas
+    ways: Ways
+    shape: tuple[object, ...]  # further choices that select the formulas
     formulas: Mapping[str, Formula] = field(compare=False, repr=False)
 
     @property
     def held(self) -> str:
         return f"impact.{self.hold}"
-
-    @property
-    def ways(self) -> Ways:
-        ways = self.shape[0]
-        assert isinstance(ways, Ways)
-        return ways
 
 
 def kind_of(scene: Scene, hold: str) -> Kind:
@@ -104,7 +99,8 @@ def kind_of(scene: Scene, hold: str) -> Kind:
     return Kind(
         (*entries, f"impact.{hold}", "impact.angle"),
         hold,
-        (scene.ways, scene.pair, own_rupture, scene.package),
+        scene.ways,
+        (scene.pair, own_rupture, scene.package),
         formulas(scene),
     )
 
@@ -138,14 +134,9 @@ class ParameterMap:
     slopes: Function
 
     def at(self, reference: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Groups and scales (n,), their derivatives in theta (n, parameters), and dp/dtheta (parameters,).
-
-        Reference values of many collisions, (entries, collisions), put an axis of these before that of the parameters.
-        """
-        results = self.values(reference), *self.slopes(reference)
-        numbers, slopes, units = (np.asarray(each.full()) for each in results)
-        shape, parameters = (len(numbers), *reference.shape[1:]), self.slopes.size2_out(0)
-        return numbers.reshape(shape), slopes.reshape(*shape, parameters), units.T.reshape(*shape[1:], parameters)
+        """Groups and scales (n,), their derivatives in theta (n, parameters), and dp/dtheta (parameters,)."""
+        numbers, slopes, units = (each.full() for each in (self.values(reference), *self.slopes(reference)))
+        return numbers.ravel(), slopes, units.ravel()
 
 
 @own_cache(128)

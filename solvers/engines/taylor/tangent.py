@@ -27,6 +27,9 @@ _SPINS = {"impact_spin": "initial_spin", "impact_partner_spin": "initial_partner
 _CHUNK = 1024  # number of collisions whose derivatives are computed at a time
 
 
+Scales = Mapping[str, tuple[np.ndarray, np.ndarray]]
+
+
 @dataclass(frozen=True)
 class Carried:
     """Answers, and derivatives of their dimensionless results by quantities in SI.
@@ -44,14 +47,12 @@ class Carried:
     near: np.ndarray
     quantities: tuple[str, ...]
 
-    def along(
-        self, name: str, moved: Mapping[str, np.ndarray], scales: Mapping[str, tuple[np.ndarray, np.ndarray]]
-    ) -> tuple[np.ndarray, np.ndarray]:
+    def along(self, name: str, moved: Mapping[str, np.ndarray], scales: Scales) -> tuple[np.ndarray, np.ndarray]:
         """A result, (collisions,), and its derivatives, (collisions, parameters or 1), SI, by the chain rule.
 
         Arguments:
-            moved: quantity -> its derivatives by the parameters, (collisions, parameters).
-            scales: scale of a result -> its values, and the derivatives of its logarithm.
+            moved: quantity -> its derivatives by the parameters, (collisions or 1, parameters).
+            scales: scale of a result -> its values (collisions,), and the derivatives of its logarithm, likewise.
         """
         value, column = result(self.answers, name), derivative_column(name)
         slopes = np.zeros((value.size, 1))
