@@ -35,8 +35,7 @@ if TYPE_CHECKING:
     from .proofs.proved_map import ProvedMap, prove_map
     from .scene.scene import Scene
     from .sensitivity.boundaries import BoundarySensitivities, boundary_sensitivities
-    from .sensitivity.critical import critical
-    from .sensitivity.critical_result import Critical
+    from .sensitivity.critical import Critical, critical
     from .sensitivity.gradients_many import gradients_many
     from .sensitivity.pair_gradients import pair_gradients
     from .sensitivity.result import Sensitivities
@@ -70,8 +69,7 @@ _NAMES = {
     "proofs.proved_map": "ProvedMap prove_map",
     "scene.scene": "Scene",
     "sensitivity.boundaries": "BoundarySensitivities boundary_sensitivities",
-    "sensitivity.critical": "critical",
-    "sensitivity.critical_result": "Critical",
+    "sensitivity.critical": "Critical critical",
     "sensitivity.gradients_many": "gradients_many",
     "sensitivity.pair_gradients": "pair_gradients",
     "sensitivity.result": "Sensitivities",

@@ -17,7 +17,7 @@ from ...generated.automaton import LAST_ANSWER
 from ..engines.kernels import differentiates
 from ..engines.settings import KERNEL_STEPS
 from ..engines.taylor.call import Impacts, run_kernel
-from ..engines.taylor.layout import derivative_column, result
+from ..engines.taylor.layout import result
 from ..engines.taylor.tangent import run_tangent
 from ..errors import ComputationError
 from ..many.by_kernel import admissible
@@ -233,24 +233,20 @@ class Experiment:
             again = run_tangent(impacts.subset(failures), oblique, rtol, rotation, moved, None, budget, False, False)
             assert again is not None
             answers[failures], slopes[failures] = again.answers, again.slopes[:, :, :1]
-        done = answers["status"] <= LAST_ANSWER
+        done, count = answers["status"] <= LAST_ANSWER, len(self.rows.names)
         results.outcome[which] = np.where(done, answers["outcome"], UNDECIDED)
+        axes = np.eye(count + 2)  # of the free entries, speed and angle
+        by = {one: self.slopes[one][share] @ axes[:count] for one in moved[:-2]}
+        by |= {"speed": np.tile(axes[-2], (which.size, 1)), "angle": np.tile(axes[-1], (which.size, 1))}
+        film = self.columns["film_thickness"][share]
+        time = film / impacts.speed, -by["speed"] / impacts.speed[:, None]
+        if "film_thickness" in by:
+            time[1][:] += by["film_thickness"] / film[:, None]
         for k, name in enumerate(names):
-            value, column = result(answers, name), derivative_column(name)
-            by = {entry: slopes[:, run.quantities.index(entry), column] for entry in moved if entry in run.quantities}
-            by_speed, by_angle = by.pop("speed").copy(), by.pop("angle", np.zeros(which.size)).copy()
-            free = np.zeros((which.size, len(self.rows.names)))
-            for entry, derivative in by.items():
-                free += derivative[:, None] * self.slopes[entry][share]
-            if name == "contact_time":
-                film = self.columns["film_thickness"][share]
-                scale = film / impacts.speed
-                by_film = self.slopes["film_thickness"][share] / film[:, None]
-                free = (free + value[:, None] * by_film) * scale[:, None]
-                by_speed = (by_speed - value / impacts.speed) * scale
-                by_angle, value = by_angle * scale, value * scale
+            value, slope = run.along(name, by, {"time": time})
             results.value[k, which] = np.where(done & (answers["outcome"] > 0), value, np.nan)
-            results.free[k, which], results.speed[k, which], results.angle[k, which] = free, by_speed, by_angle
+            results.free[k, which] = slope[:, :count]
+            results.speed[k, which], results.angle[k, which] = slope[:, -2:].T
 
     @property
     def scales(self) -> np.ndarray:

@@ -128,14 +128,14 @@ def _row(rows: np.ndarray) -> dict[str, Any]:
 
 def _trajectory(problem: Problem, rtol: float, recorded: Recorded, full: bool) -> xarray.Dataset:
     from ..engines.casadi.trajectory import dataset  # imports xarray
-    from ..model.rebound import rebounded
+    from ..model.rebound import reset
 
     assert recorded.steps is not None
     model, outcome = problem.model(full=full), OUTCOMES[recorded.answers["outcome"][0]]
     p = model.group_values(problem.groups)
     first, reversal = model.start(p), int(recorded.answers["reversal"][0])
     if reversal >= 0:  # where initial contact decides, the state after it
-        first = rebounded(model, KINDS[reversal], first, p).after
+        first = reset(model.choice, KINDS[reversal])(first, p)[0].full().ravel()
     return dataset([*_stretches(recorded.steps, model, full)], model, problem, first, outcome, "taylor", rtol)
 
 

@@ -24,7 +24,7 @@ from ..model.phases import Flow, expressions
 from ..results import DEFINITIONS
 from ..scene.held import held_quantity
 from ..scene.scene import Scene
-from ..sensitivity.by_casadi import Course, course_of, reset
+from ..sensitivity.by_casadi import Course, course_of
 from ..sensitivity.parameters import SCALES, kind_of, parameter_map, references
 
 _ENGINE = "rosenbrock"
@@ -172,7 +172,7 @@ def equations(
     except Stopped as stopped:
         raise problem.in_si(stopped.error(_ENGINE, built)) from None
     kind = kind_of(loaded, held_quantity(loaded, None))
-    reference, names = references(loaded, kind, v0, theta0), tuple(built.groups)
+    reference, names = references(loaded, kind.entries, v0, theta0), tuple(built.groups)
     values = parameter_map(kind, (), names).values
     numbers = np.asarray(values(reference).full()).ravel()
     course, steps, pieces = course_of(path, replay, choice), iter(path.steps), iter(replay.pieces)
@@ -188,9 +188,9 @@ def equations(
         elif phases:  # what happens where a phase has ended already belongs to its end
             phases[-1] = replace(phases[-1], event=", ".join(filter(None, (phases[-1].event, words))))
             name = f"reset_{len(phases) - 1}"
-            functions[name] = _then(functions[name], reset(course, leg))
+            functions[name] = _then(functions[name], course.reset(leg))
         else:
-            functions["start"] = _then(functions["start"], reset(course, leg))
+            functions["start"] = _then(functions["start"], course.reset(leg))
     emitted = {name: getattr(built.structure, name).__doc__ for name in functions if hasattr(built.structure, name)}
     docs = {name: " ".join(text.partition("\n\n")[0].split()) for name, text in emitted.items()} | _OWN
     entries = dict(zip(kind.entries, reference.tolist(), strict=True))
@@ -235,7 +235,7 @@ def _of_phase(k: int, flow: Flow, course: Course, leg: PhaseRun) -> dict[str, Fu
     columns = {"rates": expressions(flow).rates, "events": values}
     if leg.event is not None:
         columns["event"] = values[names.index(leg.event)]
-        columns["reset"] = reset(course, leg)(state, groups)[0]
+        columns["reset"] = course.reset(leg)(state, groups)[0]
     return {
         f"{name}_{k}": Function(f"{name}_{k}", [state, groups], [densify(column)], ["state", "groups"], [name])
         for name, column in columns.items()

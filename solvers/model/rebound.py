@@ -1,7 +1,6 @@
-"""The jump of a state at a rebound, with the friction of the dry contact where a scene has it."""
+"""What happens to a state at the end of a phase: a rebound, with or without friction, rest, a declared event."""
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
 from casadi import SX, Function, densify, if_else, vertcat
@@ -14,53 +13,58 @@ from .model import Model, load
 _MOST = ("most", "rest_most")  # Coulomb's limit of a rebound, and of one by which the doublet comes to rest
 
 
-@dataclass(frozen=True)
-class Rebound:
-    """A rebound.
+def rubs(model: Model, criterion: str) -> bool:
+    """True if a rebound by this criterion has friction."""
+    return model.friction and (criterion in GAPS or model.choice.structure.endswith("_friction_all"))
+
+
+def grip(model: Model, criterion: str, y: np.ndarray, p: np.ndarray, rests: bool) -> float:
+    """Logarithm of the impulse that sticks over Coulomb's limit, positive if it slides; infinite without friction."""
+    if not rubs(model, criterion):
+        return math.inf
+    impulses = model.values("dry_slip", y, p)
+    sticking, most = abs(impulses["sticking"]), impulses[_MOST[rests]]
+    return math.log(sticking / most) if sticking > 0 and most > 0 else math.inf
+
+
+def reset(choice: ModelKey, criterion: str, rests: bool = False, own: str = "") -> Function:
+    """Function (state, groups) -> state after it; what rebound, friction and declared event take; state rebounded.
+
+    Energies are over m v0^2; the last result is the state after the rebound alone.
 
     Arguments:
-        after: the state after it.
-        dry, friction: energies lost along the line of centres and by friction, over m v0^2.
-        grip: logarithm of the impulse that sticks over Coulomb's limit, positive if it slides; infinite without one.
+        criterion: by which the doublet rebounds; empty if it does not.
+        rests: it comes to rest.
+        own: name of a declared event that happens.
     """
-
-    after: np.ndarray
-    dry: float
-    friction: float = 0.0
-    grip: float = math.inf
+    return _reset(choice, bool(criterion), rubs(load(choice), criterion), rests, own)
 
 
-def rubs(model: Model, kind: str) -> bool:
-    """True if a rebound by this criterion has friction."""
-    return model.friction and (kind in GAPS or model.choice.structure.endswith("_friction_all"))
+@own_cache(256)
+def _reset(choice: ModelKey, rebounds: bool, rubbing: bool, rests: bool, own: str) -> Function:
+    model = load(choice)
+    y, p, dry, friction, taken = model.column, model.parameters, SX(0), SX(0), SX(0)
+    if rebounds:
+        after, dry = model("rebound"), SX(model("rebound_loss")["dry_contact"])
+        if rubbing:  # the tangential impulse is the one that sticks, limited by Coulomb's law
+            slips = model("dry_slip")
+            sticking, most = slips["sticking"], slips[_MOST[rests]]
+            impulse = if_else(sticking > most, most, if_else(sticking < -most, -most, sticking))
+            after = model("rubbed", region={"impulse": impulse}) | {"normal_velocity": after["normal_velocity"]}
+            friction = SX(model("friction_loss", region={"impulse": impulse})["dry_friction"])
+        y = vertcat(*(SX(after[name]) for name in model.state))
+    rebounded = y
+    if rests:  # chatter dissipates what remains of the rebound's energy
+        dry += y[1] ** 2 / 2
+        y = vertcat(y[0], 0, y[2:])
+        if model.own_terms and "own_energy" in model.names("energies"):
+            dry += _energy(model, "own_energy", rebounded, p) - _energy(model, "own_energy", y, p)
+    if own:
+        before, y = y, model.function(f"jump_{own}")(y, p)
+        taken = _energy(model, "kinetic", before, p) - _energy(model, "kinetic", y, p)
+    names = ["state", "groups"], ["after", "dry_contact", "dry_friction", "own_events", "rebounded"]
+    return Function("reset", [model.column, p], [densify(y), dry, friction, taken, densify(rebounded)], *names)
 
 
-def rebounded(model: Model, kind: str, y: np.ndarray, p: np.ndarray, rests: bool = False) -> Rebound:
-    """The rebound of a state (leading entries of `y`) by a criterion; `rests`: the doublet comes to rest by it."""
-    if not model.friction:
-        after = np.array(list(model.values("rebound", y, p).values()))
-        return Rebound(after, model.values("rebound_loss", y, p)["dry_contact"])
-    rubbing, impulses = rubs(model, kind), model.values("dry_slip", y, p)
-    parts = [block.full().ravel() for block in jump(model.choice, rests)(y[: len(model.state)], p, float(rubbing))]
-    sticking, most = abs(impulses["sticking"]), impulses[_MOST[rests]]
-    grip = math.log(sticking / most) if rubbing and sticking > 0 and most > 0 else math.inf
-    return Rebound(parts[0], float(parts[1][0]), float(parts[2][0]), grip)
-
-
-@own_cache(128)
-def jump(choice: ModelKey, rests: bool = False) -> Function:
-    """Function (state, groups, 1 with friction) -> state after a rebound, and both losses of energy.
-
-    The tangential impulse is the one that sticks, limited by Coulomb's law.
-    """
-    model, rubbing = load(choice), SX.sym("rubbing")
-    after, friction = model("rebound"), SX(0)
-    if model.friction:
-        slips = model("dry_slip")
-        sticking, most = slips["sticking"], rubbing * slips[_MOST[rests]]
-        impulse = if_else(sticking > most, most, if_else(sticking < -most, -most, sticking))
-        after = model("rubbed", region={"impulse": impulse}) | {"normal_velocity": after["normal_velocity"]}
-        friction = model("friction_loss", region={"impulse": impulse})["dry_friction"]
-    dry = model("rebound_loss")["dry_contact"]
-    column = densify(vertcat(*(SX(after[name]) for name in model.state)))
-    return Function("jump", [model.column, model.parameters, rubbing], [column, SX(dry), SX(friction)])
+def _energy(model: Model, name: str, y: SX, p: SX) -> SX:
+    return model.function("energies")(y, p)[model.names("energies").index(name)]

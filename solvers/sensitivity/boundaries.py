@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path as FilePath
 from typing import TYPE_CHECKING, Any
@@ -12,11 +12,10 @@ import numpy as np
 
 from ...generated.automaton import OUTCOMES
 from ..boundaries.boundary import boundary
-from ..boundaries.changes import Change, changes_along
+from ..boundaries.changes import Change
 from ..boundaries.result import Boundaries
-from ..boundaries.scene_sampler import SceneSampler
-from ..changes.brackets import Brackets, enclose
-from ..changes.experiment import Rows
+from ..changes.brackets import Brackets, enclose, locate
+from ..changes.experiment import Experiment, Rows
 from ..changes.slopes import Lines, normals, outcomes_along, slopes
 from ..engines.settings import RTOL, check_rtol
 from ..errors import ComputationError, InputError
@@ -24,8 +23,8 @@ from ..formatting.markdown import numbers_aligned
 from ..host.arguments import check_function
 from ..host.pictures import Drawn
 from ..scene.scene import Scene
-from ..scene.schema import DEFAULTS, FIELDS, MEETING, SPEEDS
-from .parameters import Row, check_wrt, kind_of, parameter_map, references
+from ..scene.schema import DEFAULTS, MEETING, SPEEDS
+from .parameters import Row, cell, check_wrt, elasticities, kind_of, numbers, parameter_map, references
 
 if TYPE_CHECKING:
     import xarray
@@ -50,8 +49,8 @@ class Moving:
     """
 
     change: Change
-    gradient: dict[str, Row] = field(default_factory=dict)
-    elasticity: dict[str, Row] = field(default_factory=dict)
+    gradient: Mapping[str, Row] = field(default_factory=dict)
+    elasticity: Mapping[str, Row] = field(default_factory=dict)
     reason: str = ""
 
     @property
@@ -61,8 +60,7 @@ class Moving:
 
     def to_dict(self) -> dict[str, Any]:
         """What `boundary --wrt` adds to a change: its "sensitivities", null if there are none."""
-        both = {name: {"gradient": dict(self.gradient[name]), "elasticity": dict(self.elasticity[name])}
-                for name in self.gradient}  # fmt: skip
+        both = {of: {"gradient": self.gradient[of], "elasticity": self.elasticity[of]} for of in self.gradient}
         return {"sensitivities": both or None}
 
 
@@ -79,7 +77,7 @@ class BoundarySensitivities(Drawn):
         ('liquid.viscosity',)
     """
 
-    _picture = "sensitivity.tornado.draw_boundaries"
+    _picture = "sensitivity.plots.draw_boundaries"
 
     boundaries: Boundaries
     changes: tuple[tuple[Moving, ...], ...]
@@ -104,26 +102,24 @@ class BoundarySensitivities(Drawn):
 
         NaN where there is no derivative, for the `reason` given.
         """
-        import numpy as np
         import xarray as xr
 
-        pairs, over = self._pairs, ("change", "parameter")
+        pairs, over = self.pairs, ("change", "parameter")
         data: dict[str, Any] = {"reason": ("change", np.array([one.reason for _, one in pairs], dtype=str))}
         for of in _OF:
             for kind in ("gradient", "elasticity"):
-                rows = [getattr(one, kind).get(of, {}) for _, one in pairs]
-                values = [[np.nan if row.get(name) is None else row[name] for name in self.parameters] for row in rows]
-                data[f"{of}_{kind}"] = over, np.array(values, dtype=float).reshape(len(pairs), len(self.parameters))
-        columns = {name: ("change", np.array([getattr(one.change, name) for _, one in pairs]))
-               for name in ("stokes", "before", "after")}  # fmt: skip
+                rows = [[getattr(one, kind).get(of, {}).get(name) for name in self.parameters] for _, one in pairs]
+                data[f"{of}_{kind}"] = over, np.array(rows, dtype=float).reshape(len(pairs), len(self.parameters))
         angles = np.array([angle for angle, _ in pairs], dtype=float)
-        coordinates: dict[str, Any] = {
-            "angle": ("change", angles, {"units": "rad"}), **columns, "parameter": list(self.parameters)
-        }  # fmt: skip
-        return xr.Dataset(data, coordinates)
+        columns = {name: ("change", np.array([getattr(one.change, name) for _, one in pairs]))
+                   for name in ("stokes", "before", "after")}  # fmt: skip
+        return xr.Dataset(
+            data, {"angle": ("change", angles, {"units": "rad"}), **columns, "parameter": list(self.parameters)}
+        )
 
     @property
-    def _pairs(self) -> list[tuple[float, Moving]]:
+    def pairs(self) -> list[tuple[float, Moving]]:
+        """Every change with its angle."""
         return [(angle, one) for angle, line in zip(self.angles, self.changes, strict=True) for one in line]
 
     def __str__(self) -> str:
@@ -133,23 +129,19 @@ class BoundarySensitivities(Drawn):
 
     def _tables(self) -> list[str]:
         tables = []
-        for angle, line in zip(self.angles, self.changes, strict=True):
-            for one in line:
-                title = f"{np.degrees(angle):.6g} deg, {one.change.before} -> {one.change.after}"
-                if one.reason:
-                    tables.append(f"{title}: {one.reason}")
-                    continue
-                symbols = [_SYMBOLS[of] for of in one.results]
-                rows = [["", *(f"d ln {symbol}" for symbol in symbols)]]
-                rows += [[name, *(_cell(one, of, name) for of in one.results)] for name in self.parameters]
-                what = "elasticities by p (where it is zero *: dSt*/dp, dv*/dp, dCe*/dp, SI); v* is the normal speed"
-                tables.append("\n  ".join([f"{title}: {what}", *map(str.rstrip, numbers_aligned(rows))]))
+        for angle, one in self.pairs:
+            title = f"{np.degrees(angle):.6g} deg, {one.change.before} -> {one.change.after}"
+            if one.reason:
+                tables.append(f"{title}: {one.reason}")
+                continue
+            rows = [["", *(f"d ln {_SYMBOLS[of]}" for of in one.results)]]
+            rows += [
+                [name, *(cell(one.elasticity[of][name], one.gradient[of][name]) for of in one.results)]
+                for name in self.parameters
+            ]
+            what = "elasticities by p (where it is zero *: dSt*/dp, dv*/dp, dCe*/dp, SI); v* is the normal speed"
+            tables.append("\n  ".join([f"{title}: {what}", *map(str.rstrip, numbers_aligned(rows))]))
         return tables
-
-
-def _cell(one: Moving, of: str, name: str) -> str:
-    elasticity, slope_ = one.elasticity[of][name], one.gradient[of][name]
-    return f"* {slope_:.4g}" if elasticity is None else f"{elasticity:.5g}" if elasticity else "none"
 
 
 def boundary_sensitivities(
@@ -225,27 +217,25 @@ def moving(scene: Scene, angle: float, change: Change, names: tuple[str, ...], r
     groups: tuple[str, ...] = ("speed",)
     if change.centrifugal is not None:
         values["centrifugal"], groups = change.centrifugal, ("speed", "centrifugal")
-    reference = references(scene, kind, speed, angle)
-    via = parameter_map(kind, (*names, "impact.stokes"), groups)
-    map_slopes, units = (np.asarray(each.full()) for each in via.slopes(reference))
-    in_theta = by_parameter * units[:-1, 0]
-    in_theta[np.abs(in_theta) < _ERROR * np.abs(in_theta).max(initial=0.0)] = 0.0
-    along = (speed * in_theta - map_slopes[0, :-1]) / map_slopes[0, -1]  # d ln St*/dtheta
-    along[np.abs(along) < _ERROR * np.abs(along).max(initial=0.0)] = 0.0
-    rows = dict(zip(groups, map_slopes[:, :-1] + map_slopes[:, -1:] * along)) | {"stokes": along * change.stokes}
-    turned = np.array([units[k].item() if name == "impact.angle" else 0.0 for k, name in enumerate(names)])
+    mapping = parameter_map(kind, (*names, "impact.stokes"), groups)
+    _, by_theta, units = mapping.at(references(scene, kind.entries, speed, angle))
+    units = units[:-1]
+    along = _without_errors((speed * _without_errors(by_parameter * units) - by_theta[0, :-1]) / by_theta[0, -1])
+    # `along` is d ln St*/dtheta
+    rows = dict(zip(groups, by_theta[:, :-1] + by_theta[:, -1:] * along)) | {"stokes": along * change.stokes}
+    turned = units * [name == "impact.angle" for name in names]
     rows["relative_speed"] = (rows["speed"] + speed * math.tan(angle) * turned) / math.cos(angle)
-    at = dict(zip(kind.entries, reference.tolist(), strict=True))
+    gradient = np.array([rows[of] for of in values]) / units + 0.0
+    elasticity = elasticities(np.array([*values.values()]), gradient, references(scene, names, speed, angle))
     return Moving(
         change,
-        gradient={
-            of: {name: float(rows[of][k] / units[k].item()) + 0.0 for k, name in enumerate(names)} for of in values
-        },
-        elasticity={
-            of: {name: float(rows[of][k]) / value + 0.0 if at[name] and value else None for k, name in enumerate(names)}
-            for of, value in values.items()
-        },
+        gradient={of: numbers(names, row) for of, row in zip(values, gradient)},
+        elasticity={of: numbers(names, row) for of, row in zip(values, elasticity)},
     )
+
+
+def _without_errors(slopes: np.ndarray) -> np.ndarray:
+    return np.where(np.abs(slopes) < _ERROR * np.abs(slopes).max(initial=0.0), 0.0, slopes)
 
 
 def _of_logarithm(scene: Scene, angle: float, change: Change, names: tuple[str, ...], rtol: float) -> np.ndarray:
@@ -269,8 +259,7 @@ def _of_logarithm(scene: Scene, angle: float, change: Change, names: tuple[str, 
         by_entry["impact.angle"] = float(-normal.angle[0] / normal.along[0])
         is_even = angle < _STEP and not scene.turns(0.0)  # beside head-on: the mirror image
         if not math.isfinite(by_entry["impact.angle"]) and (is_even or angle >= _STEP):  # no gradient grows there
-            low, high = (_moved(scene, abs(angle + side), change, rtol) for side in (-_STEP, _STEP))
-            by_entry["impact.angle"] = (high - low) / (2 * _STEP)
+            by_entry["impact.angle"] = _by_angle(experiment, speed, angle, change)
     by_parameter = np.array([by_entry[name] for name in names])
     if not np.isfinite(by_parameter).all():
         lost = ", ".join(name for name in names if not math.isfinite(by_entry[name]))
@@ -278,20 +267,21 @@ def _of_logarithm(scene: Scene, angle: float, change: Change, names: tuple[str, 
     return by_parameter
 
 
-def _moved(scene: Scene, angle: float, change: Change, rtol: float) -> float:
-    """Logarithm of St* over that of the change, at another angle (rad).
+def _by_angle(experiment: Experiment, speed: float, angle: float, change: Change) -> float:
+    """Derivative of ln v* of a change by the angle, from its places at angles beside.
 
     Raises:
         ComputationError: it is not there.
     """
-    FIELDS["impact.angle"].number(angle)
-    stokes = change.stokes * np.exp(_REACH * np.linspace(-1, 1, 6))
-    sampler = SceneSampler(scene, rtol)
-    [changes] = changes_along([angle], sampler, [sampler(np.full(stokes.size, angle), stokes)])
-    if isinstance(changes, ComputationError):
-        raise changes
-    same = [math.log(one.stokes / change.stokes) for one in changes
-            if (one.before, one.after) == (change.before, change.after)]  # fmt: skip
-    if not same:
+    angles = np.array([[angle - _STEP, 0.0], [angle + _STEP, 0.0]])
+    row, ends = np.zeros(2, int), np.full(2, np.expm1(_REACH))
+    beside = outcomes_along(experiment, Lines(row, np.full((2, 2), speed), angles, -ends, ends, relative=False))
+    grid = np.tile(np.expm1(_REACH * np.linspace(-1, 1, 6)), (2, 1))
+    changes = locate(beside, grid, _NARROW, unknown=-1)
+    same = [OUTCOMES.index(change.before), OUTCOMES.index(change.after)]
+    alike = (np.column_stack([changes.before, changes.after]) == same).all(axis=1)
+    places = [changes.place[alike & (changes.line == k)] for k in range(2)]
+    if not all(place.size for place in places):
         raise ComputationError("it is not found at angles beside")
-    return min(same, key=abs)
+    low, high = (math.log1p(min(place.tolist(), key=abs)) for place in places)
+    return (high - low) / (2 * _STEP)

@@ -16,7 +16,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property, partial
 
 import numpy as np
-from casadi import DM, MX, SX, Function, densify, fmin, jtimes, vertcat
+from casadi import DM, MX, Function, densify, fmin, jtimes, vertcat
 
 from ..collision.by_kernel import sequence_of
 from ..engines.casadi.integrators import IntegrationFailed, Tolerance, failures, landing, plain, quiet
@@ -27,7 +27,7 @@ from ..host.thread_caches import own_cache
 from ..model.key import ModelKey
 from ..model.model import Model, load, select_model
 from ..model.phases import Flow, extra_units
-from ..model.rebound import jump, rubs
+from ..model.rebound import reset, rubs
 from ..results import DEFINITIONS
 from ..scene.contact import GAPS, contact_word
 from .boundary_distance import SADDLE, check_grip
@@ -70,9 +70,9 @@ class Course:
         """How many legs are integrated."""
         return sum(leg.duration > 0 for leg in self.legs)
 
-    def rubs(self, leg: PhaseRun) -> bool:
-        """True if the doublet rebounds at the end of a leg with dry friction."""
-        return leg.rebounds and rubs(self.model, leg.kinds[0])
+    def reset(self, leg: PhaseRun) -> Function:
+        """What happens at the end of a leg (`model.rebound.reset`)."""
+        return reset(self.choice, leg.criterion, leg.holds, leg.own)
 
     def influences(self, groups: Mapping[str, float]) -> np.ndarray:
         """Mask of the groups that influence the course: not those of rebound criteria that it does not meet."""
@@ -82,7 +82,10 @@ class Course:
             "glass_number": "glass" not in landed,
             **{gap: gap != met for gap in GAPS.values()},
             "dry_restitution": not any(leg.rebounds for leg in self.legs),
-            **dict.fromkeys(("friction", "contact_tangential_restitution"), not any(map(self.rubs, self.legs))),
+            **dict.fromkeys(
+                ("friction", "contact_tangential_restitution"),
+                not any(rubs(self.model, leg.criterion) for leg in self.legs),
+            ),
         }
         return np.array([not absent.get(name, False) for name in self.model.groups])
 
@@ -110,9 +113,7 @@ class End:
     y: MX
     time: MX
     smallest_gap: MX
-    dry: MX
-    friction: MX
-    own: MX
+    lost: MX  # by rebounds, by their friction, to declared events
     shifts: list[MX]  # by the landings, relative to the durations
 
 
@@ -122,7 +123,7 @@ def follow(course: Course, p: MX, durations: MX, plugin: str, tolerance: Toleran
     size = len(model.state)
     start = model.function("start")(DM.zeros(size), p)
     y = vertcat(start, DM.ones(len(course.extras)) * tolerance.offset)
-    at = End(start, y, MX(0), start[0], MX(0), MX(0), MX(0), [])
+    at = End(start, y, MX(0), start[0], MX.zeros(3), [])
     for leg in course.legs:
         if leg.duration > 0:
             flow = Flow(course.choice, leg.phase.region, course.extras, course.edge_watched)
@@ -136,33 +137,10 @@ def follow(course: Course, p: MX, durations: MX, plugin: str, tolerance: Toleran
             at.smallest_gap = fmin(at.smallest_gap, at.y[0])
             k += 1
         if leg.rebounds or leg.holds or leg.own:
-            after, dry, friction, own = reset(course, leg)(at.y[:size], p)
-            at.dry += dry
-            at.friction += friction
-            at.own += own
+            after, *lost, _ = course.reset(leg)(at.y[:size], p)
+            at.lost += vertcat(*lost)
             at.y = vertcat(after, at.y[size:])
     return at
-
-
-@own_cache(256)
-def reset(course: Course, leg: PhaseRun) -> Function:
-    """What happens at the end of a leg: (state, groups) -> state after it; taken by rebound, friction, declared event.
-
-    Energies over m v0^2.
-    """
-    model = course.model
-    y, p, dry, friction, own = model.column, model.parameters, SX(0), SX(0), SX(0)
-    if leg.rebounds:
-        y, dry, friction = jump(course.choice, leg.holds)(y, p, float(course.rubs(leg)))
-    if leg.holds:  # chatter dissipates what remains of the rebound's energy
-        dry += y[1] ** 2 / 2
-        y = vertcat(y[0], 0, y[2:])
-    if leg.own:
-        energies, kinetic = model.function("energies"), model.names("energies").index("kinetic")
-        before, y = energies(y, p)[kinetic], model.function(f"jump_{leg.own}")(y, p)
-        own = before - energies(y, p)[kinetic]
-    names = ["state", "groups"], ["after", "dry_contact", "dry_friction", "own_events"]
-    return Function("reset", [model.column, p], [densify(y), dry, friction, own], *names)
 
 
 @own_cache(256)
@@ -187,8 +165,8 @@ def results(course: Course, p: MX, end: End, tolerance: Tolerance) -> dict[str, 
     )
     named = dict(zip(model.names("outputs"), (outputs[k] for k in range(outputs.numel())), strict=True))
     energies = {name: (before[k], after[k]) for k, name in enumerate(model.names("energies"))}
-    named |= {"contact_time": end.time, "smallest_gap": end.smallest_gap, "energy.dry_contact": end.dry}
-    named["energy.own_events"] = end.own
+    named |= {"contact_time": end.time, "smallest_gap": end.smallest_gap}
+    named |= {"energy.dry_contact": end.lost[0], "energy.own_events": end.lost[2]}
     named["energy.initial"], named["energy.final"] = energies["kinetic"]
     if "strings" in energies:
         named["energy.strings"] = energies["strings"][1] - energies["strings"][0]
@@ -202,7 +180,7 @@ def results(course: Course, p: MX, end: End, tolerance: Tolerance) -> dict[str, 
     if model.own_terms:
         before, after = energies.get("own_energy", (MX(0), MX(0)))
         named["energy.own_terms"] = after - before + named.pop("energy.own_work", MX(0))
-    named["energy.dry_friction"] = named.get("energy.dry_friction", MX(0)) + end.friction
+    named["energy.dry_friction"] = named.get("energy.dry_friction", MX(0)) + end.lost[1]
     return named | {STATE + name: y[k] for k, name in enumerate(model.state)}
 
 
@@ -300,24 +278,22 @@ def inverse(seeds: np.ndarray) -> np.ndarray:
 
 
 def slopes(problem: Problem, query: Query, plugin: str) -> Slopes:
-    """Derivatives of the results of a collision in theta; ComputationError if the engine fails."""
-    scene, n, of = problem.scene, problem.n, query.of
-    choice = select_model(scene, n.oblique, full="energy.tangential_lubrication" in of)
+    """Derivatives of the results of a collision by its parameters; ComputationError if the engine fails."""
+    scene, n = problem.scene, problem.n
+    choice = select_model(scene, n.oblique, full="energy.tangential_lubrication" in query.of)
     mapping = parameter_map(problem.kind, problem.wrt, tuple(load(choice).groups))
-    p, scales = np.split(mapping.values(problem.reference).full().ravel(), [-len(SCALES)])
-    by_theta = np.asarray(mapping.slopes(problem.reference)[0].full())
+    numbers, by_theta, units = mapping.at(problem.reference(problem.kind.entries))
+    p, scales = np.split(numbers, [-len(SCALES)])
     record, parting = partial(sequence_of, n), problem.path.parting
     try:
         z, dz, dp = differentiated(record, choice, query, plugin, parting, p, by_theta[: p.size])
     except ComputationError as error:
         raise n.in_si(error) from None
     # in SI: a result is its dimensionless value times a scale
-    scale, by_scale = np.ones(len(of)), np.zeros((len(of), by_theta.shape[1]))
-    for k, name in enumerate(of):
-        unit = DEFINITIONS[name].scale
-        if unit is not None:
-            scale[k], by_scale[k] = scales[SCALES.index(unit)], by_theta[p.size + SCALES.index(unit)]
-    return Slopes(z * scale, dz @ dp * scale[:, None] + z[:, None] * by_scale)
+    places = [(*SCALES, None).index(DEFINITIONS[name].scale) for name in query.of]
+    scale = np.append(scales, 1.0)[places]
+    by_scale = np.vstack([by_theta[p.size :], np.zeros(len(units))])[places]
+    return z * scale, (dz @ dp * scale[:, None] + z[:, None] * by_scale) / units
 
 
 def differentiated(

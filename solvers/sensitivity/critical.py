@@ -1,8 +1,10 @@
 """`critical()`: the speed up to which impacts stick, and the speed from which on they bounce."""
 
+from __future__ import annotations
+
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import asdict, dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -15,21 +17,145 @@ from ..changes.brackets import locate
 from ..changes.experiment import Rows
 from ..engines.settings import RTOL, check_rtol
 from ..errors import ComputationError, InputError
+from ..formatting.markdown import aligned, csv_text
 from ..host.arguments import check_function, check_mapping, check_whole
+from ..host.pictures import Drawn
 from ..many.arguments import checked_numbers
 from ..many.collide_many import collide_many
+from ..scene.origin import origin
 from ..scene.scene import Scene
 from ..scene.schema import SPEEDS
 from .boundaries import check_boundary_wrt, moving
-from .critical_result import Critical, CriticalSpeed
 from .materials import Material, materials_of
-from .uncertainty import LEVELS, check_samples, deviations, normal_deviates, possible_values, value_of
+from .parameters import cell
+from .uncertainty import LEVELS, check_samples, deviations, drawn, normal_deviates, value_of
 
-_BESIDE = 1e-6  # relative distance of the collisions that confirm a speed on both sides
 _NEAR, _FINE, _COARSE = 3.0, 100, 12  # factor about the speed within which draws are searched finely; samples a decade
 _WIDTH = 1e-5  # to which the speed of a draw is enclosed, relative
 _REACH, _PLACES = 10.0, 21  # factor up to which an entry is followed for an extreme, and number of its values
 _STICK = OUTCOMES.index(STICK)
+_SPEEDS = ("relative_speed", "speed", "interval", "bounces_above", "sticks")
+_UNITS = dict.fromkeys(_SPEEDS, "m/s") | {"angle": "rad", "stokes": "1"}
+
+
+@dataclass(frozen=True)
+class CriticalSpeed:
+    """The speed up to which impacts of one material stick at one angle; speeds in m/s.
+
+    Attributes:
+        material: its name.
+        angle: rad.
+        searched: range of Stokes numbers of the search.
+        relative_speed, speed, stokes: up to which all impacts of the range stick: magnitude of the relative velocity,
+            its normal component, and Stokes number. None if the slowest do not stick, or all do.
+        to: outcome just beyond.
+        bounces_above: relative speed from which on all of the range bounce; None if the fastest do not, or all do.
+        slowest: outcome at the lower end of the range; "" if it could not be computed.
+        sticks: intervals of relative speeds that stick; the first and the last may end where the range does.
+        interval: 95 % interval of `relative_speed`; None for an end that is not in the range. None without uncertain
+            entries.
+        gradient, elasticity: derivatives of `relative_speed` by parameter, SI.
+        sentences: what the numbers leave out.
+        failed: whether there is no answer; the first sentence says why.
+    """
+
+    material: str
+    angle: float
+    searched: tuple[float, float]
+    relative_speed: float | None = None
+    speed: float | None = None
+    stokes: float | None = None
+    to: str | None = None
+    bounces_above: float | None = None
+    slowest: str = ""
+    sticks: tuple[tuple[float, float], ...] = ()
+    interval: tuple[float | None, float | None] | None = None
+    gradient: Mapping[str, Any] = field(default_factory=dict)
+    elasticity: Mapping[str, Any] = field(default_factory=dict)
+    sentences: tuple[str, ...] = ()
+    failed: bool = False
+
+
+@dataclass(frozen=True)
+class Critical(Drawn):
+    """Critical speeds, a row for each material and angle.
+
+    `plot` draws the relative speed up to which they stick over the angle, or by material.
+
+    Attributes:
+        scene: the scene, unless there are several materials.
+
+    Example:
+        >>> from wetdoublet.solvers import critical
+        >>> critical("granulation", angle=[0.0, 0.3]).to_dict()["rows"][1]["to"]
+        'bounce'
+    """
+
+    _picture = "sensitivity.plots.draw_critical"
+
+    rows: tuple[CriticalSpeed, ...]
+    scene: Scene | None
+    rtol: float
+
+    def to_dict(self) -> dict[str, Any]:
+        """The JSON object of `wetdoublet critical --json`: the row itself if there is one, else `rows`."""
+        rows = [asdict(each) for each in self.rows]
+        from_where = {} if self.scene is None else origin(self.scene)
+        return (rows[0] if len(rows) == 1 else {"rows": rows}) | {"rtol": self.rtol, "units": _UNITS} | from_where
+
+    def table(self) -> tuple[list[str], list[list[str]]]:
+        """Head and rows of the table; a column without any cell is left out."""
+        head = ["material", "angle (deg)", "sticks up to relative speed (m/s)", "95 % interval", "normal speed (m/s)",
+                "St", "then", "bounces above relative speed (m/s)"]  # fmt: skip
+        rows = [
+            [one.material, f"{math.degrees(one.angle):.6g}", _number(one.relative_speed), _interval(one.interval),
+             _number(one.speed), _number(one.stokes), one.to or "-", _number(one.bounces_above)]
+            for one in self.rows
+        ]  # fmt: skip
+        columns = [k for k in range(len(head)) if any(row[k] for row in rows)]
+        return [head[k] for k in columns], [[row[k] for k in columns] for row in rows]
+
+    def __str__(self) -> str:
+        head, rows = self.table()
+        where = [f"{one.material} {math.degrees(one.angle):.6g} deg".strip() for one in self.rows]
+        lines = aligned([head, *rows])
+        lines += [f"{at}: {text}" for at, one in zip(where, self.rows, strict=True) for text in one.sentences]
+        names = dict.fromkeys(name for one in self.rows for name in one.gradient)
+        if names:
+            lines += ["", "d ln(relative speed)/d ln p (* its derivative, SI, where p is zero)"]
+            slopes = [
+                [name, *(cell(one.elasticity.get(name), one.gradient.get(name), "0") for one in self.rows)]
+                for name in names
+            ]
+            lines += aligned([["", *where], *slopes])
+        return "\n".join(lines)
+
+    __repr__ = __str__  # what a notebook shows
+
+    def columns(self) -> dict[str, list[Any]]:
+        """A value for each material and angle (rad) by name; speeds in m/s."""
+        names = ("material", "angle", "relative_speed", "low", "high", "speed", "stokes", "to", "bounces_above")
+        records = [vars(one) | dict(zip(("low", "high"), one.interval or (None, None))) for one in self.rows]
+        return {name: [each[name] for each in records] for name in names}
+
+    def to_csv(self) -> str:
+        """A row for each material and angle: speeds in m/s, angles in rad; empty where there is none."""
+        columns, speeds = self.columns(), ("relative_speed", "low", "high", "speed", "bounces_above")
+        units = {"angle": " [rad]"} | dict.fromkeys(speeds, " [m/s]")
+        return csv_text([name + units.get(name, "") for name in columns], zip(*columns.values(), strict=True))
+
+
+def _number(value: float | None) -> str:
+    return "-" if value is None else f"{value:.4g}"
+
+
+def _interval(interval: tuple[float | None, float | None] | None) -> str:
+    if interval is None:
+        return ""
+    low, high = interval
+    if low is None or high is None:
+        return "open" if low == high else f"below {high:.4g}" if low is None else f"above {low:.4g}"
+    return f"{low:.4g} to {high:.4g}"
 
 
 def critical(
@@ -45,8 +171,8 @@ def critical(
 ) -> Critical:
     """The speed up to which impacts stick, for each angle and material.
 
-    The boundaries of all lines are traced over the range of Stokes numbers, and every change of outcome is checked by
-    collisions just below and just above it.
+    The boundaries of all lines are traced over the range of Stokes numbers, and every change of outcome is confirmed by
+    collisions just below and just above it (`boundary`).
 
     Arguments:
         scene: a Scene, a path or a preset's name; or a table of materials: a CSV file, a DataFrame, or a mapping of
@@ -102,11 +228,10 @@ def _of_material(
     rows = []
     for k, (at, changes) in enumerate(zip(traced.angles, traced.changes, strict=True)):
         row = CriticalSpeed(material.label, at, traced.window)
-        slowest, failure = ("", traced.failures[k]) if traced.failures[k] else _slowest(scene, row, changes, rtol)
-        if failure:
-            row = replace(row, sentences=(failure,), failed=True)
+        if traced.failures[k]:
+            row = replace(row, sentences=(traced.failures[k],), failed=True)
         else:
-            row = _row(scene, row, changes, slowest, traced.range_text)
+            row = _row(scene, row, changes, traced.range_text, rtol)
         if row.stokes is not None and uncertainty:
             row = _with_interval(scene, row, uncertainty, samples, rtol, traced.range_text)
         if row.stokes is not None and names:
@@ -119,8 +244,16 @@ def _of_material(
     return rows
 
 
-def _row(scene: Scene, row: CriticalSpeed, changes: Sequence[Change], slowest: str, searched: str) -> CriticalSpeed:
-    """The row with what its changes of outcome mean."""
+def _row(scene: Scene, row: CriticalSpeed, changes: Sequence[Change], searched: str, rtol: float) -> CriticalSpeed:
+    """The row with what its changes of outcome mean, or why nothing is known where there are none."""
+    if changes:
+        slowest = changes[0].before
+    else:
+        seen = collide_many(scene, stokes=row.searched[0], angle=row.angle, rtol=rtol, of=("outcome",))
+        if seen.outcome.item() < 0:
+            reason = f"no collision could be computed at the slowest: {seen.reason.item()}"
+            return replace(row, sentences=(reason,), failed=True)
+        slowest = OUTCOMES[seen.outcome.item()]
     per_stokes = 1 / scene.stokes_per_speed / math.cos(row.angle)
     outcomes = [slowest, *(one.after for one in changes)]
     ends = [each * per_stokes for each in (row.searched[0], *(one.stokes for one in changes), row.searched[1])]
@@ -141,31 +274,12 @@ def _row(scene: Scene, row: CriticalSpeed, changes: Sequence[Change], slowest: s
     return replace(row, sentences=tuple(sentences))
 
 
-def _slowest(scene: Scene, row: CriticalSpeed, changes: Sequence[Change], rtol: float) -> tuple[str, str]:
-    """The outcome at the lower end of the range; or why it is unknown, or which change collisions do not confirm."""
-    places = np.array([one.stokes for one in changes])
-    gaps = np.diff(places, prepend=0.0, append=np.inf) / 3
-    below, above = (np.minimum(_BESIDE * places, each) for each in (gaps[:-1], gaps[1:]))
-    stokes = np.concatenate([row.searched[:1], places - below, places + above])
-    seen = collide_many(scene, stokes=stokes, angle=row.angle, rtol=rtol, of=("outcome",))
-    first, *outcome = [OUTCOMES[code] if code >= 0 else "" for code in seen.outcome.values]
-    for one, *beside in zip(changes, outcome[: places.size], outcome[places.size :], strict=True):
-        if beside != [one.before, one.after]:
-            return "", f"collisions beside St {one.stokes:.10g} do not confirm the change of outcome found there"
-    slowest = changes[0].before if changes else first
-    return slowest, "" if slowest else f"no collision could be computed at the slowest: {seen.reason.values[0]}"
-
-
 def _with_interval(
     scene: Scene, row: CriticalSpeed, uncertainty: Mapping[str, Any], samples: int, rtol: float, searched: str
 ) -> CriticalSpeed:
     """The row with the 95 % interval of its relative speed: from draws of the entries, each located by collisions."""
     at = scene.with_impact(angle=row.angle)
-    normal = normal_deviates(samples, len(uncertainty))
-    columns = {
-        name: possible_values(at.fields[name], value_of(at, name), sigma * normal[:, k])
-        for k, (name, sigma) in enumerate(deviations(at, uncertainty).items())
-    }
+    columns = drawn(at, uncertainty, normal_deviates(samples, len(uncertainty)))
     try:
         speeds = _speeds(at, row, columns, samples, rtol)
     except ComputationError as error:  # no compiled kernel

@@ -23,16 +23,15 @@ from ..host.pictures import register
 from ..many import impacts as many
 from ..many.arguments import checked_columns, of_one_length
 from ..model.validity import warn
-from ..results import DEFINITIONS, FAILED, check_differentiated, outcome_attributes
+from ..results import DEFINITIONS, FAILED, attributes, check_differentiated, outcome_attributes
 from ..scene.held import held_quantity
 from ..scene.scene import Scene
-from ..scene.schema import SPEEDS
 from . import by_kernel as kernel
 from .boundary_distance import limit, refused
-from .parameters import RELATIVE, SIDEWAYS, Kind, check_wrt, kind_of, references
-from .problem import NEAR, SHARPEST
+from .parameters import SIDEWAYS, check_wrt, elasticities, kind_of, references
+from .problem import NEAR, SHARPEST, Problem
 from .result import Near
-from .sensitivities import sensitivities
+from .sensitivities import derivatives
 
 if TYPE_CHECKING:
     import xarray
@@ -49,7 +48,7 @@ STICK = "a stick: its restitution is 0, and nothing else of it is defined"
 class _Gradients(Impacts):
     """Impacts, what of them is requested, and the results so far, which are filled in; NaN where not computed."""
 
-    kind: Kind
+    hold: str
     wrt: tuple[str, ...]
     of: tuple[str, ...]
     rtol: float
@@ -59,32 +58,10 @@ class _Gradients(Impacts):
     reason: np.ndarray
     engine: np.ndarray
 
-    @property
-    def relative_speed(self) -> np.ndarray:
-        return np.asarray(self.speed / np.cos(self.angle))
-
-    def per_unit(self, slopes: np.ndarray, which: np.ndarray, units: np.ndarray) -> np.ndarray:
-        """Derivatives by the parameters, from those in theta: (results, collisions, parameters).
-
-        Arguments:
-            units: dp/dtheta at the reference of `by_kernel`.
-        """
-        result: np.ndarray = slopes / units
-        for k, name in enumerate(self.wrt):
-            if name == RELATIVE:
-                result[:, :, k] = slopes[:, :, k] / self.relative_speed[which]
-            elif name in SPEEDS:
-                result[:, :, k] *= kernel.SPEED / self.speed[which]
-            elif name == "impact.angle" and self.angle[which[0]] > 0:
-                result[:, :, k] = slopes[:, :, k] / self.angle[which]
-        return result
-
-    def reference(self) -> np.ndarray:
-        """Values of the parameters, (collisions, parameters)."""
-        first = dict(zip(self.kind.entries, references(self.scene, self.kind, 1.0, 0.0).tolist(), strict=True))
-        columns = {"impact.speed": self.speed, "impact.angle": self.angle, RELATIVE: self.relative_speed}
-        columns["impact.stokes"] = self.speed * self.scene.stokes_per_speed
-        return np.column_stack([columns.get(name, np.full(self.speed.size, first.get(name, 0.0))) for name in self.wrt])
+    def fill(self, which: Any, outcome: Any, engine: str, reason: Any, value: Any, gradient: Any) -> None:
+        """Fill in the results of collisions `which`."""
+        self.outcome[which], self.engine[which], self.reason[which] = outcome, engine, reason
+        self.value[:, which], self.gradient[:, which] = value, gradient
 
 
 def gradients_many(
@@ -136,27 +113,21 @@ def gradients_many(
     velocity = batch.speed if batch.speed is not None else np.asarray(batch.stokes) / loaded.stokes_per_speed
     size, parameters = batch.size, check_wrt(loaded, wrt)
     request = _Gradients(
-        loaded,
-        np.asarray(velocity),
-        batch.angle,
-        kind=kind_of(loaded, held),
-        wrt=parameters,
-        of=names,
-        rtol=batch.rtol,
+        loaded, np.asarray(velocity), batch.angle, hold=held, wrt=parameters, of=names, rtol=batch.rtol,
         outcome=np.full(size, FAILED, np.int8),
         value=np.full((len(names), size), np.nan),
         gradient=np.full((len(names), size, len(parameters)), np.nan),
         reason=np.full(size, "", object),
         engine=np.full(size, "", object),
-    )
+    )  # fmt: skip
     rest = np.arange(size)
     oblique = set(request.oblique.tolist())
     offered = by in (None, "taylor") and kernel.offers(loaded, names, oblique)
     if offered:
         rest = _by_kernel(request)
     for k in rest:
-        _alone(request, int(k), held, by or ("taylor" if offered else "rosenbrock"))
-    return _dataset(request, held)
+        _alone(request, int(k), by or ("taylor" if offered else "rosenbrock"))
+    return _dataset(request)
 
 
 def _by_kernel(request: _Gradients) -> np.ndarray:
@@ -175,6 +146,7 @@ def _by_kernel(request: _Gradients) -> np.ndarray:
 
 
 def _stretch(request: _Gradients, which: np.ndarray) -> np.ndarray:
+    kind = kind_of(request.scene, request.hold)
     # for few parameters forward tangents cost no more
     back = request.of == kernel.BACKWARD and len(request.wrt) > kernel.DIRECTIONS
 
@@ -183,20 +155,21 @@ def _stretch(request: _Gradients, which: np.ndarray) -> np.ndarray:
     ) -> kernel.Along | None:
         order = (order_backward if backward else order_for)(request.rtol)
         return kernel.gradients_by_kernel(
-            request.subset(part), request.kind, request.wrt, request.of, rtol, order, budget, backward, nearest
+            request.subset(part), kind, request.wrt, request.of, rtol, order, budget, backward, nearest
         )
 
     answered = run_part(which, request.rtol, _SOON, back, NEAR)  # what is nearer is repeated
     if answered is None:
         return which
-    answers, measures = answered.run.answers, answered.run.near
+    run, value, first = answered
+    answers, measures = run.answers, run.near
     failures = np.flatnonzero(answers["status"] > LAST_ANSWER)
     if back and failures.size:  # forward tangents of long trajectories, as these also limit the step
         held = run_part(which[failures], request.rtol, _SOON, False)
         if held is None:
             return which
-        answers[failures], measures[failures] = held.run.answers, held.run.near
-        answered.value[:, failures], answered.first[:, failures] = held.value, held.first
+        answers[failures], measures[failures] = held[0].answers, held[0].near
+        value[:, failures], first[:, failures] = held[1:]
     near, least = measures[:, 0], limit(request.rtol)
     far = (answers["outcome"] > 0) & (near >= NEAR)
     _keep(request, which, answered, far)
@@ -220,24 +193,18 @@ def _stretch(request: _Gradients, which: np.ndarray) -> np.ndarray:
         for backward in (True, False) if back else (False,):
             again = run_part(part, sharper, _LONG, backward)
             if again is not None:
-                _keep(request, part, again, again.run.answers["outcome"] > 0)
-                part = part[again.run.answers["status"] > LAST_ANSWER]
+                _keep(request, part, again, again[0].answers["outcome"] > 0)
+                part = part[again[0].answers["status"] > LAST_ANSWER]
             if not part.size:
                 break
     sticks = (answers["outcome"] == OUTCOMES.index(STICKS)) & (answers["status"] <= LAST_ANSWER)
     stuck = which[_alike_beside(request, which, answers, np.flatnonzero(sticks))]
-    request.outcome[stuck], request.reason[stuck], request.engine[stuck] = 0, STICK, "taylor"
-    if "restitution" in request.of:
-        place = request.of.index("restitution")
-        request.value[place, stuck], request.gradient[place, stuck] = 0.0, 0.0
+    at_rest = np.where([name == "restitution" for name in request.of], 0.0, np.nan)[:, None]
+    request.fill(stuck, 0, "taylor", STICK, at_rest, at_rest[:, :, None])
     for k in np.flatnonzero((answers["outcome"] > 0) & is_clear & (near < least)):
-        request.reason[which[k]] = str(refused(Near(*_boundary(measures[k])), least))
+        name, of = DISTANCES[int(measures[k, 1])]
+        request.reason[which[k]] = str(refused(Near(name, float(measures[k, 0]), of), least))
     return np.asarray(which[(request.outcome[which] == FAILED) & (request.reason[which] == "")])
-
-
-def _boundary(measures: np.ndarray) -> tuple[str, float, str]:
-    name, of = DISTANCES[int(measures[1])]
-    return name, float(measures[0]), of
 
 
 def _without(request: _Gradients, which: np.ndarray, rtol: float, factor: float = 1.0) -> Carried:
@@ -251,14 +218,9 @@ def _without(request: _Gradients, which: np.ndarray, rtol: float, factor: float 
 
 
 def _keep(request: _Gradients, which: np.ndarray, answered: kernel.Along, part: np.ndarray) -> None:
-    into = which[part]
-    if into.size:
-        request.outcome[into] = answered.run.answers["outcome"][part]
-        request.value[:, into] = answered.value[:, part]
-        slopes = request.per_unit(answered.first[:, part], into, answered.units)
-        slopes[np.isnan(answered.value[:, part])] = np.nan
-        request.gradient[:, into] = slopes
-        request.engine[into] = "taylor"
+    run, value, first = answered
+    slopes = np.where(np.isnan(value)[:, :, None], np.nan, first)
+    request.fill(which[part], run.answers["outcome"][part], "taylor", "", value[:, part], slopes[:, part])
 
 
 def _alike_beside(request: _Gradients, which: np.ndarray, answers: np.ndarray, checked: np.ndarray) -> np.ndarray:
@@ -275,48 +237,40 @@ def _alike_beside(request: _Gradients, which: np.ndarray, answers: np.ndarray, c
     return checked
 
 
-def _alone(request: _Gradients, k: int, hold: str, engine: str) -> None:
-    speed, angle = float(request.speed[k]), float(request.angle[k])
+def _alone(request: _Gradients, k: int, engine: str) -> None:
     method = "adjoint" if engine != "taylor" and len(request.of) < len(request.wrt) else "forward"
     try:
-        one = sensitivities(
-            request.scene, request.of, request.wrt, speed=speed, angle=angle, method=method, rtol=request.rtol,
-            engine=engine, hold=hold,
-        )  # fmt: skip
+        scene = request.scene.with_impact(speed=float(request.speed[k]), angle=float(request.angle[k]))
+        problem = Problem.of(scene, *scene.need_impact(), request.wrt, request.hold)
+        row = derivatives(problem, request.of, method, request.rtol, engine)
     except WetDoubletError as error:
         request.reason[k] = str(error)
         return
-    request.outcome[k] = OUTCOMES.index(one.outcome)
-    request.reason[k] = STICK if one.outcome == "stick" else ""
-    request.engine[k] = one.engine
-    for place, name in enumerate(request.of):
-        value, row = one.value[name], one.gradient[name]
-        request.value[place, k] = np.nan if value is None else value
-        request.gradient[place, k] = [np.nan if slope is None else slope for slope in row.values()]
+    reason = STICK if row.outcome == STICKS else ""
+    request.fill(k, OUTCOMES.index(row.outcome), row.engine, reason, row.value, row.gradient)
 
 
-def _dataset(request: _Gradients, hold: str) -> xarray.Dataset:
+def _dataset(request: _Gradients) -> xarray.Dataset:
     register()
-    reference = request.reference()
-    with np.errstate(divide="ignore", invalid="ignore"):
-        elasticity = request.gradient * reference / request.value[:, :, None]
-    elasticity[~np.isfinite(elasticity) | (reference == 0)] = np.nan
+    reference = references(request.scene, request.wrt, request.speed, request.angle).T
     along, over = ("collision",), ("quantity", "collision", "parameter")
     stokes = request.speed * request.scene.stokes_per_speed
     variables: dict[str, Column] = {
         "value": (("quantity", "collision"), request.value, {"long_name": "results, SI"}),
         "gradient": (over, request.gradient, {"long_name": "derivatives by the parameters, SI"}),
-        "elasticity": (over, elasticity, {"units": "1", "long_name": "d ln y/d ln p"}),
+        "elasticity": (
+            over, elasticities(request.value, request.gradient, reference),
+            {"units": "1", "long_name": "d ln y/d ln p"},
+        ),
         "outcome": (along, request.outcome, outcome_attributes()),
         "reason": (along, request.reason.astype(str), {"long_name": "why there is no derivative"}),
         "engine": (along, request.engine.astype(str), {"long_name": "what computed it"}),
-    }
+    }  # fmt: skip
     coordinates: dict[str, Column] = {
         "units": (("quantity",), np.array([DEFINITIONS[name].unit for name in request.of]), {}),
         "reference": (("collision", "parameter"), reference, {}),
-        "speed": (along, request.speed, {"units": "m/s", "long_name": "normal approach speed"}),
-        "stokes": (along, stokes, {"units": "1", "long_name": "Stokes number"}),
-        "angle": (along, request.angle, {"units": "rad", "long_name": "impact angle"}),
-    }
-    attributes = {"scene": request.scene.to_toml(), "rtol": request.rtol, "hold": hold}
-    return labelled(variables, coordinates, attributes, {"quantity": request.of, "parameter": request.wrt})
+        **{name: (along, values, attributes(name)) for name, values in
+           (("speed", request.speed), ("stokes", stokes), ("angle", request.angle))},
+    }  # fmt: skip
+    about = {"scene": request.scene.to_toml(), "rtol": request.rtol, "hold": request.hold}
+    return labelled(variables, coordinates, about, {"quantity": request.of, "parameter": request.wrt})

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import partial
@@ -30,7 +31,7 @@ from ..space.pairs import AXES, Pairs, without_spins
 from ..space.pairs import checked as checked_pairs
 from .boundary_distance import FINE, Course, Courses, checked, course, courses_of
 from .by_casadi import STATE, differentiated
-from .pair_maps import RESULTS, pair_maps, quantities_of
+from .pair_maps import RESULTS, pair_maps
 from .parameters import kind_of, parameter_map, references
 from .problem import RECORDED, Query
 
@@ -41,7 +42,7 @@ _SLIDES = np.pi / 4  # any angle beside a wall
 INPUTS = ("normal", "velocities", "spins")
 _SHAPES = {"normal": (3,), "velocities": (2, 3), "spins": (2, 3)}
 _STICK = "a stick: the rigid motion that it is given as is not differentiated"
-_ROWS = sum(int(np.prod(shape)) for shape in RESULTS.values())
+_ROWS = sum(map(math.prod, RESULTS.values()))
 
 
 def pair_gradients(
@@ -114,14 +115,17 @@ def pair_gradients(
         "outcome": (dims, outcome.reshape(pairs.shape), outcome_attributes()),
         "reason": (dims, reason.astype(str).reshape(pairs.shape), {"long_name": "why there is no derivative"}),
     }
-    first = 0
-    for name, shape in RESULTS.items():
+    ends = np.cumsum([math.prod(shape) for shape in RESULTS.values()])[:-1]
+    columns = zip(RESULTS.items(), np.split(value, ends, axis=1), np.split(slope, ends, axis=1), strict=True)
+    for (name, shape), values, slopes in columns:
         more, about = ((), NUMBERS[name]) if name in NUMBERS else VECTORS[name]
-        part = slice(first, first := first + int(np.prod(shape)))
-        data[name] = (*dims, *more), value[:, part].reshape((*pairs.shape, *shape)), about
-        slopes = slope[:, part].reshape((*pairs.shape, *shape, len(parameters)))
+        data[name] = (*dims, *more), values.reshape((*pairs.shape, *shape)), about
         meaning = {"long_name": f"derivative of the {about['long_name']}"}
-        data[f"d_{name}"] = (*dims, *more, "parameter"), slopes, meaning
+        data[f"d_{name}"] = (
+            (*dims, *more, "parameter"),
+            slopes.reshape((*pairs.shape, *shape, len(parameters))),
+            meaning,
+        )
     coordinates = {"axis": list(AXES), "parameter": parameters}
     return xr.Dataset(data, coordinates, {"scene": loaded.to_toml(), "rtol": rtol, "engine": "rosenbrock"})
 
@@ -148,32 +152,17 @@ def _of_one_pair(
         ComputationError: near a boundary, or the trajectory could not be differentiated.
     """
     scene = pair.scene
-    model = load(select_model(scene, True, space=not scene.wall))
-    maps, names = pair_maps(model.choice), quantities_of(model)
+    model, kind = load(select_model(scene, True, space=not scene.wall)), kind_of(scene, "speed")
+    in_groups, in_results = pair_maps(kind, model.choice, entries, tuple(components))
+    v0 = -float(pair.opening[0])
+    reference = references(scene, kind.entries, v0, 0.0)
     x = np.concatenate([pair.normal[0], pair.velocities[0].ravel(), pair.spins[0].ravel()])
-    speed, d_speed = (each.full() for each in maps.speed(x))
-    v0 = float(speed.item())
-    kind = kind_of(scene, "speed")
-    mapping = parameter_map(kind, (*entries, "impact.speed"), names)
-    reference = references(scene, kind, v0, 0.0)
-    by_theta, units = (each.full() for each in mapping.slopes(reference))
-    g = np.append(mapping.values(reference).full().ravel()[: len(names) + 1], v0)  # quantities, film thickness, v0
-    n, axes = _scaled(pair)
-    scale = n.groups["obliquity"]
-    # columns of order one: entries by their parameters theta, components over a typical size of each
-    count = len(entries)
     typical = np.concatenate([np.ones(3), np.full(6, v0), np.full(6, v0 / float(scene.material["reduced_radius"]))])
-    column_scales = np.append(units.ravel()[:count], typical[components])
-    dx = np.zeros((x.size, column_scales.size))
-    dx[components, range(count, column_scales.size)] = typical[components]
-    by_speed = d_speed @ dx
-    dg = np.zeros((g.size, column_scales.size))
-    dg[:-1, :count] = by_theta[: len(names) + 1, :count]
-    dg[:-1] += by_theta[: len(names) + 1, count:] / v0 * by_speed
-    dg[-1:] = by_speed
-    p, by_g, by_x = (each.full() for each in maps.groups(g, x, axes, scale))
-    p, dp = p.ravel(), by_g @ dg + by_x @ dx
-    n = replace(n, groups={**n.groups, **dict(zip(model.groups, p.tolist(), strict=True))})
+    units = np.append(parameter_map(kind, entries, ()).at(reference)[2], typical[components])
+    n, axes = _scaled(pair)
+    given = reference, x, axes, n.groups["obliquity"], units
+    p, dp = (each.full() for each in in_groups(*given))
+    n = replace(n, groups={**n.groups, **dict(zip(model.groups, p.ravel().tolist(), strict=True))})
     followed, courses = _followed(pair, n)
     try:
         path = followed(RECORDED)
@@ -182,12 +171,11 @@ def _of_one_pair(
         near = checked(courses, True, rtol)
         last = tuple(STATE + name for name in model.state)
         query = Query((*last, "contact_time"), "forward", rtol, near)
-        end, by_p, dp = differentiated(followed, model.choice, query, "rosenbrock", path.parting, p, dp)
+        end, by_p, dp = differentiated(followed, model.choice, query, "rosenbrock", path.parting, p.ravel(), dp)
     except ComputationError as error:
         raise n.in_si(error) from None
-    value, *slopes = (each.full() for each in maps.results(end, p, g, x, axes, scale))
-    derivatives = slopes[0] @ (by_p @ dp) + slopes[1] @ dp + slopes[2] @ dg + slopes[3] @ dx
-    return OUTCOMES.index(path.outcome), (value.ravel(), derivatives / column_scales)
+    value, by_end, by_theta = (each.full() for each in in_results(end, *given))
+    return OUTCOMES.index(path.outcome), (value.ravel(), (by_end @ (by_p @ dp) + by_theta) / units)
 
 
 def _scaled(pair: Pairs) -> tuple[Problem, np.ndarray]:

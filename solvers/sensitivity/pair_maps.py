@@ -9,12 +9,13 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from casadi import SX, Function, cross, densify, dot, jacobian, norm_2, vertcat
+from casadi import SX, Function, cross, densify, dot, jacobian, norm_2, substitute, vertcat, vertsplit
 
 from ...generated import scaling
 from ..host.thread_caches import own_cache
 from ..model.key import ModelKey
 from ..model.model import Model, load
+from .parameters import Kind, parameter_map
 
 AXES = "xyz"
 INPUTS = 15  # normal, two velocities, two spins
@@ -27,24 +28,8 @@ RESULTS: Mapping[str, tuple[int, ...]] = {
 
 def quantities_of(model: Model) -> tuple[str, ...]:
     """Names of the quantities `g` of a pair's maps: groups that no vector changes, and sizes."""
-    moved = {"obliquity", "initial_normal", "initial_turning", "initial_spin", "initial_partner_spin"}
-    groups = (name for name in model.groups if name.rstrip(AXES).rstrip("_") not in moved and name not in moved)
+    groups = (name for name in model.groups if not name.startswith(("obliquity", "initial_")))
     return tuple(dict.fromkeys((*groups, *(SIZES if model.space else SIZES[:1]))))
-
-
-@dataclass(frozen=True)
-class PairMaps:
-    """CasADi functions; `g` has the quantities, film thickness and speed, `x` the inputs.
-
-    Arguments:
-        speed: x -> speed of approach, and its gradient.
-        groups: (g, x, axes, scale) -> groups, their derivatives by g and by x.
-        results: (end, groups, g, x, axes, scale) -> results, their derivatives by the end, groups, g and x.
-    """
-
-    speed: Function
-    groups: Function
-    results: Function
 
 
 @dataclass(frozen=True)
@@ -64,32 +49,49 @@ class _Inputs:
 
 
 @own_cache(32)
-def pair_maps(choice: ModelKey) -> PairMaps:
-    """The maps of a model of two spheres in space, or of a sphere beside a wall."""
-    model = load(choice)
-    names = (*quantities_of(model), "film_thickness", "speed")
-    x, g = SX.sym("x", INPUTS), SX.sym("g", len(names))
-    axes, scale = SX.sym("axes", 3, 3), SX.sym("scale")
-    quantities, inputs = dict(zip(names, (g[k] for k in range(len(names))), strict=True)), _Inputs.of(x)
-    approach = -dot(inputs.normal, inputs.relative)
-    first = (
-        _first(quantities, inputs, axes, scale) if model.space else {"initial_turning": SX(1), "initial_spin": SX(0)}
-    )
-    first |= {"obliquity": scale} if model.space else {"obliquity": SX(1)}
-    p = densify(vertcat(*(first[name] if name in first else quantities[name] for name in model.groups)))
-    groups, end = SX.sym("groups", p.numel()), SX.sym("end", len(model.state) + 1)
+def pair_maps(
+    kind: Kind, choice: ModelKey, entries: tuple[str, ...], components: tuple[int, ...]
+) -> tuple[Function, Function]:
+    """The maps of a model of two spheres in space, or of a sphere beside a wall, as CasADi functions.
+
+    Both take the reference values of the entries, the inputs x, the axes and scale of the groups, and dp/dtheta of the
+    parameters, which are these entries and components of x.
+
+    Returns:
+        The groups and their derivatives in theta; and, with the end of the trajectory as the first argument, the
+        results and their derivatives by the end and in theta.
+    """
+    model, size = load(choice), len(entries) + len(components)
+    reference, x, axes, scale = SX.sym("ref", len(kind.entries)), SX.sym("x", INPUTS), SX.sym("axes", 3, 3), SX.sym("s")
+    units, theta, end = SX.sym("units", size), SX.sym("theta", size), SX.sym("end", len(model.state) + 1)
+    values, vectors = SX(reference), SX(x)
+    for k, name in enumerate(entries):
+        values[kind.entries.index(name)] += units[k] * theta[k]
+    for k, place in enumerate(components, len(entries)):
+        vectors[place] += units[k] * theta[k]
+    inputs = _Inputs.of(vectors)
+    speed = -dot(inputs.normal, inputs.relative)
+    values[kind.entries.index(kind.held)] = speed
+    names = quantities_of(model)
+    numbers = parameter_map(kind, (), names).values(values)
+    quantities = {name: numbers[k] for k, name in enumerate((*names, "film_thickness"))} | {"speed": speed}
     if model.space:
-        results = densify(_of_spheres(model, end, groups, quantities, inputs, axes, scale))
+        first = _first(quantities, inputs, axes, scale) | {"obliquity": scale}
     else:
-        results = densify(_beside_wall(model, end, groups, quantities, inputs))
-    return PairMaps(
-        Function("speed", [x], [approach, densify(jacobian(approach, x))]),
-        Function("groups", [g, x, axes, scale], [p, densify(jacobian(p, g)), densify(jacobian(p, x))]),
-        Function(
-            "results",
-            [end, groups, g, x, axes, scale],
-            [results, *(densify(jacobian(results, each)) for each in (end, groups, g, x))],
-        ),
+        first = {"initial_turning": SX(1), "initial_spin": SX(0), "obliquity": SX(1)}
+    p = densify(vertcat(*(first[name] if name in first else quantities[name] for name in model.groups)))
+    if model.space:
+        results = densify(_of_spheres(model, end, p, quantities, inputs, axes, scale))
+    else:
+        results = densify(_beside_wall(model, end, p, quantities, inputs))
+
+    def function(name: str, arguments: list[SX], *outputs: SX) -> Function:
+        here = substitute(list(outputs), [theta], [SX.zeros(size)])
+        return Function(name, [*arguments, reference, x, axes, scale, units], [densify(each) for each in here])
+
+    return (
+        function("groups", [], p, jacobian(p, theta)),
+        function("results", [end], results, jacobian(results, end), jacobian(results, theta)),
     )
 
 
@@ -122,7 +124,7 @@ def _of_spheres(
 ) -> SX:
     """Results of two spheres, as `space.ends.after` has them."""
     y, rate, speed = end[:-1], _rate(quantities, scale), quantities["speed"]
-    values = dict(zip(model.names("outputs"), _parts(model.function("outputs")(y, groups)), strict=True))
+    values = dict(zip(model.names("outputs"), vertsplit(model.function("outputs")(y, groups)), strict=True))
 
     def vector(name: str) -> SX:
         return axes.T @ vertcat(*(values[f"{name}_{axis}"] for axis in AXES))
@@ -169,7 +171,3 @@ def _beside_wall(model: Model, end: SX, groups: SX, quantities: Mapping[str, SX]
         cross(later_roll, normal) / radius + dot(inputs.spins[0], normal) * normal,
         nothing,
     )
-
-
-def _parts(column: SX) -> list[SX]:
-    return [column[k] for k in range(column.numel())]

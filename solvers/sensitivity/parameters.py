@@ -28,6 +28,26 @@ SCALES = ("length", "time", "rate", "energy")
 RELATIVE = "impact.relative_speed"
 
 
+def elasticities(value: np.ndarray, gradient: np.ndarray, reference: np.ndarray) -> np.ndarray:
+    """Values d ln y/d ln p of y (results, ...) and dy/dp (results, ..., parameters); NaN where y or p is zero."""
+    with np.errstate(divide="ignore", invalid="ignore"):
+        ratios: np.ndarray = gradient * reference / value[..., None] + 0.0
+    ratios[~np.isfinite(ratios) | (reference == 0)] = np.nan
+    return ratios
+
+
+def numbers(names: Sequence[str], values: np.ndarray) -> Row:
+    """Values by name, None for NaN."""
+    return {name: None if value != value else value for name, value in zip(names, values.tolist(), strict=True)}
+
+
+def cell(elasticity: float | None, gradient: float | None, none: str = "none") -> str:
+    """An elasticity in a table, `none` for zero; or, marked by a star, the derivative where there is none."""
+    if elasticity is None:
+        return "-" if gradient is None else f"* {gradient:.4g}"
+    return f"{elasticity:.5g}" if elasticity else none
+
+
 def known(scene: Scene) -> tuple[str, ...]:
     """The parameters of a scene: its numeric entries in the file's order, then speed, Stokes number and angle."""
     numeric = [name for name, value in scene.si if not (isinstance(value, str) or name in MEETING)]
@@ -63,18 +83,13 @@ class Kind:
 
     entries: tuple[str, ...]  # names of the reference values, in order
     hold: str
-    shape: tuple[object, ...]  # choices that select the formulas
+    ways: Ways
+    shape: tuple[object, ...]  # further choices that select the formulas
     formulas: Mapping[str, Formula] = field(compare=False, repr=False)
 
     @property
     def held(self) -> str:
         return f"impact.{self.hold}"
-
-    @property
-    def ways(self) -> Ways:
-        ways = self.shape[0]
-        assert isinstance(ways, Ways)
-        return ways
 
 
 def kind_of(scene: Scene, hold: str) -> Kind:
@@ -84,17 +99,18 @@ def kind_of(scene: Scene, hold: str) -> Kind:
     return Kind(
         (*entries, f"impact.{hold}", "impact.angle"),
         hold,
-        (scene.ways, scene.pair, own_rupture, scene.package),
+        scene.ways,
+        (scene.pair, own_rupture, scene.package),
         formulas(scene),
     )
 
 
-def references(scene: Scene, kind: Kind, speed: float, angle: float) -> np.ndarray:
-    """Reference values of a kind's entries, SI."""
+def references(scene: Scene, names: Sequence[str], speed: Any, angle: Any) -> np.ndarray:
+    """Values of parameters at a normal speed (m/s) and angle (rad), SI: (names,); at arrays of them (names, n)."""
     values: dict[str, Any] = _defaults(scene) | dict(scene.entries)
     values |= {"impact.speed": speed, "impact.stokes": scene.stokes_of(speed), "impact.angle": angle}
     values[RELATIVE] = speed / normal_speed(1.0, angle)
-    return np.array([float(values[name]) for name in kind.entries])
+    return np.array(np.broadcast_arrays(speed, angle, *(values[name] for name in names))[2:], dtype=float)
 
 
 def _scale_of_zero(name: str, values: Mapping[str, SX], ways: Ways) -> SX:
@@ -116,6 +132,11 @@ class ParameterMap:
 
     values: Function
     slopes: Function
+
+    def at(self, reference: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Groups and scales (n,), their derivatives in theta (n, parameters), and dp/dtheta (parameters,)."""
+        numbers, slopes, units = (each.full() for each in (self.values(reference), *self.slopes(reference)))
+        return numbers.ravel(), slopes, units.ravel()
 
 
 @own_cache(128)

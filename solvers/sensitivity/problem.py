@@ -11,9 +11,8 @@ import numpy as np
 from ..collision.by_kernel import sequence_of
 from ..engines.casadi.sequence import EventSequence
 from ..model import dimensionless
-from ..scene.quantities import normal_speed
 from ..scene.scene import Scene
-from .parameters import RELATIVE, Kind, kind_of, parameter_map, references
+from .parameters import Kind, kind_of, references
 from .result import Near
 
 RECORDED = 1e-9  # tolerance of the record; landings on its events correct the remaining error
@@ -21,45 +20,40 @@ NEAR = 1e-2  # at smaller distances to a boundary errors are amplified, so the t
 SHARPEST = 1e-13
 _TILT = 1e-8  # rad: its square is rounding, and states are scaled by it, so that steps follow the tangential motion
 
-
-@dataclass(frozen=True)
-class Slopes:
-    """Quantities and their derivatives in theta, SI: y (q,), dy/dtheta (q, n)."""
-
-    value: np.ndarray
-    first: np.ndarray
+Slopes = tuple[np.ndarray, np.ndarray]
+"""Quantities and their derivatives by the parameters, SI: y (q,), dy/dp (q, n)."""
 
 
 @dataclass(frozen=True)
 class Problem:
-    """A collision, the parameters to differentiate in, and their reference values."""
+    """A collision, and the parameters to differentiate in."""
 
     scene: Scene
     n: dimensionless.Problem
     wrt: tuple[str, ...]
-    kind: Kind
-    reference: np.ndarray
+    hold: str
 
     @classmethod
     def of(cls, scene: Scene, speed: float, angle: float, wrt: tuple[str, ...], hold: str) -> Problem:
         """The problem of a scene's collision at a normal speed (m/s) and angle (rad)."""
-        kind = kind_of(scene, hold)
-        return cls(
-            scene,
-            dimensionless.nondimensionalise(scene, speed, angle),
-            wrt,
-            kind,
-            references(scene, kind, speed, angle),
-        )
+        return cls(scene, dimensionless.nondimensionalise(scene, speed, angle), wrt, hold)
+
+    @cached_property
+    def kind(self) -> Kind:
+        return kind_of(self.scene, self.hold)
 
     @cached_property
     def path(self) -> EventSequence:
         """The phases and events of the collision; ComputationError if its outcome is not decided."""
         return sequence_of(self.n, RECORDED)
 
+    def reference(self, names: tuple[str, ...]) -> np.ndarray:
+        """The values of parameters, SI."""
+        return references(self.scene, names, self.n.speed, self.n.angle)
+
     def tilted(self) -> Problem:
         """The collision at a tiny angle: it has the derivatives that a head-on one has by its sideways motion."""
-        return Problem.of(self.scene, self.n.speed, _TILT, self.wrt, self.kind.hold)
+        return Problem.of(self.scene, self.n.speed, _TILT, self.wrt, self.hold)
 
     def defined(self, name: str) -> bool:
         """True if a quantity is defined for the collision and can vary."""
@@ -70,20 +64,6 @@ class Problem:
         if name == "final_spin_partner" and not (self.scene.pair or self.scene.wall):
             return False
         return self.path.separated or name == "energy.initial"
-
-    def units(self) -> np.ndarray:
-        """dp/dtheta of the parameters."""
-        return np.asarray(parameter_map(self.kind, self.wrt, ()).slopes(self.reference)[1].full()).ravel()
-
-    def value_of(self, name: str) -> float:
-        """The value of a parameter, SI."""
-        if name == "impact.speed":
-            return self.n.speed
-        if name == RELATIVE:
-            return self.n.speed / float(normal_speed(1.0, self.n.angle))
-        if name == "impact.stokes":
-            return self.n.stokes
-        return float(self.reference[self.kind.entries.index(name)])
 
 
 @dataclass(frozen=True)

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+from collections.abc import Iterable, Mapping
+from dataclasses import asdict, dataclass, field
 from typing import TYPE_CHECKING, Any
+
+import numpy as np
 
 from ...generated.automaton import STICK
 from ..formatting.markdown import numbers_aligned
@@ -14,7 +16,7 @@ from ..results import DEFINITIONS
 from ..scene.held import NAMES
 from ..scene.origin import origin
 from ..scene.schema import SPEEDS
-from .parameters import Row
+from .parameters import Row, cell
 
 if TYPE_CHECKING:
     import xarray
@@ -26,6 +28,7 @@ _STICK_NOTES = (
     "a stick: its restitution is 0, and nothing else of it is defined, up to the boundary of sticking;",
     "that boundary and its sensitivities: `wetdoublet boundary SCENE --wrt NAMES`, or .boundary() in Python",
 )
+_ABOUT = ("outcome", "method", "engine", "hold")
 _SHOWN = 5  # most quantities side by side
 _ROUNDING = 1e-13  # relative to the largest elasticity; smaller ones are rounding errors of cancelling contributions
 
@@ -64,7 +67,7 @@ class Sensitivities(Drawn):
         -0.003
     """
 
-    _picture = "sensitivity.tornado.draw"
+    _picture = "sensitivity.plots.draw"
 
     value: Mapping[str, float | None]
     gradient: Mapping[str, Row]
@@ -84,18 +87,12 @@ class Sensitivities(Drawn):
 
     def to_dict(self) -> dict[str, Any]:
         """The JSON object of `wetdoublet sensitivity --json`."""
-        result: dict[str, Any] = {
+        return {
             "value": dict(self.value),
             "gradient": {name: dict(row) for name, row in self.gradient.items()},
             "elasticity": {name: dict(row) for name, row in self.elasticity.items()},
-        }
-        near = self.near and {"boundary": self.near.boundary, "distance": self.near.distance, "of": self.near.of}
-        return result | {
-            "outcome": self.outcome,
-            "method": self.method,
-            "engine": self.engine,
-            "hold": self.hold,
-            "nearest": near,
+            **{name: getattr(self, name) for name in _ABOUT},
+            "nearest": self.near and asdict(self.near),
             "rtol": self.rtol,
             "units": {name: DEFINITIONS[name].unit for name in self.value}
             | {name: self.scene.fields[name].unit or "1" for name in self.parameters},
@@ -126,17 +123,16 @@ class Sensitivities(Drawn):
 
     def to_dataset(self) -> xarray.Dataset:
         """Dataset of value, gradient and elasticity over `quantity` and `parameter`; NaN for None. Imports xarray."""
-        import numpy as np
         import xarray as xr
 
-        def array(rows: Mapping[str, Row]) -> np.ndarray:
-            return np.array([[np.nan if v is None else v for v in row.values()] for row in rows.values()], dtype=float)
+        def array(rows: Iterable[Row]) -> np.ndarray:
+            return np.array([list(row.values()) for row in rows], dtype=float)  # None is NaN
 
-        value = np.array([np.nan if v is None else v for v in self.value.values()], dtype=float)
+        over = ("quantity", "parameter")
         variables: dict[str, Any] = {
-            "value": ("quantity", value),
-            "gradient": (("quantity", "parameter"), array(self.gradient)),
-            "elasticity": (("quantity", "parameter"), array(self.elasticity)),
+            "value": ("quantity", array([self.value])[0]),
+            "gradient": (over, array(self.gradient.values())),
+            "elasticity": (over, array(self.elasticity.values())),
         }
         coordinates: dict[str, Any] = {
             "quantity": list(self.value),
@@ -144,8 +140,7 @@ class Sensitivities(Drawn):
             "units": ("quantity", [DEFINITIONS[name].unit for name in self.value]),
             "reference": ("parameter", list(self.reference.values())),
         }
-        attributes = {"outcome": self.outcome, "method": self.method, "engine": self.engine, "hold": self.hold}
-        return xr.Dataset(variables, coordinates, attributes)
+        return xr.Dataset(variables, coordinates, {name: getattr(self, name) for name in _ABOUT})
 
     def __str__(self) -> str:
         names = list(self.value)
@@ -172,12 +167,7 @@ class Sensitivities(Drawn):
         return "\n".join([*lines[:2], "", title, *lines[2:]])
 
     def _cell(self, y: str, p: str) -> str:
-        elasticity, gradient = self.elasticity[y][p], self.gradient[y][p]
-        if elasticity is None:
-            return "-" if gradient is None else f"* {gradient:.4g}"
-        if elasticity == 0:
-            return "none"
-        return "~0" if self._rounded(y, p) else f"{elasticity:.5g}"
+        return "~0" if self._rounded(y, p) else cell(self.elasticity[y][p], self.gradient[y][p])
 
     def _rounded(self, y: str, p: str) -> bool:
         """True if a nonzero elasticity is only rounding error."""

@@ -1,6 +1,7 @@
 """`sensitivities()`: derivatives of the results of a scene's collision."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
+from dataclasses import dataclass
 from functools import partial
 from pathlib import Path as FilePath
 
@@ -14,9 +15,9 @@ from ..scene.held import held_quantity
 from ..scene.scene import Scene
 from . import by_casadi, by_kernel
 from .boundary_distance import checked, courses_of, explained
-from .parameters import SIDEWAYS, check_wrt
+from .parameters import SIDEWAYS, check_wrt, elasticities, numbers
 from .problem import Problem, Query, Slopes
-from .result import Sensitivities
+from .result import Near, Sensitivities
 
 METHODS = ("forward", "adjoint")
 
@@ -65,7 +66,7 @@ def sensitivities(
     Example:
         >>> from wetdoublet.solvers import sensitivities
         >>> found = sensitivities("granulation", of=["restitution"], stokes=0.02, angle="75 deg")
-        >>> found.gradient["restitution"]["bridge.surface_tension"] < 0
+        >>> result.gradient["restitution"]["bridge.surface_tension"] < 0
         True
     """
     of, method = check_differentiated(of), check_method(method)
@@ -75,83 +76,80 @@ def sensitivities(
     loaded = Scene.load(scene).with_impact(stokes, speed, angle, relative_speed)
     held = held_quantity(loaded, hold)
     names = check_wrt(loaded, wrt)
-    v0, angle_ = loaded.need_impact()
-    problem = Problem.of(loaded, v0, angle_, names, held)
-    n, courses = problem.n, partial(courses_of, loaded, problem.n)
+    problem = Problem.of(loaded, *loaded.need_impact(), names, held)
+    result, reference = derivatives(problem, of, method, rtol, requested), problem.reference(names)
+    reference[[name == "impact.stokes" for name in names]] = problem.n.stokes  # as given, without rounding
+    elasticity = elasticities(result.value, result.gradient, reference)
+    elasticity[[name == "energy.residual" for name in of]] = np.nan  # it is rounding error
+    return Sensitivities(
+        value=numbers(of, result.value),
+        gradient={name: numbers(names, slopes) for name, slopes in zip(of, result.gradient, strict=True)},
+        elasticity={name: numbers(names, slopes) for name, slopes in zip(of, elasticity, strict=True)},
+        reference=dict(zip(names, reference.tolist(), strict=True)),
+        outcome=result.outcome,
+        method=method,
+        engine=result.engine,
+        hold=held,
+        rtol=rtol,
+        near=result.near,
+        scene=loaded,
+    )
+
+
+@dataclass(frozen=True)
+class Derivatives:
+    """Results of one collision, (results,), and their derivatives, (results, parameters), SI; NaN where undefined."""
+
+    outcome: str
+    engine: str
+    near: Near | None
+    value: np.ndarray
+    gradient: np.ndarray
+
+
+def derivatives(problem: Problem, of: tuple[str, ...], method: str, rtol: float, engine: str | None) -> Derivatives:
+    """The derivatives of results `of` of a collision by its parameters; arguments and errors as of `sensitivities`."""
+    scene, n, names = problem.scene, problem.n, problem.wrt
+    courses = partial(courses_of, scene, n)
     try:
         separated = problem.path.separated
     except ComputationError as error:
         raise explained(courses, error, rtol) from None
     near = checked(courses, separated, rtol)
-    todo = tuple(filter(problem.defined, dict.fromkeys(part for name in of for part in _parts(name))))
+    todo = tuple(filter(problem.defined, dict.fromkeys(term for name in of for term in _terms(name))))
     odd = np.array([DEFINITIONS[name].odd for name in todo], dtype=bool)
     sideways = np.isin(names, SIDEWAYS)
     tilts = bool(todo and sideways.any() and odd.any()) and not n.oblique
-    plugin = requested or "rosenbrock"
-    if requested is None and method == "forward" and by_kernel.offers(loaded, of, {n.oblique, n.oblique or tilts}):
+    plugin = engine or "rosenbrock"
+    if engine is None and method == "forward" and by_kernel.offers(scene, of, {n.oblique, n.oblique or tilts}):
         plugin = "taylor"
+    values, slopes = np.full(len(of), np.nan), np.full((len(of), len(names)), np.nan)
     query = Query(todo, method, rtol, near)
-    slopes, plugin = _slopes(problem, query, plugin) if todo else (None, plugin)
-    if tilts and slopes is not None:
-        tilted, plugin = _slopes(problem.tilted(), query, plugin)
-        slopes = Slopes(slopes.value, np.where(odd[:, None] & sideways, tilted.first, slopes.first))
-    rows = {name: _combined(name, todo, slopes, len(names)) for name in of}
-    values = {name: row[0] for name, row in rows.items()}
-    reference = {name: problem.value_of(name) for name in names}
-    return Sensitivities(
-        value=values,
-        gradient={name: _row(names, row[1]) for name, row in rows.items()},
-        elasticity={name: _elasticities(name, reference, *row) for name, row in rows.items()},
-        reference=reference,
-        outcome=problem.path.outcome,
-        method=method,
-        engine=plugin,
-        hold=held,
-        rtol=rtol,
-        near=near,
-        scene=loaded,
-    )
+    if todo:
+        (value, first), plugin = _slopes(problem, query, plugin)
+        if tilts:
+            (_, tilted), plugin = _slopes(problem.tilted(), query, plugin)
+            first = np.where(odd[:, None] & sideways, tilted, first)
+    for k, terms in enumerate(map(_terms, of)):
+        if {*terms} <= {*todo}:
+            weights = np.array([terms.get(term, 0.0) for term in todo])
+            values[k], slopes[k] = weights @ value + 0.0, weights @ first + 0.0
+        elif of[k] == "restitution":  # of a stick
+            values[k], slopes[k] = 0.0, 0.0
+    return Derivatives(problem.path.outcome, plugin, near, values, slopes)
 
 
 def _slopes(problem: Problem, query: Query, engine: str) -> tuple[Slopes, str]:
-    """Derivatives by the parameters, SI, and the engine that computed them: Rosenbrock where the kernel cannot."""
+    """Derivatives by the parameters, and the engine that computed them: Rosenbrock where the kernel cannot."""
     slopes = by_kernel.slopes(problem, query) if engine == "taylor" else None
     if slopes is None:
         engine = "rosenbrock" if engine == "taylor" else engine
         slopes = by_casadi.slopes(problem, query, engine)
-    return Slopes(slopes.value, slopes.first / problem.units()), engine
+    return slopes, engine
 
 
-def _combined(
-    name: str, todo: tuple[str, ...], slopes: Slopes | None, size: int
-) -> tuple[float | None, np.ndarray | None]:
-    """Value and gradient (n,) of a quantity, from the computed ones."""
-    parts = _parts(name)
-    if slopes is None or any(part not in todo for part in parts):
-        if name == "restitution":  # the restitution of a stick
-            return 0.0, np.zeros(size)
-        return None, None
-    weights = np.array([parts.get(term, 0.0) for term in todo])
-    return float(weights @ slopes.value) + 0.0, weights @ slopes.first
-
-
-def _parts(name: str) -> dict[str, float]:
+def _terms(name: str) -> dict[str, float]:
     """A quantity as a weighted sum of computed quantities; the residual requires all terms of the ledger."""
     if name != "energy.residual":
         return {name: 1.0}
     return {"energy.initial": 1.0, "energy.final": -1.0} | dict.fromkeys(SPENT, -1.0)
-
-
-def _row(names: tuple[str, ...], row: np.ndarray | None) -> dict[str, float | None]:
-    return {name: None if row is None else float(row[k]) + 0.0 for k, name in enumerate(names)}
-
-
-def _elasticities(
-    name: str, reference: Mapping[str, float], value: float | None, row: np.ndarray | None
-) -> dict[str, float | None]:
-    """Elasticities d ln y/d ln p; None where y or p is zero, and for the ledger's residual, which is rounding error."""
-    none = row is None or not value or name == "energy.residual"
-    return {
-        p: None if none or not at else float(row[k]) * at / value + 0.0  # type: ignore[index, operator]  # `none` says so
-        for k, (p, at) in enumerate(reference.items())
-    }

@@ -61,22 +61,27 @@ def deviations(scene: Scene, uncertainty: Mapping[str, Any], label: str = "uncer
 
 def value_of(scene: Scene, name: str) -> float:
     """The value of a parameter, SI, as the scene has it or by default."""
-    if name in ("impact.stokes", "impact.speed"):
-        return float((scene.stokes if name == "impact.stokes" else scene.speed) or 0.0)
-    if name == RELATIVE:
-        speed, angle = scene.need_impact()
-        return speed / float(normal_speed(1.0, angle))
+    if name in MEETING and name != "impact.angle":
+        return float(impact_value(scene, name.partition(".")[2]) or 0.0)
     return float(scene.entries[name] if name in scene.entries else DEFAULTS[name])
+
+
+def drawn(scene: Scene, uncertainty: Mapping[str, Any], normal: np.ndarray) -> dict[str, np.ndarray]:
+    """Values of the uncertain entries of a scene, SI, for normal deviates (samples, entries)."""
+    return {
+        name: possible_values(scene.fields[name], value_of(scene, name), sigma * normal[:, k])
+        for k, (name, sigma) in enumerate(deviations(scene, uncertainty).items())
+    }
 
 
 def first_order(gradients: Sensitivities, deviation: Mapping[str, float]) -> dict[str, float | None]:
     """Standard deviation of each result for independent parameters: sqrt(sum (dy/dp sigma_p)^2)."""
     return {
-        name: None if gradients.value[name] is None else float(np.sqrt(sum(
-            (float(row[p] or 0.0) * sigma) ** 2 for p, sigma in deviation.items()
-        )))
+        name: None
+        if gradients.value[name] is None
+        else float(np.sqrt(sum((float(row[p] or 0.0) * sigma) ** 2 for p, sigma in deviation.items())))
         for name, row in gradients.gradient.items()
-    }  # fmt: skip
+    }
 
 
 def in_words(gradients: Sensitivities, spread: Mapping[str, float | None]) -> str:
@@ -143,31 +148,26 @@ def band(
         progress(where.size, where.size)
         return xr.concat(parts, over, combine_attrs="override")
     at = [loaded.with_impact(**{over.partition(".")[2]: value}) for value in where.tolist()]
-    impacts = [one.need_impact() for one in at]
-    sigma = deviations(at[0], uncertainty)
-    relative = {name: str(text).strip().endswith("%") for name, text in uncertainty.items()}
-    speeds, angles = np.array(impacts).T
+    deviations(at[0], uncertainty)
     hold = held_quantity(at[0], hold)
-    gradients = gradients_many(at[0], speed=speeds, angle=angles, wrt=tuple(sigma), of=[of], rtol=rtol, hold=hold)
-    spreads = np.tile(list(sigma.values()), (len(at), 1))
-    if any(relative.values()):
-        for k, one in enumerate(at):
-            spreads[k] = list(deviations(_held(one, hold), uncertainty).values())
+    held = [scene.with_impact(**{hold: impact_value(scene, hold)}) for scene in at]
+    speeds, angles = np.array([scene.need_impact() for scene in at]).T
+    spreads = np.array([[*deviations(scene, uncertainty).values()] for scene in held])
+    gradients = gradients_many(at[0], speed=speeds, angle=angles, wrt=tuple(uncertainty), of=[of], rtol=rtol, hold=hold)
     known = gradients.outcome.values >= 0
-    drawn = _sampled(at, impacts, uncertainty, of, samples, rtol, hold)
-    low, high = np.nanquantile(drawn, LEVELS, axis=1)
-    unit = FIELDS[over].unit or "1"
+    samples_of = _sampled(held, speeds, angles, uncertainty, of, samples, rtol, hold)
+    low, high = np.nanquantile(samples_of, LEVELS, axis=1)
     return xr.Dataset(
         {
             of: (over, gradients.value.values[0], attributes(of)),
             "first_order": (over, np.sqrt(((gradients.gradient.values[0] * spreads) ** 2).sum(axis=1))),
             "low": (over, low),
             "high": (over, high),
-            "sampled": (over, np.nanstd(drawn, axis=1)),
+            "sampled": (over, np.nanstd(samples_of, axis=1)),
             "reason": (over, np.where(known, "", gradients.reason.values)),
-            "outcome": (over, np.array([OUTCOMES[code] if code >= 0 else "" for code in gradients.outcome.values])),
+            "outcome": (over, np.where(known, np.array(OUTCOMES)[gradients.outcome.values], "")),
         },
-        {over: (over, where, {"units": unit})},
+        {over: (over, where, {"units": FIELDS[over].unit or "1"})},
         {
             "uncertainty": ", ".join(f"{name}: {text}" for name, text in uncertainty.items()),
             "samples": samples,
@@ -177,45 +177,29 @@ def band(
 
 
 def _sampled(
-    at: Sequence[Scene],
-    impacts: Sequence[tuple[float, float]],
-    uncertainty: Mapping[str, Any],
-    of: str,
-    samples: int,
-    rtol: float,
-    hold: str,
-) -> np.ndarray:
-    """Results of the samples, (values, samples); a stick has restitution 0 and NaN for other results."""
+    held: Sequence[Scene], speeds: np.ndarray, angles: np.ndarray, uncertainty: Mapping[str, Any], of: str,
+    samples: int, rtol: float, hold: str,
+) -> np.ndarray:  # fmt: skip
+    """Results of the samples, (scenes, samples); a stick has restitution 0 and NaN for other results."""
     normal = normal_deviates(samples, len(uncertainty))
-    columns: dict[str, list[np.ndarray]] = {name: [] for name in uncertainty}
-    speeds, angles = [], []
-    for one, (speed, angle) in zip(at, impacts, strict=True):
-        held = _held(one, hold)
-        varied = {
-            name: possible_values(held.fields[name], value_of(held, name), sigma * normal[:, k])
-            for k, (name, sigma) in enumerate(deviations(held, uncertainty).items())
-        }
-        for name, column in varied.items():
-            columns[name].append(column)
-        moved = varied.get("impact.speed", np.full(samples, speed))
+    rows = []
+    for scene, speed, angle in zip(held, speeds, angles, strict=True):
+        row = {"impact.speed": np.full(samples, speed), "impact.angle": np.full(samples, angle)}
+        row |= (varied := drawn(scene, uncertainty, normal))
+        relative = scene.impact.relative_speed
         if "impact.stokes" in varied:
-            moved = np.array([held.speed_of(float(stokes)) for stokes in varied["impact.stokes"]])
-        angles.append(varied.get("impact.angle", np.full(samples, angle)))
-        relative = held.impact.relative_speed
+            row["impact.speed"] = varied["impact.stokes"] / scene.stokes_per_speed
         if RELATIVE in varied or (relative is not None and not {*SPEEDS} & {*varied}):
-            moved = normal_speed(varied.get(RELATIVE, np.full(samples, relative)), angles[-1])
-        speeds.append(moved)
-    vary = {name: at[0].as_given(name, np.concatenate(parts)) for name, parts in columns.items() if name not in MEETING}
-    names = ("outcome", "restitution", *(() if of == "restitution" else (of,)))
-    meeting: dict[str, Any] = {"speed": np.concatenate(speeds), "angle": np.concatenate(angles)}
+            row["impact.speed"] = normal_speed(varied.get(RELATIVE, relative), row["impact.angle"])
+        rows.append(row)
+    columns = {name: np.concatenate([row[name] for row in rows]) for name in rows[0]}
+    meeting: dict[str, Any] = {"speed": columns["impact.speed"], "angle": columns["impact.angle"]}
     if hold == "stokes":
-        meeting["stokes"] = meeting.pop("speed") * at[0].stokes_per_speed
-    collisions = collide_many(at[0], **meeting, vary=vary, rtol=rtol, of=names)
-    return np.asarray(collisions[of].values, dtype=float).reshape(len(at), samples)
-
-
-def _held(scene: Scene, hold: str) -> Scene:
-    return scene.with_impact(**{hold: impact_value(scene, hold)})
+        meeting["stokes"] = meeting.pop("speed") * held[0].stokes_per_speed
+    vary = {name: held[0].as_given(name, column) for name, column in columns.items() if name not in MEETING}
+    names = ("outcome", "restitution", *(() if of == "restitution" else (of,)))
+    collisions = collide_many(held[0], **meeting, vary=vary, rtol=rtol, of=names)
+    return np.asarray(collisions[of].values, dtype=float).reshape(len(held), samples)
 
 
 def check_samples(samples: object) -> int:

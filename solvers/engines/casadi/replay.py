@@ -16,7 +16,7 @@ from ...errors import ComputationError
 from ...model.key import ModelKey
 from ...model.model import Model, load
 from ...model.phases import Flow, Phase, extra_units, kinks_along
-from ...model.rebound import rebounded
+from ...model.rebound import grip, reset
 from .integrators import IntegrationFailed, Tolerance, landing, plain, tolerance_for
 from .sequence import EventSequence, PhaseRun
 from .watch import POINTS, Crossing, first_crossing, guards
@@ -83,7 +83,7 @@ class Replay:
     dry_loss: float = 0.0
     friction_loss: float = 0.0
     own_loss: float = 0.0
-    grip: float = np.inf  # least distance of a rebound from the switch between sliding and sticking (`Rebound`)
+    grip: float = np.inf  # least distance of a rebound from the switch between sliding and sticking (`grip`)
     events: list[tuple[str, float]] = field(default_factory=list)
     pieces: list[Piece] = field(default_factory=list)
 
@@ -259,26 +259,18 @@ class Run:
 
     def _jump(self, step: PhaseRun) -> None:
         """What happens at the end of a phase."""
-        at, model, size = self.at, self.model, len(self.model.state)
+        if not (step.rebounds or step.holds or step.own):
+            return
+        at, size = self.at, len(self.model.state)
+        event = reset(self.choice, step.criterion, step.holds, step.own)
+        after, dry, friction, own, rebounded = (each.full().ravel() for each in event(at.y[:size], self.p))
+        at.dry_loss += float(dry[0])
+        at.friction_loss += float(friction[0])
+        at.own_loss += float(own[0])
         if step.rebounds:
-            jump = rebounded(model, step.kinds[0], at.y, self.p, step.holds)
-            at.dry_loss += jump.dry
-            at.friction_loss += jump.friction
-            at.grip = min(at.grip, abs(jump.grip))
-            self._check_rest(step, jump.after)
-            at.y = np.concatenate([jump.after, at.y[size:]])
-        if step.holds:  # chatter dissipates what remains of the rebound's energy
-            at.dry_loss += float(at.y[1]) ** 2 / 2
-            moving = at.y.copy()
-            at.y[1] = 0.0
-            if model.own_terms and "own_energy" in model.names("energies"):
-                before, after = (model.values("energies", y, self.p)["own_energy"] for y in (moving, at.y))
-                at.dry_loss += before - after
-        if step.own:
-            jumped = np.array([*model.values(f"jump_{step.own}", at.y, self.p).values(), *at.y[size:]])
-            before, after = (model.values("energies", y, self.p)["kinetic"] for y in (at.y, jumped))
-            at.own_loss += before - after
-            at.y = jumped
+            at.grip = min(at.grip, abs(grip(self.model, step.criterion, at.y, self.p, step.holds)))
+            self._check_rest(step, rebounded)
+        at.y = np.concatenate([after, at.y[size:]])
 
     def _check_rest(self, step: PhaseRun, after: np.ndarray) -> None:
         """Stopped if the record has a rest where the rebound opens the gap, or none where it is too weak."""

@@ -41,6 +41,11 @@ class PhaseRun:
     holds: bool = False
     own: str = ""
 
+    @property
+    def criterion(self) -> str:
+        """The criterion by which the doublet rebounds at its end; empty if it does not."""
+        return self.kinds[0] if self.rebounds else ""
+
 
 @dataclass(frozen=True)
 class EventSequence:

@@ -1,18 +1,19 @@
 """Many collisions by the kernel with derivatives: one direction for each group that the quantities affect."""
 
 import ctypes
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from ....generated.automaton import LOOSEST
+from ...results import DEFINITIONS
 from ...scene.groups import si_values
 from ...scene.scene import Scene
 from ..settings import KERNEL_STEPS
 from .build import kernel, kernel_supports
 from .call import Impacts, task, variant
-from .layout import ANSWER, MOST_STEPS, NEARNESS, RESULTS, names
+from .layout import ANSWER, MOST_STEPS, NEARNESS, RESULTS, derivative_column, names, result
 from .orders import order_backward, order_for
 from .source import Variant
 
@@ -24,6 +25,9 @@ DISTANCES = {  # boundaries whose measure is a distance reported by `sensitiviti
 STRICTER = 4.0  # stricter tolerance, by this factor, of steps that are not limited by directions
 _SPINS = {"impact_spin": "initial_spin", "impact_partner_spin": "initial_partner_spin"}
 _CHUNK = 1024  # number of collisions whose derivatives are computed at a time
+
+
+Scales = Mapping[str, tuple[np.ndarray, np.ndarray]]
 
 
 @dataclass(frozen=True)
@@ -42,6 +46,23 @@ class Carried:
     slopes: np.ndarray
     near: np.ndarray
     quantities: tuple[str, ...]
+
+    def along(self, name: str, moved: Mapping[str, np.ndarray], scales: Scales) -> tuple[np.ndarray, np.ndarray]:
+        """A result, (collisions,), and its derivatives, (collisions, parameters or 1), SI, by the chain rule.
+
+        Arguments:
+            moved: quantity -> its derivatives by the parameters, (collisions or 1, parameters).
+            scales: scale of a result -> its values (collisions,), and the derivatives of its logarithm, likewise.
+        """
+        value, column = result(self.answers, name), derivative_column(name)
+        slopes = np.zeros((value.size, 1))
+        for quantity, by_parameter in moved.items():
+            if quantity in self.quantities:
+                slopes = slopes + self.slopes[:, self.quantities.index(quantity), column, None] * by_parameter
+        if (unit := DEFINITIONS[name].scale) is not None:
+            scale, relative = scales[unit]
+            return value * scale, (slopes + value[:, None] * relative) * scale[:, None]
+        return value, slopes
 
 
 def run_tangent(

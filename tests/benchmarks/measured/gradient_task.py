@@ -68,7 +68,7 @@ class Gradients:
         via = parameter_map(self.kind, self.names, self.groups)
         found = []
         for each in self.numbers:
-            slopes, units = via.slopes(references(self.scene, self.kind, each.speed, each.angle))
+            slopes, units = via.slopes(references(self.scene, self.kind.entries, each.speed, each.angle))
             found.append((np.array(slopes.full()), np.array(units.full()).ravel()))
         return found
 

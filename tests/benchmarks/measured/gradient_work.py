@@ -85,11 +85,12 @@ def _kernel(asked: Gradients, copies: int, rtol: float) -> Run:
     """The kernel's derivatives in the parameters, without what `gradients_many` adds: boundaries too near, labels."""
     stokes, angle = (np.array([getattr(each, name) for each in asked.impacts] * copies) for name in ("stokes", "angle"))
     impacts = Impacts(asked.scene, stokes / asked.scene.stokes_per_speed, angle, {})
+    units = np.tile(asked.units, (copies, 1))
 
     def run() -> np.ndarray:
         found = gradients_by_kernel(impacts, asked.kind, asked.names, ("restitution",), rtol, backward=True)
         assert found is not None  # there is a compiler
-        rows: np.ndarray = found.first[0]
+        rows: np.ndarray = found[2][0] * units
         return rows
 
     return run

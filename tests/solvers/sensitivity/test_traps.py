@@ -14,7 +14,7 @@ from wetdoublet.solvers.engines.casadi.integrators import IntegrationFailed
 from wetdoublet.solvers.engines.casadi.replay import replayed
 from wetdoublet.solvers.model.dimensionless import nondimensionalise
 from wetdoublet.solvers.model.model import load, select_model
-from wetdoublet.solvers.sensitivity.by_casadi import course_of, derivatives, evaluate, reset, trajectory
+from wetdoublet.solvers.sensitivity.by_casadi import course_of, derivatives, evaluate, trajectory
 
 from ...helpers.sensitive import CASES, DRY
 
@@ -68,7 +68,7 @@ def test_a_rebound_that_rests_loses_all_of_its_speed() -> None:
     leg = next(leg for leg in course.legs if leg.rebounds)
     p = course.model.group_values(n.groups)
     state = np.asarray(course.model.start(p))
-    after, lost, *_ = (np.asarray(part.full()).ravel() for part in reset(course, replace(leg, holds=True))(state, p))
+    after, lost, *_ = (np.asarray(part.full()).ravel() for part in course.reset(replace(leg, holds=True))(state, p))
     assert after[1] == 0
     assert lost == pytest.approx(state[1] ** 2 / 2, rel=1e-15)
 
