@@ -46,6 +46,11 @@ class CompiledKernel:
     def to_dict(self) -> dict[str, Any]:
         return asdict(self) | {"serves": list(self.serves)}
 
+    def __str__(self) -> str:
+        took = "already compiled" if self.already else f"{self.seconds:.2f} s"
+        about, size = "oblique" if self.oblique else "head-on", f"{self.bytes / 1000:4.0f} kB"
+        return f"  {about:7}  order {self.order:2}  {took:>16}  {size}  {', '.join(self.serves)}"
+
 
 def compile_kernels(
     scenes: Named | Iterable[Named],
