@@ -17,7 +17,6 @@ from ..errors import InputError, ModelWarning, WetDoubletError, cut, did_you_mea
 from ..host.interrupts import INTERRUPTED, handled
 from ..host.locks import sweep_temporary
 from .bar import AtWork
-from .signature import built
 
 COMMANDS = {
     "scenes": "scenes", "collide": "collisions", "sensitivity": "collisions", "map": "outcomes", "boundary": "outcomes",
@@ -46,6 +45,8 @@ class Commands(click.Group):
         """Import and return the command."""
         if cmd_name not in COMMANDS:
             return None
+        from .signature import built
+
         import_module(f".{COMMANDS[cmd_name]}", __package__)
         return built(cmd_name)
 

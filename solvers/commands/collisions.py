@@ -82,7 +82,7 @@ def sensitivity(
     Options:
         --of NAMES: Results, as restitution,contact_time,energy.capillary [restitution].
         --wrt NAMES: Parameters, as liquid.viscosity,impact.angle [all of the scene].
-        --method M: forward or adjoint [forward].
+        --method M
         --uncertainty
         --over NAME=RANGE: With --uncertainty: the band over stokes, speed or angle, as stokes=log:0.01:0.5:30 or
             angle=20:80:25.

@@ -59,7 +59,7 @@ def tracks(
         --scale-sd S: Relative standard deviation of the scale, as 0.005 [0].
         --noise SD
         --near GAP: Leave out frames in which the gap is smaller, as "0.1 mm" or "8 px" [those off a straight path].
-        --particles A,B: The two of several, as "3,7"; "3+8,7" if the tracker went on with 3 as 8 [those that meet].
+        --particles A,B
     """
     from ..fitting.tracks import tracks
 
@@ -218,11 +218,11 @@ def design(
             with a unit.
         -n N
         --for NAME (target)
-        --data DATA.csv: Impacts measured before; they are fitted first.
+        --data DATA.csv
         --prior
         --speed-sd S: Scatter of the speed [2 %, or that of the data].
         --angle-sd S: Scatter of the angle, degrees [1, or that of the data].
-        --restitution-sd S: Noise of a measured restitution [0.02]; none: outcomes only.
+        --restitution-sd S
         --rtol
     """
     from ..planning.design import design

@@ -87,7 +87,7 @@ def cite(request: options.Request, output: options.Written) -> None:
     output.put(options.json_text(record, ensure_ascii=False) if output.as_json else as_bibtex(references))
 
 
-@command()
+@command("engines.kernels:compile_kernels")
 def compile_(
     rtol: Annotated[tuple[float, ...], lambda given: [check_rtol(text) for text in given]],
     requests: Annotated[
@@ -108,7 +108,7 @@ def compile_(
     Options:
         SCENE... (source):
         --rtol R: Relative tolerance, 1e-13..1e-3 [1e-9]; repeatable.
-        --derivatives: Those of sensitivities as well, which take some seconds each.
+        --derivatives
     """
     scenes = [request.scene() for request in requests]
 

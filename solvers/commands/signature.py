@@ -10,11 +10,9 @@ from pathlib import Path
 from typing import Annotated, Any, get_args, get_origin, get_type_hints
 
 import click
-from click.shell_completion import CompletionItem
 
 from ..errors import InputError
 from ..host import outputs
-from ..scene.scenefile import PRESETS
 from ..scene.schema import FIELDS
 from . import texts
 
@@ -59,8 +57,12 @@ class Option:
         return click.Option([self.flag, name], help=self.help, **{**form, **self.settings})
 
 
-def _completed(_ctx: click.Context, parameter: click.Parameter, begun: str) -> list[CompletionItem]:
+def _completed(_ctx: click.Context, parameter: click.Parameter, begun: str) -> list[Any]:
     """What a shell may complete: presets where a scene stands, and files."""
+    from click.shell_completion import CompletionItem
+
+    from ..scene.scenefile import PRESETS
+
     presets = PRESETS if parameter.name == "source" else ()
     return [CompletionItem(name) for name in presets if name.startswith(begun)] + [CompletionItem(begun, type="file")]
 
