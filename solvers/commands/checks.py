@@ -14,8 +14,8 @@ from ..host.files import write, write_all_in
 from ..host.outputs import check_file, check_folder
 from ..host.progress import Estimated
 from ..scene.schema import Field, Range
-from . import options
 from .bar import Bar
+from .options import Request, Shown, json_text, refuse
 from .signature import command
 
 _WANTED = Field("--error", "an absolute error of e_n", "1e-6", Range("above 0 and below 1", 0.0, 1.0))
@@ -23,9 +23,7 @@ _SYMBOLIC, _NUMERIC = 156, 17  # usual numbers of findings; the latter of a scen
 
 
 @command()
-def bench(
-    error: Annotated[float | None, _WANTED.number], out: Path | None, request: options.Request, output: options.Shown
-) -> None:
+def bench(error: Annotated[float | None, _WANTED.number], out: Path | None, request: Request, output: Shown) -> None:
     """Run time against error of the engines for SCENE [granulation] on this machine, and a recommendation.
 
     CPU time of a collision about the impact of the scene alone and in a batch of 100, and its error against another
@@ -52,7 +50,7 @@ def bench(
         measured = work_precision(scene or Scene.load("granulation"), progress=progress)
     table, record = text(measured, wanted), to_dict(measured, wanted)
     if out is not None:
-        write_all_in(out, {"bench.txt": table + "\n", "bench.json": options.json_text(record) + "\n"})
+        write_all_in(out, {"bench.txt": table + "\n", "bench.json": json_text(record) + "\n"})
     for picture in [out and out / "bench.png", output.picture]:
         if picture is not None:
             draw(measured, wanted, picture)
@@ -92,7 +90,7 @@ def _count(text: str) -> int:
 
 @command()
 def verify(
-    request: options.Request,
+    request: Request,
     output: Annotated[Path | None, partial(check_file, label="", suffixes=(".md", ".txt"))],
     stress: Annotated[int | None, _count],
     out: str | None,
@@ -117,10 +115,10 @@ def verify(
         others = {"SCENE": request.source, **request.options, "-o": output and str(output)}
         others["--recompute"] = "given" * recompute
         problem = "is given together with --stress, which draws its own scenes"
-        options.refuse(others, "--stress N and --out DIR alone", problem)
+        refuse(others, "--stress N and --out DIR alone", problem)
         _stress_test(stress, check_folder(out or "stress", "--out"))
         return
-    options.refuse({"--out": out}, "--stress N with --out", "needs --stress")
+    refuse({"--out": out}, "--stress N with --out", "needs --stress")
     scene = request.optional_scene()
 
     from ..verify import Finding, Report, verify

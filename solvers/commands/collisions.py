@@ -10,15 +10,15 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import click
 
-from ..engines.settings import UNTIL
 from ..errors import CheckFailed, InputError
 from ..host import files
 from ..host.outputs import check_file
 from ..scene import units
 from ..scene.held import NAMES
 from ..scene.schema import FIELDS
-from . import options, texts
+from . import texts
 from .bar import Bar
+from .options import Entries, Impact, Request, SceneRequest, Shown, Varied, Written, refuse
 from .signature import command, passed
 
 if TYPE_CHECKING:
@@ -26,18 +26,14 @@ if TYPE_CHECKING:
 
     from ..scene.scene import Scene
 
+_Radii = Annotated[list[float] | None, partial(texts.entry_range, FIELDS["particles.radius"])]
+_Table = Annotated[Path | None, partial(check_file, label="", suffixes=(".nc", ".csv"), replaced=True)]
 _FREE, _FOR = 'NAME=LO:HI, as liquid.viscosity="0.5:5 Pa s"', "RESULT=VALUE, as restitution=0.5"
 _ENDS = 'LO:HI, such as liquid.viscosity="1.9:2.1 Pa s"'
 
 
 @command()
-def collide(
-    until: Annotated[float | None, UNTIL.number],
-    why: bool,
-    request: options.Request,
-    output: options.Shown,
-    **chosen: Any,
-) -> None:
+def collide(why: bool, request: Request, output: Shown, **chosen: Any) -> None:
     """One collision of the two particles of SCENE, from initial contact to its outcome.
 
     Options:
@@ -52,7 +48,7 @@ def collide(
 
     from ..collision.collide import collide
 
-    result = collide(scene, trajectory=output.picture is not None, **passed(until=until), **chosen)
+    result = collide(scene, trajectory=output.picture is not None, **chosen)
     if not why:
         output.show(result)
         return
@@ -63,14 +59,14 @@ def collide(
 
 @command("sensitivity.sensitivities:sensitivities")
 def sensitivity(
-    of: list[str] | None,
-    wrt: list[str] | None,
-    method: str | None,
+    of: Any,
+    wrt: Any,
+    method: Any,
     uncertainty: Any,
-    over: str | None,
-    request: options.VariedRequest,
+    over: Any,
+    request: Varied,
     engine: Any,
-    output: options.Shown,
+    output: Shown,
     **chosen: Any,
 ) -> None:
     """Exact derivatives of the results of a collision of SCENE, through its events: gradients and elasticities.
@@ -90,6 +86,7 @@ def sensitivity(
         --engine
     """
     from ..results import check_differentiated
+    from ..scene.origin import plain
     from ..sensitivity.parameters import check_wrt
     from ..sensitivity.sensitivities import check_method, sensitivities
     from ..sensitivity.uncertainty import deviations, first_order, in_words
@@ -103,9 +100,9 @@ def sensitivity(
     scene = request.scene()
     chosen |= passed(hold=request.hold)
     if over is not None:
-        options.refuse({"--method": method, "--wrt": wrt, "--engine": engine}, "no {} with --over", "is not for this")
+        refuse({"--method": method, "--wrt": wrt, "--engine": engine}, "no {} with --over", "is not for this")
         data, table = _band(scene, over, uncertainty, of or ["restitution"], chosen)
-        output.put(table, _plain(data.to_dict()) if output.as_json else None, drawn=data.wetdoublet)
+        output.put(table, plain(data.to_dict(), gaps=True), drawn=data.wetdoublet)
         return
     names = None if wrt is None else check_wrt(scene, wrt)
     scene.need_impact()
@@ -150,17 +147,8 @@ def _band(
     return data, "\n".join(lines)
 
 
-def _plain(value: Any) -> Any:
-    """A value as JSON can hold it: null in place of NaN and infinities."""
-    if isinstance(value, dict):
-        return {str(name): _plain(item) for name, item in value.items()}
-    if isinstance(value, (list, tuple)):
-        return [_plain(item) for item in value]
-    return None if isinstance(value, float) and not math.isfinite(value) else value
-
-
 @command(free=_FREE, target=_FOR)
-def solve(free: str, target: str, request: options.VariedRequest, output: options.Written, **chosen: Any) -> None:
+def solve(free: str, target: str, request: Varied, output: Written, **chosen: Any) -> None:
     """All values of an entry of SCENE, in a range, at which a result of its collision has the value that is asked for.
 
     They are found between and beside changes of outcome, each with the derivatives of the value. A change of outcome
@@ -196,13 +184,13 @@ def solve(free: str, target: str, request: options.VariedRequest, output: option
 
 @command()
 def prove(
-    impact: options.Impact,
+    impact: Impact,
     within: tuple[str, ...],
     cells: bool,
     boundary: bool,
     depth: int | None,
-    request: options.EntriesRequest,
-    output: options.Shown,
+    request: Entries,
+    output: Shown,
 ) -> None:
     """Outcomes proved by interval arithmetic: that of the collision of SCENE from its initial data on.
 
@@ -227,12 +215,12 @@ def prove(
         --depth N: Halvings of a cell of the map that is not proved [12].
     """
     mapped = cells or boundary
-    options.refuse({"--boundary": "--map" * (cells and boundary)}, "one of the two", "is given together with --map")
-    options.refuse({"--within": mapped and within}, "a single proof", "is given together with a map or a boundary")
-    options.refuse({"--depth": not cells and depth}, "--depth with --map")
+    refuse({"--boundary": "--map" * (cells and boundary)}, "one of the two", "is given together with --map")
+    refuse({"--within": mapped and within}, "a single proof", "is given together with a map or a boundary")
+    refuse({"--depth": not cells and depth}, "--depth with --map")
     if mapped:
         speeds = {texts.flag(name): impact.get(name) for name in ("speed", "relative_speed")}
-        options.refuse(speeds, "Stokes numbers, --stokes")
+        refuse(speeds, "Stokes numbers, --stokes")
         ends = ("LO:HI:N or log:LO:HI:N", "LO:HI:N in degrees") if cells else ("LO:HI", "an angle in degrees")
         for name, accepted in zip(("stokes", "angle"), ends, strict=True):
             if name not in impact:
@@ -269,7 +257,7 @@ def prove(
         raise CheckFailed(f"nothing is proved: {proof.reason}")
 
 
-def _box(within: tuple[str, ...], request: options.SceneRequest) -> Any:
+def _box(within: tuple[str, ...], request: SceneRequest) -> Any:
     """The uncertainties of --within: a number for the impact, or by entry."""
     if not within:
         return None
@@ -289,12 +277,7 @@ def _box(within: tuple[str, ...], request: options.SceneRequest) -> Any:
 
 
 @command("averages.averages:collision_averages")
-def averages(
-    radii: Annotated[list[float] | None, partial(texts.entry_range, FIELDS["particles.radius"])],
-    request: options.EntriesRequest,
-    output: Annotated[Path | None, partial(check_file, label="", suffixes=(".nc", ".csv"), replaced=True)],
-    **chosen: Any,
-) -> None:
+def averages(radii: _Radii, request: Entries, output: _Table, **chosen: Any) -> None:
     """Sticking probability and mean restitution of SCENE over all impact angles and speeds, for each pair of radii.
 
     Impact angles have the density sin(2 theta) of isotropic relative velocities. With maxwell:S speeds are those of a

@@ -11,20 +11,21 @@ from typing import Annotated, Any
 import click
 
 from ..errors import CheckFailed, InputError
-from ..host.outputs import check_file
 from ..scene.schema import FIELDS
-from . import options, texts
+from . import texts
 from .bar import Bar
+from .options import Entries, SceneRequest, Shown, Written, check_apart, group, several
 from .signature import command, passed
 
 _IMPACTS = "a CSV file with a row for each impact"
 _ENTRIES = "entries to estimate, as --free particles.roughness,liquid.viscosity"
+_Share = Annotated[float | None, partial(texts.share, "a number, as 0.005, or 0.5 %")]
 _FILMS = (".csv", ".tsv", ".txt", ".xml", ".dat", ".xls")
 
 
 def _ordered(
-    request: options.SceneRequest, file: str | None, suffixes: tuple[str, ...], name: str, accepted: str
-) -> tuple[str, options.SceneRequest]:
+    request: SceneRequest, file: str | None, suffixes: tuple[str, ...], name: str, accepted: str
+) -> tuple[str, SceneRequest]:
     """The data and the scene, which may stand in either order."""
     source = request.source or ""
     if source.lower().endswith(suffixes):
@@ -35,13 +36,7 @@ def _ordered(
 
 
 @command("fitting.tracks:tracks")
-def tracks(
-    film: str | None,
-    scale_sd: Annotated[float | None, partial(texts.share, "a number, as 0.005, or 0.5 %")],
-    request: options.EntriesRequest,
-    output: options.Written,
-    **chosen: Any,
-) -> None:
+def tracks(film: str | None, scale_sd: _Share, request: Entries, output: Written, **chosen: Any) -> None:
     """Two tracked centres over time become the table that `fit` reads.
 
     Speed, angle, e_n, e_t, contact time and rotation from the tracked centres of two spheres in FILM.csv.
@@ -69,7 +64,7 @@ def tracks(
 
 
 @command()
-def check(data: str | None, request: options.EntriesRequest, output: options.Written) -> None:
+def check(data: str | None, request: Entries, output: Written) -> None:
     """Measured impacts in DATA.csv looked through before a fit: units, outliers, what they can tell of SCENE.
 
     The two may stand in either order. Exit status 1 if something is odd.
@@ -91,20 +86,23 @@ def check(data: str | None, request: options.EntriesRequest, output: options.Wri
         raise CheckFailed(f"{count} finding{'s' * (count > 1)}, the first: {report.findings[0].text}")
 
 
-def _measured(source: Sequence[str], **given: Any) -> list[tuple[options.SceneRequest, str | None]]:
+def _measured(source: Sequence[str], **given: Any) -> list[tuple[SceneRequest, str | None]]:
     """Scenes, each with the file of its impacts."""
-    requests = options.several(source[::2], **given)
+    requests = several(source[::2], **given)
     return list(zip(requests, [*source[1::2], None][: len(requests)], strict=True))
+
+
+_Measured = Annotated[Any, group(_measured, "source", "changes", "hold", "model")]
 
 
 @command(free=_ENTRIES)
 def fit(
     free: list[str],
     own: tuple[str, ...],
-    predict: Annotated[Path | None, partial(check_file, label="", suffixes=(".png", ".pdf", ".svg"))],
-    write: Annotated[Path | None, partial(check_file, label="", suffixes=(".toml",))],
-    measured: Annotated[Any, options.group(_measured, "source", "changes", "hold", "model")],
-    output: options.Shown,
+    predict: Path | None,
+    write: Path | None,
+    measured: _Measured,
+    output: Shown,
     **chosen: Any,
 ) -> None:
     """Entries of SCENE from the measured impacts in DATA.csv, with what the data cannot tell.
@@ -136,7 +134,7 @@ def fit(
     from ..fitting.fit import fit
     from ..host.pictures import plot
 
-    options.check_apart(output.file, write, "--write")
+    check_apart(output.file, write, "--write")
     if any(data is None for _, data in measured):
         raise InputError("DATA.csv", None, _IMPACTS)
     scenes, tables = [request.scene(remark=True) for request, _ in measured], [data for _, data in measured]
@@ -159,7 +157,7 @@ def fit(
 
 
 @command(curve="a CSV file with a shear rate and a viscosity or stress")
-def flow_curve(curve: str, output: options.Shown) -> None:
+def flow_curve(curve: str, output: Shown) -> None:
     """The law of a liquid from its flow curve in CURVE.csv: Newtonian, power-law, Cross, Carreau or Herschel-Bulkley.
 
     Columns are a shear rate and a viscosity or stress, with units, as rheometers export them. The table `[liquid]` that
@@ -193,17 +191,14 @@ def _window(text: str) -> dict[str, object]:
     return window
 
 
+_Window = Annotated[Mapping[str, object], _window]
+_Degrees = Annotated[str | None, partial(texts.with_degrees, FIELDS["impact.angle"])]
+
+
 @command(
     "planning.design:design", free=_ENTRIES, over="the impacts that can be made, as --over stokes=0.02:0.5,angle=0:80"
 )
-def design(
-    free: list[str],
-    over: Annotated[Mapping[str, object], _window],
-    angle_sd: Annotated[str | None, partial(texts.with_degrees, FIELDS["impact.angle"])],
-    request: options.EntriesRequest,
-    output: options.Shown,
-    **chosen: Any,
-) -> None:
+def design(free: list[str], over: _Window, angle_sd: _Degrees, request: Entries, output: Shown, **chosen: Any) -> None:
     """Where the next impacts should be: those from which `fit` will learn most about entries of SCENE.
 
     With -o FILE.csv they are also written as the table that `fit` reads, to be filled in.

@@ -208,9 +208,9 @@ def group(read: Any, *names: str) -> Group:
 
 
 Request = Annotated[SceneRequest, group(partial(SceneRequest.check, varies=False), *_IMPACT)]
-VariedRequest = Annotated[SceneRequest, group(SceneRequest.check, *_IMPACT)]
+Varied = Annotated[SceneRequest, group(SceneRequest.check, *_IMPACT)]
 """For a command that varies entries itself, which --hold concerns as well."""
-EntriesRequest = Annotated[SceneRequest, group(SceneRequest.check, "source", "changes", "model")]
+Entries = Annotated[SceneRequest, group(SceneRequest.check, "source", "changes", "model")]
 Impact = Annotated[dict[str, str], group(passed, *_IMPACT[1:5])]
 """The texts of an impact, or of ranges of impacts, for a command that reads them itself."""
 Changes = Annotated[dict[str, str], lambda given: typed(assigned(_CHANGE, given))]

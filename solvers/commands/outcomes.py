@@ -15,12 +15,14 @@ from ..errors import CheckFailed, InputError
 from ..host.outputs import check_file
 from ..scene.ranges import MOST, MOST_STORED, check_cells
 from ..scene.schema import FIELDS
-from . import options, texts
+from . import texts
 from .bar import Bar
+from .options import Entries, Impact, SceneRequest, Shown, check_one_speed, refuse
 from .signature import command, passed
 
 _MOST = 100_000  # lines of a boundary; about half an hour
 _ANGLE = FIELDS["impact.angle"]
+_Angles = Annotated[list[float] | None, partial(texts.entry_range, _ANGLE, most=10_000)]
 _SUFFIX = ".zarr"
 
 
@@ -39,14 +41,18 @@ def _scheduler(address: str) -> Any:
     return check_scheduler(address, "")
 
 
+_File = Annotated[Path | None, _file]
+_Scheduler = Annotated[Any, _scheduler]
+
+
 @command()
 def map_(
-    impacts: options.Impact,
+    impacts: Impact,
     vary: tuple[str, ...],
-    request: options.EntriesRequest,
-    output: Annotated[Path | None, _file],
-    scheduler: Annotated[Any, _scheduler],
-    plot: Path | None,
+    request: Entries,
+    output: _File,
+    scheduler: _Scheduler,
+    plot: Any,
     **chosen: Any,
 ) -> None:
     """Outcome and restitution of SCENE over a grid of impact angles, Stokes numbers and further varied entries.
@@ -116,11 +122,11 @@ def _axes(impacts: Mapping[str, str], vary: Sequence[str], most: int) -> dict[st
     ranges = {flags[name]: text for name, text in impacts.items()}
     check_cells(ranges | {f"--vary {text.partition('=')[0]}": text for text in vary}, most)
     axes = {name: texts.entry_range(FIELDS[f"impact.{name}"], impacts[name], flags[name]) for name in impacts}
-    options.check_one_speed(impacts)
+    check_one_speed(impacts)
     return axes
 
 
-def _varied(vary: Sequence[str], request: options.SceneRequest) -> dict[str, list[float] | list[str]]:
+def _varied(vary: Sequence[str], request: SceneRequest) -> dict[str, list[float] | list[str]]:
     """Axes of --vary by dotted name."""
     axes: dict[str, list[float] | list[str]] = {}
     for text in vary:
@@ -132,13 +138,7 @@ def _varied(vary: Sequence[str], request: options.SceneRequest) -> dict[str, lis
 
 @command()
 def boundary(
-    angle: str | None,
-    over: str | None,
-    wrt: list[str] | None,
-    request: options.EntriesRequest,
-    output: options.Shown,
-    rtol: Any,
-    **search: Any,
+    angle: str | None, over: str | None, wrt: Any, request: Entries, output: Shown, rtol: Any, **search: Any
 ) -> None:
     """Every Stokes number at which the outcome of SCENE changes, traced.
 
@@ -161,7 +161,7 @@ def boundary(
     from ..boundaries.boundary import atlas, boundary
 
     plane = _plane(angle, over, request)
-    options.refuse({"--wrt": plane and wrt}, "--angle LO:HI:N", "differentiates lines, not a plane")
+    refuse({"--wrt": plane and wrt}, "--angle LO:HI:N", "differentiates lines, not a plane")
     angles = None if angle is None or plane else texts.entry_range(_ANGLE, angle, "--angle", most=_MOST)
     scene = request.scene()
     shared = passed(rtol=rtol)
@@ -198,7 +198,7 @@ def boundary(
         raise CheckFailed(f"{len(lines.failed)} of {len(angles)} angles failed, {where}: {reason}")
 
 
-def _plane(angle: str | None, over: str | None, request: options.SceneRequest) -> tuple[str, texts.Range] | None:
+def _plane(angle: str | None, over: str | None, request: SceneRequest) -> tuple[str, texts.Range] | None:
     """The entry on the horizontal axis and its span if a plane is requested, else None."""
     if over is not None:
         name, ends = texts.assignment('NAME=LO:HI, such as liquid.viscosity="1:4 Pa s"', over, "--over")
@@ -212,13 +212,7 @@ def _plane(angle: str | None, over: str | None, request: options.SceneRequest) -
 
 
 @command()
-def critical(
-    angle: Annotated[list[float] | None, partial(texts.entry_range, _ANGLE, most=10_000)],
-    wrt: list[str] | None,
-    request: options.EntriesRequest,
-    output: options.Shown,
-    **chosen: Any,
-) -> None:
+def critical(angle: _Angles, wrt: Any, request: Entries, output: Shown, **chosen: Any) -> None:
     """The speed up to which particles of SCENE stick, with its interval and derivatives; above another they bounce.
 
     SCENE may be a CSV file of materials, one a row; its columns are entries, as `particles.diameter [um]`.

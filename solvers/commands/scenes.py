@@ -19,8 +19,8 @@ from ..host.arguments import check_name
 from ..host.files import differing, write_all_in
 from ..host.outputs import check_file
 from ..scene.scenefile import PRESETS, description, read_text, template
-from . import options
 from .bar import Bar
+from .options import Changes, Request, Written, WrittenText, group, json_text, refuse, several
 from .signature import command, passed
 
 KINDS = ("c", "casadi", "latex")
@@ -32,7 +32,7 @@ _SHOWN = 5  # most extra files named in the message; the listing names all
 
 
 @command()
-def scenes(new: str | None, request: options.Request, output: options.WrittenText) -> None:
+def scenes(new: str | None, request: Request, output: WrittenText) -> None:
     """List the presets, or print the scene NAME as TOML, ready to be saved and edited.
 
     With --new NAME a scene file to be filled in is written, which runs as it is.
@@ -71,7 +71,7 @@ def _begin(name: str, others: dict[str, object]) -> None:
 
 
 @command()
-def cite(request: options.Request, output: options.Written) -> None:
+def cite(request: Request, output: Written) -> None:
     """BibTeX of what SCENE rests on: the paper, and where each law that it uses is published.
 
     Example:
@@ -84,16 +84,16 @@ def cite(request: options.Request, output: options.Written) -> None:
 
     references = citations(scene)
     record = {**origin(scene), "references": [reference.to_dict() for reference in references]}
-    output.put(options.json_text(record, ensure_ascii=False) if output.as_json else as_bibtex(references))
+    output.put(json_text(record, ensure_ascii=False) if output.as_json else as_bibtex(references))
 
 
 @command("engines.kernels:compile_kernels")
 def compile_(
     rtol: Annotated[tuple[float, ...], lambda given: [check_rtol(text) for text in given]],
     requests: Annotated[
-        Any, options.group(options.several, "source", "stokes", "speed", "relative_speed", "angle", "changes", "model")
+        Any, group(several, "source", "stokes", "speed", "relative_speed", "angle", "changes", "model")
     ],
-    output: options.Written,
+    output: Written,
     **chosen: Any,
 ) -> None:
     """Compile the Taylor kernels of each SCENE beforehand: for one collision, many, maps and boundaries.
@@ -124,14 +124,14 @@ def compile_(
         "units": {"seconds": "s", "bytes": "B"},
     }
     lines = []
-    for scene, group in groupby(kernels, lambda kernel: kernel.scene):
-        lines += [scene or "scene", *map(str, group)]
+    for scene, members in groupby(kernels, lambda kernel: kernel.scene):
+        lines += [scene or "scene", *map(str, members)]
     new = sum(not kernel.already for kernel in kernels)
     output.put("\n".join([*lines, f"{new} compiled, {len(kernels) - new} already compiled"]), record)
 
 
 @command(one=_MODELS, other=_MODELS)
-def diff(one: str, other: str, probe: str | None, changes: options.Changes, output: options.WrittenText) -> None:
+def diff(one: str, other: str, probe: str | None, changes: Changes, output: WrittenText) -> None:
     """The terms in which the models A and B differ, and their effect.
 
     Models are `library`, presets, scene files, models, or two folders of `generate`. --set changes entries of B. Models
@@ -154,7 +154,7 @@ def diff(one: str, other: str, probe: str | None, changes: options.Changes, outp
 
 
 @command(to="one of " + ", ".join(KINDS), out="a folder to write into")
-def export(to: Annotated[str, partial(check_name, known=KINDS, label="")], out: Path, request: options.Request) -> None:
+def export(to: Annotated[str, partial(check_name, known=KINDS, label="")], out: Path, request: Request) -> None:
     """The collision law of SCENE in C, or its model as LaTeX or functions of CasADi, written into DIR.
 
     c: a folder with the whole collision law as NAME.c and NAME.h, C99 that needs no other library: material and impact
@@ -181,7 +181,7 @@ def export(to: Annotated[str, partial(check_name, known=KINDS, label="")], out: 
 
 
 @command(output="a file to write, such as explorer.html")
-def explore(output: str, others: tuple[str, ...], request: options.Request) -> None:
+def explore(output: str, others: tuple[str, ...], request: Request) -> None:
     """A page for the browser, with the law of SCENE: turn the scene's knobs, see the doublet.
 
     It opens from disk in any browser and loads nothing. Presets with the same law may be chosen in it, and the scenes
@@ -224,7 +224,7 @@ def generate(model: str | None, out: Path | None, check: bool, template: bool, n
     if template or names:
         alone = "--template" if template else "--names"
         others = {"MODEL.py": model, "--out": out, "--check": check, "--names": names and template}
-        options.refuse(others, f"{alone} alone: it prints and writes nothing", f"is given with {alone}")
+        refuse(others, f"{alone} alone: it prints and writes nothing", f"is given with {alone}")
         from ...derive import user
         from ...derive.user.names import listed
         from ...derive.user.template import TEMPLATE
@@ -235,7 +235,7 @@ def generate(model: str | None, out: Path | None, check: bool, template: bool, n
         _model(Path(model), out, check)
         return
     accepted = "--check alone: it compares the package's own folder"
-    options.refuse({"--out": check and out and str(out)}, accepted, "is given with --check")
+    refuse({"--out": check and out and str(out)}, accepted, "is given with --check")
     if not check and out is None and not (OWN.parent / "pyproject.toml").is_file():
         problem = f"is missing, and the emitted files of the installed package in {OWN} would be rewritten"
         raise InputError("--out", None, "--out DIR, or --check, which compares and writes nothing", problem)

@@ -11,6 +11,7 @@ from typing import Annotated, Any, get_args, get_origin, get_type_hints
 
 import click
 
+from ..engines.settings import UNTIL
 from ..errors import InputError
 from ..host import outputs
 from ..scene.schema import FIELDS
@@ -20,12 +21,14 @@ _LINE = re.compile(
     r"(?:(?P<flag>-\S+?)(?: (?P<metavar>[^(\s]\S*?))?|(?P<argument>[^-(]+?))"
     r"(?: \((?P<name>\w+)\))?(?::(?: (?P<help>.*))?)?"
 )
-_PUBLIC = re.compile(r"^        (\w+): ((?:.|\n {12})*)", re.MULTILINE)
+_PUBLIC = r"^        (\w+): ((?:.|\n {12})*)"
 _FORMS: dict[str, Callable[[Any], Any]] = {
     "N": texts.whole,
     "NAMES": texts.names,
     "DIR": partial(outputs.check_folder, label=""),
     "FILE.png": partial(outputs.check_file, label="", suffixes=outputs.PICTURES),
+    "FILE.toml": partial(outputs.check_file, label="", suffixes=(".toml",)),
+    "TIME": UNTIL.number,
 }
 """What reads a text, by what stands for it in the help."""
 
@@ -86,9 +89,10 @@ def command(public: str = "", **required: str) -> Callable[[Callable[..., None]]
     The docstring's last section has a line `--flag VALUE: help` for each option, `--flag VALUE (name): help` where the
     parameter has another name. Of an option that several commands have, the flag alone says the rest; a line without
     help has that of the public function's docstring, with the default of its signature. What stands for the value says
-    how it is read, unless the parameter's annotation does; `str` is the text as it is typed. Tuples and dictionaries
-    are repeatable. A value that is absent is None; the function's `**` has those that are present and no parameter of
-    its own. An InputError about a parameter, of whatever function, is reported under its option.
+    how it is read, unless the parameter's annotation does; `str` is the text as it is typed; of [N=500] the value may
+    be absent. Tuples and dictionaries are repeatable. What is absent is None; the function's `**` has those that are
+    present and no parameter of its own. An InputError about a parameter, of whatever function, is reported under its
+    option.
 
     Arguments:
         public: the file below solvers/ and its function that the command is of, `collision.collide:collide`.
@@ -188,7 +192,7 @@ def _meaning(public: str, name: str) -> str:
     path = Path(__file__).parents[1].joinpath(*file.split(".")).with_suffix(".py")
     tree = ast.parse(path.read_text(encoding="utf-8"))
     definition = next(item for item in tree.body if isinstance(item, ast.FunctionDef) and item.name == function)
-    meanings = dict(_PUBLIC.findall(ast.get_docstring(definition, clean=False) or ""))
+    meanings = dict(re.findall(_PUBLIC, ast.get_docstring(definition, clean=False) or "", re.MULTILINE))
     given = definition.args
     defaults = [None] * (len(given.args) - len(given.defaults)) + [*given.defaults, *given.kw_defaults]
     index = [argument.arg for argument in (*given.args, *given.kwonlyargs)].index(name)
