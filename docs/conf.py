@@ -10,8 +10,8 @@ sys.path.insert(0, str(HERE / "_ext"))
 # notebooks and their shell commands find the environment that builds the site
 os.environ["PATH"] = str(Path(sys.executable).parent) + os.pathsep + os.environ["PATH"]
 os.environ["WETDOUBLET_DOCS"] = str(HERE)  # and the data
-# of -O0 a fit takes more than twice as long; with functions copied into each other compiling does
-os.environ.setdefault("WETDOUBLET_CFLAGS", "-Og -fno-inline -Dalways_inline=")
+# as tests/helpers/flags.py, so that kernels are compiled once for both: of -O0 a fit takes more than twice as long
+os.environ.setdefault("WETDOUBLET_CFLAGS", "-Og -fno-inline -fno-unroll-loops")
 
 from gallery_pictures import WrittenPictures  # noqa: E402 -- found by the path that is set above
 

@@ -63,10 +63,10 @@ def pages() -> list[Path]:
 
 def blocks(page: Path) -> list[tuple[str, str]]:
     """Language and text of every block of code to be run."""
-    found = re.findall(
+    matches = re.findall(
         r"^```(python|console|sh)\n(.*?)^```", page.read_text(encoding="utf-8"), re.DOTALL | re.MULTILINE
     )
-    return [(language, text) for language, text in found if "from wetdoublet.derive.user import" not in text]
+    return [(language, text) for language, text in matches if "from wetdoublet.derive.user import" not in text]
 
 
 def commands(text: str, language: str) -> list[str]:
@@ -137,7 +137,7 @@ def _last(text: str) -> str:
 def main() -> None:
     """Run all pages."""
     os.environ["PATH"] = f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"
-    os.environ.setdefault("WETDOUBLET_CFLAGS", "-Og -fno-inline -Dalways_inline=")  # as conf.py
+    os.environ.setdefault("WETDOUBLET_CFLAGS", "-Og -fno-inline -fno-unroll-loops")  # as conf.py
     os.environ.setdefault("CFLAGS", "-O0")
     for module in ("casadi", "h5netcdf", "matplotlib.figure", "pandas", "scipy.optimize", "xarray", *_COMMANDS):
         __import__(module)

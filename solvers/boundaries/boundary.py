@@ -63,8 +63,8 @@ def boundary(
     cores = min(usable_cores(), max(1, angles.size // _WORTH))
     parts = np.array_split(angles[order], cores)
     whole = Traced([], [], 0, 0.0)
-    for part in traces(loaded, parts, (low, high), rtol, tell):
-        whole.add(part)
+    for block in traces(loaded, parts, (low, high), rtol, tell):
+        whole.add(block)
         tell(len(whole.changes))
     back = np.argsort(order, kind="stable")
     return Boundaries(
@@ -113,9 +113,9 @@ def atlas(
 
     Example:
         >>> from wetdoublet.solvers import atlas
-        >>> found = atlas("granulation", span=("15 deg", "60 deg"), stokes=(0.01, 0.5), lines=5)
-        >>> [(one.before, one.after) for one in found.curves][0], found.points[0].kind
-        (('stick', 'bounce'), 'triple point')
+        >>> found = atlas("granulation-dry-bridge", span=("20 deg", "30 deg"), stokes=(0.05, 0.3), lines=2)
+        >>> [(one.before, one.after) for one in found.curves]
+        [('stick-rotate-separate', 'bounce')]
     """
     from .atlas_curves import curves_of  # not needed by `boundary`
 

@@ -42,7 +42,7 @@ class OwnEvent:
         from ...generated.automaton import Event  # imported here because `generate` must run without emitted code
 
         fields = {name: entry[name] for name in Event._fields}
-        fields |= {"where": tuple((part, value) for part, value in entry["where"])}
+        fields |= {"where": tuple((component, value) for component, value in entry["where"])}
         fields |= {name: tuple(entry[name]) for name in ("functions", "words", "actions")}
         own_fields = ("mark", "meaning", "reach", "takes", "harmless", "rotates", "turns", "spins")
         return cls(Event(**fields), **{name: entry[name] for name in own_fields})

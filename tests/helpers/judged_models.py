@@ -1,12 +1,6 @@
-"""A model file drawn at random: refused with a sentence, or right by three engines, its derivatives included.
-
-As a program: python -m tests.helpers.judged_models $(seq 0 199) prints a line for each number.
-"""
+"""A model file drawn at random: refused with a sentence, or right by three engines, its derivatives included."""
 
 import math
-import sys
-import tempfile
-import warnings
 from collections.abc import Mapping
 from pathlib import Path
 from random import Random
@@ -105,15 +99,3 @@ def _slopes(scene: Scene, impact: Mapping[str, object]) -> float:
             miss = abs(slopes.gradient["restitution"][name] * values[name] - slope) - 0.1 * error
             worst = max(worst, miss / (1 + abs(slope)))
     return worst
-
-
-if __name__ == "__main__":
-    warnings.simplefilter("ignore")
-    with tempfile.TemporaryDirectory() as place:
-        for each in map(int, sys.argv[1:]):
-            try:
-                verdict = judged(each, Path(place))
-            except Exception as error:  # noqa: BLE001 # to be shown with its number
-                verdict = "WRONG", f"{type(error).__name__}: {error}"
-            sys.stdout.write(" ".join([str(each), *verdict]) + "\n")
-            sys.stdout.flush()

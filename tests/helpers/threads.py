@@ -1,6 +1,6 @@
 """Every public function from several threads at once, beside the same calls in one thread.
 
-    python -X faulthandler tests/helpers/threads.py [--seconds 60] [--threads 8]
+    python -X faulthandler tests/helpers/threads.py THREADS SECONDS
 
 Threads start together in a cold process, each at another place of the list of calls, and go round it until the time is
 over; then one thread makes the same calls, once each. What it gives, every thread must have given, to the last bit;
@@ -8,7 +8,6 @@ exit status 1 if one has not, or fails.
 """
 
 # ruff: noqa: T201 -- a script that prints
-import argparse
 import hashlib
 import io
 import math
@@ -102,30 +101,17 @@ CALLS: dict[str, Callable[[], Any]] = {
 
 def _digest(found: Any) -> str:
     """What a result says, to the last bit."""
-    whole = hashlib.sha256()
-
-    def take(value: Any) -> None:
-        if isinstance(value, xr.Dataset):
-            take({name: value[name].values for name in value.variables} | {"attrs": value.attrs})
-        elif isinstance(value, np.ndarray):
-            whole.update(repr(value.tolist()).encode())
-        elif isinstance(value, Mapping):
-            for key in value:
-                take(key)
-                take(value[key])
-        elif isinstance(value, bytes):
-            whole.update(value)
-        elif isinstance(value, (list, tuple)):
-            for each in value:
-                take(each)
-        elif hasattr(value, "to_dict"):
-            take(value.to_dict())
-            take(getattr(value, "trajectory", None))
-        else:
-            whole.update(repr(value).encode())
-
-    take(found)
-    return whole.hexdigest()
+    if isinstance(found, np.ndarray):
+        return _digest(found.tolist())
+    if isinstance(found, xr.Dataset):
+        return _digest({name: found[name].values for name in found.variables} | {"attrs": found.attrs})
+    if isinstance(found, Mapping):
+        return _digest([*found.items()])
+    if isinstance(found, (list, tuple)) and not all(isinstance(each, (str, float, int)) for each in found):
+        return _digest(" ".join(map(_digest, found)))
+    if hasattr(found, "to_dict"):
+        return _digest([found.to_dict(), getattr(found, "trajectory", None)])
+    return hashlib.sha256(repr(found).encode()).hexdigest()
 
 
 def together(calls: Mapping[str, Callable[[], Any]], count: int, seconds: float) -> dict[str, dict[str, int]]:
@@ -156,15 +142,11 @@ def together(calls: Mapping[str, Callable[[], Any]], count: int, seconds: float)
     return found
 
 
-def main() -> int:
-    parser = argparse.ArgumentParser()
-    parser.add_argument("--seconds", type=float, default=60.0)
-    parser.add_argument("--threads", type=int, default=8)
-    asked = parser.parse_args()
+def main(count: int, seconds: float) -> int:
     warnings.simplefilter("ignore", solvers.ModelWarning)
     calls = {name: call for name, call in CALLS.items() if compiler() is not None or "taylor" not in name}
     before = sys.stderr
-    found, wrong = together(calls, asked.threads, asked.seconds), 0
+    found, wrong = together(calls, count, seconds), 0
     for name, said in found.items():
         good = set(said) == {_digest(calls[name]())}
         wrong += not good
@@ -179,4 +161,4 @@ def main() -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(main(int(sys.argv[1]), float(sys.argv[2])))

@@ -20,12 +20,16 @@ from wetdoublet.derive.equations.certificates import pendulum
 from wetdoublet.derive.equations.events import rebound_loss
 from wetdoublet.derive.physics.law import slot_call
 from wetdoublet.derive.physics.mechanics import F_t
-from wetdoublet.derive.physics.structure import Structure
 from wetdoublet.derive.vocabulary import quantities as q
 
-from .test_mutants import Healthy, Mutate, altered_force, caught
+from .test_mutants import Healthy, Mutate, Mutation, caught, force, value_of
 
 pytestmark = [pytest.mark.slow, pytest.mark.usefixtures("few_structures")]
+
+
+def times(right: Callable[..., Any], factor: Any) -> Mutation:
+    """The mutation of a function by a factor."""
+    return lambda mutate: mutate(right, lambda structure: right(structure) * factor)
 
 
 _SLOWER = {pendulum.FASTEST: pendulum.FASTEST / 10}
@@ -70,78 +74,53 @@ def test_a_margin_that_is_not_the_worst(mutate: Mutate, healthy: Healthy, bounds
     caught(margins_are_the_lemmas(), healthy, *(f"margin of the stick proof: {each}" for each in names.split()))
 
 
-def _with(right: Callable[..., Any], name: Any, change: Callable[[sp.Expr], sp.Expr]) -> Callable[..., Any]:
-    """A function of the structure with one of its values changed, where it has it."""
-
-    def wrong(structure: Structure) -> dict[Any, sp.Expr]:
-        found = right(structure)
-        return {**found, name: change(found[name])} if name in found else found
-
-    return wrong
-
-
-@pytest.mark.parametrize(
-    ("right", "name", "change", "check", "caught_by"),
-    [
-        (intermediates.resting_rates, q.orbital_momentum, lambda e: -e, resting_is_held, "resting contact"),
-        (intermediates.resting_rates, q.normal_velocity, lambda e: e + 1, resting_is_held, "resting contact"),
-        (observables.outputs, "tangential_restitution", lambda e: 2 * e, outputs_are_the_definitions, "outputs"),
-        (observables.outputs, "final_spin", lambda e: -e, outputs_are_the_definitions, "outputs"),
-        (observables.outputs, "restitution", lambda e: -e, outputs_are_the_definitions, "outputs"),
-        (events.events, "rupture", lambda e: e + q.gap / 2, events_are_the_definitions, "events"),
-        (events.events, "elastic", lambda e: e + q.elastic_gap / 2, events_are_the_definitions, "events"),
-        (events.events, "rough", lambda e: e + q.rough_gap / 2, events_are_the_definitions, "events"),
-        (
-            events.events,
-            "glass",
-            lambda e: q.glass_number + slot_call("glass", "pressure", q.gap, -q.normal_velocity),
-            events_are_the_definitions,
-            "events",
-        ),
-        (events.events, "half_turn", lambda e: e + sp.pi, events_are_the_definitions, "events"),
-        (events.events, "release", lambda e: -e, inward_is_minus_the_acceleration, "inward force"),
-    ],
-    ids=[
-        "orbit at rest", "opening at rest", "e_t", "spin", "e_n",
-        "rupture", "elastic", "rough", "glass", "half turn", "release",
-    ],
-)  # fmt: skip
-def test_one_value_of_a_function(mutate: Mutate, healthy: Healthy, right, name, change, check, caught_by):
-    """A sign, a factor or a shift in one value of resting rates, outputs or events, and nowhere else."""
-    mutate(right, _with(right, name, change))
-    caught(check(), healthy, caught_by)
-
-
-def test_an_inward_force_that_pushes(mutate: Mutate, healthy: Healthy):
-    """The sign of what holds a doublet in contact: it would rest where it should be thrown off."""
-    right = intermediates.inward_force
-    mutate(right, lambda structure: -right(structure))
-    caught(inward_is_minus_the_acceleration(), healthy, "inward force")
+MUTANTS: dict[str, tuple[Mutation, Callable[[], Any], str]] = {
+    "orbit at rest": (
+        value_of(intermediates.resting_rates, q.orbital_momentum, lambda e: -e), resting_is_held, "resting contact",
+    ),
+    "opening at rest": (
+        value_of(intermediates.resting_rates, q.normal_velocity, lambda e: e + 1), resting_is_held, "resting contact",
+    ),
+    **{
+        f"output {name}": (value_of(observables.outputs, name, change), outputs_are_the_definitions, "outputs")
+        for name, change in (
+            ("tangential_restitution", lambda e: 2 * e), ("final_spin", lambda e: -e), ("restitution", lambda e: -e),
+        )
+    },
+    **{
+        f"event {name}": (value_of(events.events, name, change), events_are_the_definitions, "events")
+        for name, change in (
+            ("rupture", lambda e: e + q.gap / 2), ("elastic", lambda e: e + q.elastic_gap / 2),
+            ("rough", lambda e: e + q.rough_gap / 2), ("half_turn", lambda e: e + sp.pi),
+            ("glass", lambda e: q.glass_number + slot_call("glass", "pressure", q.gap, -q.normal_velocity)),
+        )
+    },
+    "event release": (
+        value_of(events.events, "release", lambda e: -e), inward_is_minus_the_acceleration, "inward force",
+    ),
+    # it would rest where it should be thrown off
+    "an inward force that pushes": (
+        times(intermediates.inward_force, -1), inward_is_minus_the_acceleration, "inward force",
+    ),
+    # it starts at 1 as it should, and is not L
+    "L times the gap": (times(observables.angular_momentum, q.gap), momentum_is_the_bodies, "emitted angular momentum"),
+    # half of F_t dissipates and conserves L: only the published force tells
+    "half of F_t": (force(F_t, lambda f: f / 2), tangential_force_is_the_published, "tangential force"),
+    "F_t the other way": (force(F_t, lambda f: -f), tangential_force_is_the_published, "tangential force"),
+    "e_n^2 - 1 with half the shear": (
+        value_of(observables.energy_rates, "tangential_lubrication", lambda e: e / 2), decomposition,
+        "decomposition of e_n^2 - 1",
+    ),
+    "e_n^2 - 1 with half the loss of a reversal": (
+        lambda mutate: mutate(rebound_loss, lambda *_: q.normal_velocity**2 * (1 - q.e_dry**2) / 4), decomposition,
+        "decomposition of e_n^2 - 1",
+    ),
+}  # fmt: skip
 
 
-def test_an_angular_momentum_of_another_measure(mutate: Mutate, healthy: Healthy):
-    """L times the gap starts at 1 as it should, and is not L."""
-    right = observables.angular_momentum
-    mutate(right, lambda structure: right(structure) * q.gap)
-    caught(momentum_is_the_bodies(), healthy, "emitted angular momentum")
-
-
-@pytest.mark.parametrize("factor", [sp.Rational(1, 2), sp.Integer(-1)])
-def test_a_tangential_force_of_another_size(mutate: Mutate, healthy: Healthy, factor):
-    """Half of F_t dissipates and conserves L: only the published force tells."""
-    altered_force(mutate, F_t, lambda force: factor * force)
-    caught(tangential_force_is_the_published(), healthy, "tangential force")
-
-
-def test_a_decomposition_with_half_the_shear(mutate: Mutate, healthy: Healthy):
-    """Shear charged with half its power: the terms of e_n^2 - 1 do not add up."""
-    right = observables.energy_rates
-    half = _with(right, "tangential_lubrication", lambda e: e / 2)
-    mutate(right, half)
-    caught(decomposition(), healthy, "decomposition of e_n^2 - 1")
-
-
-def test_a_decomposition_with_another_dry_loss(mutate: Mutate, healthy: Healthy):
-    """A reversal charged with half its loss leaves the other half unaccounted for."""
-    mutate(rebound_loss, lambda *_: q.normal_velocity**2 * (1 - q.e_dry**2) / 4)
-    caught(decomposition(), healthy, "decomposition of e_n^2 - 1")
+@pytest.mark.parametrize("name", MUTANTS)
+def test_a_mutant_is_caught(mutate: Mutate, healthy: Healthy, name: str):
+    """A sign, a factor or a shift in one value of what is emitted, and nowhere else."""
+    mutation, check, by = MUTANTS[name]
+    mutation(mutate)
+    caught(check(), healthy, by)

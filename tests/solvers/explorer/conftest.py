@@ -11,6 +11,8 @@ from .page import Page, written
 
 BROWSER = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
 FLAGS = ["--no-sandbox", "--disable-gpu", "--disable-quic", "--disable-background-networking", "--disable-sync"]
+# In place of the browser's: the page has its coarse map, which it makes itself, and waits for the fine one for ever.
+NO_WORKERS = "window.Worker = class { postMessage() {} terminate() {} }"
 
 
 @pytest.fixture(scope="session")
@@ -31,14 +33,19 @@ def files(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
 
 @pytest.fixture(scope="module")
 def opened(browser: Any, files: dict[str, Path]) -> Iterator[Any]:
-    """Opens the page of a scene by name; the next one takes its place. Nothing moves by itself, which takes time."""
+    """Opens the page of a scene by name; the next one takes its place. Nothing moves by itself, which takes time.
+
+    Nor are there fine maps without workers, which take most of the time.
+    """
     contexts: list[Any] = []
 
-    def open_page(name: str, address: str = "", **settings: Any) -> Page:
+    def open_page(name: str, address: str = "", workers: bool = True, **settings: Any) -> Page:
         while contexts:
             contexts.pop().close()
         contexts.append(browser.new_context(**{"reduced_motion": "reduce"} | settings))
-        return Page(contexts[-1].new_page(), written(files, name), address)
+        if not workers:
+            contexts[-1].add_init_script(NO_WORKERS)
+        return Page(contexts[-1].new_page(), written(files, name), address, workers)
 
     yield open_page
     for each in contexts:

@@ -27,8 +27,8 @@ SCENES = {  # whose modules come with the package
 class Page:
     """A page of a scene that is open; what it requests and complains of is kept."""
 
-    def __init__(self, tab: Any, path: Path, address: str = "") -> None:
-        self.tab = tab
+    def __init__(self, tab: Any, path: Path, address: str = "", workers: bool = True) -> None:
+        self.tab, self.workers = tab, workers
         self.requests: list[str] = []
         self.complaints: list[str] = []
         tab.on("request", lambda request: self.requests.append(request.url))
@@ -50,7 +50,8 @@ class Page:
         raise AssertionError(condition)
 
     def settled(self) -> None:
-        self.until("wetdoublet.map().idle && wetdoublet.map().count > 1")
+        fine = "wetdoublet.map().idle && wetdoublet.map().count > 1"
+        self.until(fine if self.workers else "wetdoublet.map().count > 0")
 
     def to(self, address: str) -> None:
         """Another address; what was complained of before is forgotten."""

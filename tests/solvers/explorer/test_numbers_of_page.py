@@ -29,7 +29,7 @@ SHARP = 1e-12  # relative tolerance of integration where numbers are compared to
 @pytest.mark.parametrize("name", [each for each in SCENES if each != "granulation"])  # as "beads", but for its numbers
 def test_numbers_are_those_of_python(name: str, opened: Any):
     """Random settings, through the TOML that the page gives: outcomes all, numbers to 1e-9; refusals are the same."""
-    page, draw, decided, separations = opened(name), random.Random(name), 0, 0
+    page, draw, decided, separations = opened(name, workers=False), random.Random(name), 0, 0
     state = page.ask("wetdoublet.state()")
     first = dict(state["values"])
     for _ in range(5 * SETTINGS):
@@ -107,7 +107,7 @@ def test_the_map_is_that_of_python(name: str, opened: Any):
 
 def test_python_gives_the_same_numbers(opened: Any, capsys: pytest.CaptureFixture[str]):
     """The line that the page shows, run."""
-    page = opened("coating", "impact.speed=3&liquid.viscosity=20&particles.youngs_modulus=never")
+    page = opened("coating", "impact.speed=3&liquid.viscosity=20&particles.youngs_modulus=never", workers=False)
     line = page.ask("wetdoublet.python(wetdoublet.state())")
     found = page.ask("wetdoublet.shown().found")
     names: dict[str, Any] = {}
@@ -120,7 +120,7 @@ def test_a_preset_with_the_same_law_may_be_chosen(opened: Any, tmp_path: Path, f
     willett = LACTOSE.with_entries({"bridge.law": "willett"})
     files["laws"] = tmp_path / "laws.html"
     explore(LACTOSE, willett).write(files["laws"])
-    page = opened("laws")
+    page = opened("laws", workers=False)
     assert page.ask("[...document.querySelectorAll('#preset option')].length") == 4
     factor = next(each["factor"] for each in page.knobs if each["name"] == "liquid.viscosity")
     page.ask(f"wetdoublet.set('liquid.viscosity', 0.5/{factor})")
@@ -136,6 +136,6 @@ def test_a_preset_with_the_same_law_may_be_chosen(opened: Any, tmp_path: Path, f
         assert found["restitution"] == pytest.approx(expected["restitution"], rel=1e-7)
     assert page.complaints == []
     address, state = page.ask("[location.hash.slice(1), wetdoublet.state()]")
-    again = opened("laws", address)
+    again = opened("laws", address, workers=False)
     assert again.ask("wetdoublet.state()") == state
     assert again.complaints == []

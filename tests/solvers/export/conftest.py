@@ -14,6 +14,7 @@ SPHERES = Scene.load("glass-beads-water").with_entries(
         "partner.coating_thickness": "3 um", "liquid.viscosity": "20 mPa s",
     }
 )  # fmt: skip
+WALL = Scene.load("granulation").with_entries({"partner.wall": True})
 OWN = Scene.load("granulation").with_entries(  # equal masses, which is far from the presets
     {
         "particles.reduced_radius": "0.2 mm", "particles.reduced_mass": "3e-5 g", "particles.dry_restitution": 0.8,
@@ -29,6 +30,13 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     if "gcc" not in FOUND:
         pytest.skip("needs gcc and g++")
     return written(SPHERES, tmp_path_factory.mktemp("law") / "spheres")
+
+
+@pytest.fixture(scope="session")
+def walled(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Law]:
+    """The folder and the law of granulation beside a wall."""
+    folder = written(WALL, tmp_path_factory.mktemp("law") / "wall")
+    return folder, Law(WALL, folder, *STRICT)
 
 
 @pytest.fixture(scope="session")

@@ -11,8 +11,8 @@ from wetdoublet.solvers.space.pairs import Bodies
 from ...helpers.exported_law import FOUND, Law, written
 from ...helpers.flags import QUICK
 from ...helpers.host_of_forces import Host
-from .conftest import OWN
-from .test_law_in_space import GRANULATION, arrivals
+from .conftest import OWN, WALL
+from .test_law_in_space import arrivals
 
 pytestmark = [pytest.mark.slow, pytest.mark.skipif("gcc" not in FOUND, reason="needs gcc and g++")]
 FILM_ALONE = Scene.load("granulation-dry-bridge")
@@ -238,9 +238,9 @@ def test_bad_input_is_refused(law: Law):
     assert "too small" in law.message(law.contact_join(pair.material, 1e-6, 0.0, pair.history))
 
 
-def test_what_has_no_forces_says_so(tmp_path: Path):
+def test_what_has_no_forces_says_so(walled: tuple[Path, Law]):
     """A wall: the header gives the reason."""
-    header = (written(GRANULATION.with_entries({"partner.wall": True}), tmp_path) / "granulation.h").read_text()
+    header = (walled[0] / "granulation.h").read_text()
     assert "#define GRANULATION_FORCES 0" in header
     assert "two spheres" in header.replace("\n * ", " ")
 
@@ -266,14 +266,13 @@ def test_dry_contacts_rub(tmp_path: Path):
     assert flown["energy"].max() <= 1 + 1e-12
 
 
-def test_a_wall_is_a_far_larger_sphere(law: Law, tmp_path: Path):
+def test_a_wall_is_a_far_larger_sphere(law: Law, walled: tuple[Path, Law]):
     """As the page says: 10,000 times as large and heavy, and held beneath the sphere; e_n is that of the wall."""
-    wall = GRANULATION.with_entries({"partner.wall": True})
-    walled, material = Law(wall, written(wall, tmp_path), *QUICK.split()), law.material()
-    normal, velocities, spins = arrivals(wall, 15, seed=2)
-    found = walled.collide_pairs(walled.pairs(normal, velocities, spins[:, :1]))
-    for name in walled.material().dtype.names:
-        material[name] = walled.material()[name]
+    wall, material = walled[1], law.material()
+    normal, velocities, spins = arrivals(WALL, 15, seed=2)
+    found = wall.collide_pairs(wall.pairs(normal, velocities, spins[:, :1]))
+    for name in wall.material().dtype.names:
+        material[name] = wall.material()[name]
     material["radius_ratio"] = material["mass_ratio"] = 1e4
     radius, mass, film = (float(material[name][0]) for name in ("reduced_radius", "reduced_mass", "film_thickness"))
     for k in np.flatnonzero(found["outcome"] > 0):

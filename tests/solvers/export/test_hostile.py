@@ -1,12 +1,13 @@
 """Exported laws under sanitizers: any bits at all are answered by numbers or refused, and nothing is undefined."""
 
+import shutil
 import subprocess
 from pathlib import Path
 
 import pytest
 from wetdoublet.solvers.export.law.texts import law_name
 
-from ...helpers.exported_law import FOUND, SANITIZED, written
+from ...helpers.exported_law import FOUND, SANITIZED
 from .conftest import SPHERES
 
 pytestmark = [pytest.mark.slow, pytest.mark.skipif("gcc" not in FOUND, reason="needs gcc and g++")]
@@ -90,9 +91,9 @@ int main(void)
 """
 
 
-def test_hostile_numbers_under_sanitizers(tmp_path: Path) -> None:
+def test_hostile_numbers_under_sanitizers(folder: Path, tmp_path: Path) -> None:
     """Materials, impacts, pairs and forces of bad numbers; the law's own vectors in two lanes; no warning."""
-    folder, name = written(SPHERES, tmp_path / "law"), law_name(SPHERES)
+    folder, name = Path(shutil.copytree(folder, tmp_path / "law")), law_name(SPHERES)
     text = HOSTILE.replace("LAW_", f"{name.upper()}_").replace("law_", f"{name}_").replace("NAME", name)
     (folder / "hostile.c").write_text(text)
     warned = ["-pedantic", "-Wall", "-Wextra", "-Wconversion", "-Wshadow", "-Werror"]

@@ -11,11 +11,9 @@ from wetdoublet.solvers.export.law.space import declarations
 from wetdoublet.solvers.space.pairs import Bodies
 
 from ...helpers.exported_law import FOUND, Law, written
-from .conftest import OWN, SPHERES, STRICT
+from .conftest import OWN, SPHERES, STRICT, WALL
 
 pytestmark = pytest.mark.skipif("gcc" not in FOUND, reason="needs gcc and g++")
-GRANULATION = Scene.load("granulation")
-WALL = GRANULATION.with_entries({"partner.wall": True})
 
 
 def arrivals(scene: Scene, count: int, seed: int = 1) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -74,7 +72,6 @@ def test_two_spheres_are_those_of_collide_pair(law: Law):
 RUBS = {"particles.friction": 0.2, "particles.contact_tangential_restitution": 0.5, "model.contact_friction": "all"}
 RESTS = {"particles.friction": 0.1, "particles.dry_restitution": 0.2, "liquid.viscosity": "1 mPa s"}
 OTHERS = {
-    "a wall that moves": WALL,
     "in solid contact": OWN.with_entries({**RESTS, "liquid.glass_transition_pressure": "1e12 Pa"}),
     "rubbing": OWN.with_entries(RUBS),
 }
@@ -83,9 +80,15 @@ OTHERS = {
 @pytest.mark.slow
 @pytest.mark.parametrize("name", OTHERS)
 def test_others_are_those_of_collide_pair(name: str, tmp_path: Path):
-    """Sliding, rolling and twist beside a wall; solid contact until rotation opens it; friction at every rebound."""
+    """Solid contact until rotation opens it; friction at every rebound."""
     scene = OTHERS[name]
     agree(Law(scene, written(scene, tmp_path), *STRICT), scene, 60)
+
+
+@pytest.mark.slow
+def test_a_wall_that_moves_is_that_of_collide_pair(walled: tuple[Path, Law]):
+    """Sliding, rolling and twist beside it."""
+    agree(walled[1], WALL, 60)
 
 
 def test_one_by_one_is_the_batch(law: Law):

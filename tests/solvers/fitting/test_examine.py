@@ -133,7 +133,7 @@ def test_outliers_and_duplicates_are_named() -> None:
     values[wrong] -= 0.3
     changed = replace(data, outcome=outcome, observed={"restitution": (values, data.observed["restitution"][1])})
     rows = np.append(np.arange(60), copied)
-    changed = replace(changed.part(rows), labels=tuple(f"row {k + 1}" for k in range(61)))
+    changed = replace(changed.subset(rows), labels=tuple(f"row {k + 1}" for k in range(61)))
     found = {(one.kind, row) for one in check_data(changed, PENDULUM).findings for row in one.rows}
     assert ("outlier", f"row {misread + 1}") in found
     assert ("outlier", f"row {wrong + 1}") in found
@@ -164,9 +164,9 @@ def test_a_distant_first_guess_is_no_contradiction() -> None:
     """A viscosity 30 times the first guess is found, although all impacts contradict the first guess."""
     true = Scene.load("lactose-pvp").with_entries({"liquid.viscosity": "210 mPa s"})
     random = np.random.default_rng(5)
-    speed = np.exp(random.uniform(*np.log([1.0, 12.0]), 25)) / true.stokes_per_speed
-    plan = Measurements(speed, random.uniform(0, 0.9, 25), 0.02 * speed, np.full(25, 0.01), np.full(25, UNKNOWN),
-                        {"restitution": (np.ones(25), np.full(25, 0.02))})  # fmt: skip
+    speed = np.exp(random.uniform(*np.log([1.0, 12.0]), 10)) / true.stokes_per_speed
+    plan = Measurements(speed, random.uniform(0, 0.9, 10), 0.02 * speed, np.full(10, 0.01), np.full(10, UNKNOWN),
+                        {"restitution": (np.ones(10), np.full(10, 0.02))})  # fmt: skip
     found = fit("lactose-pvp", drawn(true, plan, 2), ["liquid.viscosity"])
     assert not found.rows.contradicted
     one = found.estimates["liquid.viscosity"]

@@ -31,8 +31,8 @@ def pendulum():
     """A fit of a pendulum's viscosity and roughness, its data, and the counts that it reported."""
     first, steps = Scene.load("pendulum"), []
     true = first.with_entries({VISCOSITY: "14 Pa s"})
-    data = drawn(true, plan(true, 16, (0.5, 4.0)), 3)
-    return fit(first, data, [VISCOSITY, ROUGHNESS], starts=2, progress=lambda *step: steps.append(step)), data, steps
+    data = drawn(true, plan(true, 8, (0.5, 4.0)), 3)
+    return fit(first, data, [VISCOSITY, ROUGHNESS], starts=1, progress=lambda *step: steps.append(step)), data, steps
 
 
 @pytest.mark.slow
@@ -151,22 +151,6 @@ def test_a_row_without_a_scene_is_named():
         fit("granulation", data, VISCOSITY)
 
 
-@pytest.mark.parametrize(
-    ("free", "prior", "said"),
-    [
-        ("liquid.viscosty", None, "did you mean liquid.viscosity?"),
-        ("bridge.law", None, "bridge.law"),
-        (VISCOSITY, {FILM: "8 um +- 10 %"}, "is not free"),
-        (VISCOSITY, {VISCOSITY: "2 Pa s"}, "is no prior"),
-        (VISCOSITY, {VISCOSITY: "2 m +- 10 %"}, "a length"),
-    ],
-)
-def test_bad_requests(free, prior, said):
-    """What is wrong is named."""
-    with pytest.raises(InputError, match=said.replace("?", r"\?")):
-        fit("granulation", {"stokes": [0.1], "angle": [0.5], "outcome": ["stick"]}, free, prior=prior)
-
-
 @pytest.mark.slow
 def test_one_stick_bounds_and_does_not_identify():
     """A stick at some viscosity is none at a lower one, nor at a much higher: ends are closed, flat between."""
@@ -187,14 +171,11 @@ def test_a_profile_that_flattens_just_below_its_drop_is_open():
     """Elastic rebounds of thin liquid tell no lower end: from 1e-2 of the estimate on, its profile stays below 1.92."""
     seen = {
         "relative_speed": [0.236817] * 3 + [1.0] * 3 + [0.489801] * 2,
-        "relative_speed_sd": [0.00237] * 3 + [0.01] * 3 + [0.0049] * 2,
-        "angle": np.radians([0.0] * 6 + [70.0] * 2),
-        "angle_sd": np.radians([1.0] * 8),
-        "outcome": ["stick", "bounce", "stick", *["bounce"] * 5],
-        "restitution": [np.nan, 0.0285, np.nan, 0.9198, 0.9113, 0.9215, 0.7129, 0.7217],
-        "restitution_sd": [0.02] * 8,
-    }
-    result = fit("glass-beads-water", seen, [VISCOSITY, "particles.dry_restitution"])
+        "relative_speed_sd": [0.00237] * 3 + [0.01] * 3 + [0.0049] * 2, "angle": np.radians([0.0] * 6 + [70.0] * 2),
+        "angle_sd": np.radians([1.0] * 8), "outcome": ["stick", "bounce", "stick", *["bounce"] * 5],
+        "restitution": [np.nan, 0.0285, np.nan, 0.9198, 0.9113, 0.9215, 0.7129, 0.7217], "restitution_sd": [0.02] * 8,
+    }  # fmt: skip
+    result = fit("glass-beads-water", seen, [VISCOSITY, "particles.dry_restitution"], starts=0)
     estimate = result.estimates[VISCOSITY]
     assert (estimate.low, estimate.verdict) == (None, ONE_SIDE)
 
@@ -203,7 +184,7 @@ def test_a_profile_that_flattens_just_below_its_drop_is_open():
 def test_probabilities_are_those_of_the_posterior():
     """With one entry they are sums over a fine grid of its values, each weighted by its likelihood."""
     scene = Scene.load("pendulum")
-    data = drawn(scene, plan(scene, 8, (0.5, 3.0)), 2)
+    data = drawn(scene, plan(scene, 5, (0.5, 3.0)), 2)
     found = fit(scene, data, VISCOSITY, starts=0)
     speed, angle = np.geomspace(0.3, 1.0, 9), np.array([0.2, 0.8])
     share = found.predict(speed=speed, angle=angle)["probability"]

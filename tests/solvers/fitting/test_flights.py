@@ -106,9 +106,9 @@ def films(scene: Scene, count: int, seed: int) -> pd.DataFrame:
 
 @pytest.mark.slow
 def test_a_fit_finds_the_film_that_was_guessed_wrong() -> None:
-    """Film and viscosity of ten films, from guesses 20 % to either side: within their intervals, and the same."""
+    """Film and viscosity of six films, from guesses 20 % to either side: within their intervals, and the same."""
     scene = Scene.load("lactose-pvp")
-    shots, ends = films(scene, 10, 6), []
+    shots, ends = films(scene, 6, 6), []
     for factor in (0.8, 1.2):
         guess = guessed(scene, factor).with_entries({"liquid.viscosity": "10 mPa s"})
         found = fit(guess, tracks(shots, guess, rate=2e5, scale=PIXEL).columns, ["liquid.viscosity", FILM])
