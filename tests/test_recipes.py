@@ -78,7 +78,7 @@ RESULT = [  # its row, and its expression
         '    named["lost_speed"] = 1 - named["restitution"]\n{}',
     ),
 ]
-COMMAND = [("solvers/commands/cli.py", '    "scenes", ', '{}"hello", ')]
+COMMAND = [("solvers/commands/cli.py", '    "scenes": "scenes", ', '{}"hello": "hello", ')]
 SMOOTH = """
 from wetdoublet.solvers import InputError, Scene
 solids = ("particles.youngs_modulus", "particles.poisson_ratio")
@@ -102,11 +102,11 @@ HELLO = """\"\"\"`wetdoublet hello`: say hello.\"\"\"
 
 import click
 
-from .signature import as_command
+from .signature import command
 
 
-@as_command("Say hello.")
-def command(to: str | None) -> None:
+@command()
+def hello(to: str | None) -> None:
     \"\"\"Say hello.
 
     Options:

@@ -145,7 +145,7 @@ def main() -> None:
     sys.exit("\n".join(line for page in chosen for line in run(page)) or 0)
 
 
-_COMMANDS = ["wetdoublet.solvers.commands." + name.replace("-", "_") for name in COMMANDS]
+_COMMANDS = ["wetdoublet.solvers.commands." + file for file in {*COMMANDS.values()}]
 
 if __name__ == "__main__":
     main()

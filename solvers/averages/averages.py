@@ -61,8 +61,8 @@ def collision_averages(
             `relative_speed,density`, or two arrays. Default the scene's relative speed.
         radii: radii (m) of the spheres; every pair of them is computed, beside a wall each radius. Default the scene's
             own pair. Densities are those of the scene.
-        films: "fixed": the film and the roughness are the scene's for every pair; "proportional": both grow with the
-            sum of the radii, a coating with its sphere, a volume in m^3 with the cube of the sum.
+        films: "fixed", the default: the film and the roughness are the scene's for every pair; "proportional": both
+            grow with the sum of the radii, a coating with its sphere, a volume in m^3 with the cube of the sum.
         tolerance: absolute error of the quadrature, of the shares and of the means over all collisions. From 1e-9 to
             1e-2. Means over those that separate have it divided by their share.
         rtol: relative tolerance of the collisions, 1e-13..1e-3.

@@ -14,6 +14,7 @@ from ..engines.settings import KERNEL_STEPS
 from ..errors import ComputationError
 from ..model.dimensionless import nondimensionalise
 from ..scene.contact import GAPS
+from ..scene.origin import Recorded
 from .samples import SAMPLE_BUDGET, answers
 from .scene_sampler import SceneSampler
 
@@ -28,7 +29,7 @@ _AT_ONCE = 16  # collisions of a round that are worth waiting for together: two 
 
 
 @dataclass(frozen=True)
-class Change:
+class Change(Recorded):
     """A change of outcome at a Stokes number, from below to above. Ce is None without a bridge.
 
     Attributes:
@@ -38,16 +39,14 @@ class Change:
         merged: True if it stands for several changes closer than 1e-8.
     """
 
+    _keys = "stokes centrifugal from=before to=after"
+
     stokes: float
     centrifugal: float | None
     before: str
     after: str
     kind: str
     merged: bool = False
-
-    def to_dict(self) -> dict[str, float | str | None]:
-        """The change as in the JSON object of `wetdoublet boundary`."""
-        return {"stokes": self.stokes, "centrifugal": self.centrifugal, "from": self.before, "to": self.after}
 
 
 def changes_along(

@@ -17,7 +17,7 @@ from ..engines.settings import RTOL
 from ..formatting.notebook import view
 from ..host.pictures import Drawn
 from ..results import outcome_attributes
-from ..scene.origin import origin
+from ..scene.origin import Recorded, origin
 from ..scene.quantities import quantities
 from ..scene.scene import Scene
 from ..scene.schema import FIELDS, MEETING
@@ -106,18 +106,26 @@ class Boundaries(Drawn):
         always = {"stokes": "1", "centrifugal": "1", "speed": "m/s", "relative_speed": "m/s", "angle": "rad"}
         return {"rtol": self.rtol, "searched": list(self.window), "units": {**units, **always}} | source
 
-    def __str__(self) -> str:
-        lines = [f"angle (deg)   St              Ce          {self.speed_heading:<18} change"]
-        for angle, changes in zip(self.angles, self.changes, strict=True):
+    def _rows(self) -> list[tuple[str, ...]]:
+        """Angle, Stokes number, Ce, speed, change and kind of each change; angle and reason of a line without."""
+        rows: list[tuple[str, ...]] = []
+        failures = self.failures or ("",) * len(self.angles)
+        for angle, changes, failure in zip(self.angles, self.changes, failures, strict=True):
+            degrees = f"{math.degrees(angle):.6g}"
             for change in changes:
                 ce = "-" if change.centrifugal is None else f"{change.centrifugal:.6g}"
-                ends = f"{self.speed_at(change.stokes, angle):<18.6g} {change.before} -> {change.after}"
-                lines.append(f"{math.degrees(angle):<13.6g} {change.stokes:<15.10g} {ce:<11} {ends}")
-            if not changes:
-                failure = next(
-                    (reason for at, reason in self.failed if at == angle), f"no change for {self.range_text}"
+                speed = f"{self.speed_at(change.stokes, angle):.6g}"
+                rows.append(
+                    (degrees, f"{change.stokes:.10g}", ce, speed, f"{change.before} -> {change.after}", change.kind)
                 )
-                lines.append(f"{math.degrees(angle):<13.6g} {failure}")
+            rows += [] if changes else [(degrees, failure or f"no change for {self.range_text}")]
+        return rows
+
+    def __str__(self) -> str:
+        lines = [f"angle (deg)   St              Ce          {self.speed_heading:<18} change"]
+        for degrees, *cells in self._rows():
+            text = "{:<15} {:<11} {:<18} {}".format(*cells) if len(cells) > 1 else cells[0]
+            lines.append(f"{degrees:<13} {text}")
         points = sum(len(changes) for changes in self.changes)
         merged = sum(change.merged for line in self.changes for change in line)
         lines += [f"{merged} of the changes stand for several closer than {MERGED:g}"] if merged else []
@@ -155,19 +163,9 @@ class Boundaries(Drawn):
         return xr.Dataset(variables, {"angle": angle}, attributes)
 
     def _repr_html_(self) -> str:
-        rows = []
-        failures = self.failures or ("",) * len(self.angles)
-        for angle, line, failure in zip(self.angles, self.changes, failures, strict=True):
-            at = f"{math.degrees(angle):.6g}"
-            rows += [
-                (at, f"{change.stokes:.8g}", "-" if change.centrifugal is None else f"{change.centrifugal:.6g}",
-                 f"{self.speed_at(change.stokes, angle):.6g}", f"{change.before} → {change.after}", change.kind)
-                for change in line
-            ]  # fmt: skip
-            rows += [] if line else [(at, failure or f"no change for {self.range_text}", "", "", "", "")]
         head = ("angle (deg)", "St", "Ce", self.speed_heading, "change", "kind")
         notes = [f"{self.collisions} collisions, {self.range_text}"]
-        return view(f"{self._name}: boundaries between outcomes", rows, head, notes)
+        return view(f"{self._name}: boundaries between outcomes", self._rows(), head, notes)
 
     @property
     def _name(self) -> str:
@@ -193,7 +191,7 @@ class Boundaries(Drawn):
 
 
 @dataclass(frozen=True)
-class Curve:
+class Curve(Recorded):
     """A boundary between outcomes, x ascending: `before` is below it, `after` above.
 
     Arguments:
@@ -201,34 +199,24 @@ class Curve:
         x, stokes: points of the curve; x in rad or SI.
     """
 
+    _keys = "from=before to=after kind x stokes"
+
     before: str
     after: str
     kind: str
     x: tuple[float, ...]
     stokes: tuple[float, ...]
 
-    def to_dict(self) -> dict[str, Any]:
-        """The entry of the JSON object of `wetdoublet boundary --angle LO:HI`."""
-        return {
-            "from": self.before,
-            "to": self.after,
-            "kind": self.kind,
-            "x": list(self.x),
-            "stokes": list(self.stokes),
-        }
-
 
 @dataclass(frozen=True)
-class Point:
+class Point(Recorded):
     """A point where curves meet, have a fold, or change in kind."""
+
+    _keys = "kind x stokes"
 
     kind: str
     x: float
     stokes: float
-
-    def to_dict(self) -> dict[str, Any]:
-        """The entry of the JSON object of `wetdoublet boundary --angle LO:HI`."""
-        return {"kind": self.kind, "x": self.x, "stokes": self.stokes}
 
 
 @dataclass(frozen=True)

@@ -1,1 +1,1 @@
-"""The commands, one per file. Each checks its options first and imports what it needs only when it runs."""
+"""The commands. Each checks its options first and imports what it needs only when it runs."""

@@ -7,6 +7,7 @@ import traceback
 import warnings
 from collections.abc import Callable, Sequence
 from importlib import import_module
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -17,12 +18,14 @@ from ..host.interrupts import INTERRUPTED, handled
 from ..host.locks import sweep_temporary
 from .bar import AtWork
 
-COMMANDS = (
-    "scenes", "collide", "sensitivity", "map", "boundary", "critical", "solve", "averages", "reproduce", "generate",
-    "diff", "export", "explore", "verify", "bench", "prove", "tracks", "check", "fit", "flow-curve", "design",
-    "compile", "cite",
-)  # fmt: skip
-"""Each is the function `command` of the module of that name in `commands/`, imported when it is called."""
+COMMANDS = {
+    "scenes": "scenes", "collide": "collisions", "sensitivity": "collisions", "map": "outcomes", "boundary": "outcomes",
+    "critical": "outcomes", "solve": "collisions", "averages": "collisions", "reproduce": "checks",
+    "generate": "scenes", "diff": "scenes", "export": "scenes", "explore": "scenes", "verify": "checks",
+    "bench": "checks", "prove": "collisions", "tracks": "data", "check": "data", "fit": "data", "flow-curve": "data",
+    "design": "data", "compile": "scenes", "cite": "scenes",
+}  # fmt: skip
+"""The file in `commands/` that has each command; it is imported when the command is called."""
 
 _SAME = {"--out": ("-o",), "--output": ("-o", "--out"), "-o": ("--out",), "-p": ("--plot",), "-v": ("--version",)}
 """An option that some commands do not have -> the options that they may have instead."""
@@ -42,9 +45,10 @@ class Commands(click.Group):
         """Import and return the command."""
         if cmd_name not in COMMANDS:
             return None
-        command = import_module("." + cmd_name.replace("-", "_"), __package__).command
-        assert isinstance(command, click.Command)
-        return command
+        from .signature import built
+
+        import_module(f".{COMMANDS[cmd_name]}", __package__)
+        return built(cmd_name)
 
     def resolve_command(
         self, ctx: click.Context, args: list[str]
@@ -53,8 +57,11 @@ class Commands(click.Group):
         if args[0] not in COMMANDS and not args[0].startswith("-"):
             hint = did_you_mean(args[0], COMMANDS)
             raise InputError("COMMAND", args[0], ", ".join(COMMANDS), "is not known" + hint)
+        for k, (option, value) in enumerate(pairwise(args), 1):
+            if option == "--stress" and value[:1] == "-" and value[1:2].isdigit():  # click would read it as an option
+                args[k] = f" {value}"
         name, command, rest = super().resolve_command(ctx, args)
-        if command is not None:
+        if command is not None and not ctx.resilient_parsing:  # as a shell does that completes a line
             _check_once(click.Context(command, parent=ctx, info_name=name), rest)
         return name, command, rest
 
@@ -65,11 +72,6 @@ class Commands(click.Group):
                 sweep_temporary()
                 super().invoke(ctx)
             sys.stdout.flush()
-        except click.BadOptionUsage as error:
-            name = ctx.invoked_subcommand  # click does not name the option
-            if error.ctx is None and name and (command := self.get_command(ctx, name)):
-                error.ctx = click.Context(command, parent=ctx, info_name=name)
-            raise
         except KeyboardInterrupt as interrupt:
             click.echo(str(interrupt) or ("terminated" if signals.terminated else "interrupted"), err=True)
             ctx.exit(signals.status)
@@ -106,16 +108,16 @@ class Commands(click.Group):
 
 
 def _check_once(ctx: click.Context, args: list[str]) -> None:
-    """Raise InputError for an option that takes one value and is given several, of which click keeps the last."""
+    """Refuse an option that takes one value and is given several, of which click keeps the last."""
     try:
         values, _, order = ctx.command.make_parser(ctx).parse_args(list(args))
-    except click.UsageError:
-        return  # reported when the command is called
-    for option in (each for each in order if isinstance(each, click.Option) and not (each.multiple or each.is_flag)):
-        if order.count(option) > 1:
-            raise InputError(
-                option.opts[0], str(values[str(option.name)]), f"{option.opts[0]} once", "is given twice or more"
-            )
+    except click.UsageError as error:
+        error.ctx = ctx  # of which click does not always say
+        raise
+    for option in order:
+        if isinstance(option, click.Option) and not (option.multiple or option.is_flag) and order.count(option) > 1:
+            flag = option.opts[0]
+            raise InputError(flag, str(values[str(option.name)]), f"{flag} once", "is given twice or more")
 
 
 def _settle_streams() -> None:

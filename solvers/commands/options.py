@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
@@ -15,11 +15,11 @@ from ..engines.settings import check_engine, check_rtol
 from ..errors import InputError, excerpt
 from ..host import files, outputs
 from ..scene.held import check_hold
-from ..scene.schema import FIELDS, SPEEDS, SPINS, unknown_entry
+from ..scene.schema import FIELDS, SPEEDS, SPINS, Field, unknown_entry
 from ..scene.user_model import Package, fields, unknown
 from ..scene.user_model_source import open_package
-from .signature import Group, Option, options_of, passed
-from .texts import assigned, typed, with_degrees
+from .signature import SHARED, Group, options_of, passed
+from .texts import assigned, flag, numbers, typed, with_degrees
 
 if TYPE_CHECKING:
     from ..scene.scene import Scene
@@ -62,8 +62,7 @@ class SceneRequest:
         """
         typed = passed(stokes=stokes, speed=speed, relative_speed=relative_speed, angle=angle)
         impact = {key: with_degrees(FIELDS[f"impact.{key}"], text) for key, text in typed.items()}
-        for key, text in impact.items():
-            FIELDS[f"impact.{key}"].number(text, label=_flag(key))
+        numbers(typed)
         if hold is not None:
             check_hold(hold, "--hold")
         check_one_speed(typed)
@@ -73,10 +72,10 @@ class SceneRequest:
             for entry in ("impact.angle",) if key == "angle" else SPEEDS:
                 if entry in entries:
                     problem = f"is given together with --set {entry} = {excerpt(entries[entry])}"
-                    raise InputError(_flag(key), typed[key], "only one of the two", problem)
+                    raise InputError(flag(key), typed[key], "only one of the two", problem)
         for key in () if varies or hold is None else (key for key in impact if key != "angle"):
-            problem = f"is given together with {_flag(key)}, which sets the impact anew"
-            raise InputError("--hold", hold, f"--hold without {_flag(key)}", problem)
+            problem = f"is given together with {flag(key)}, which sets the impact anew"
+            raise InputError("--hold", hold, f"--hold without {flag(key)}", problem)
         return cls(source, entries, impact, package, hold)
 
     @property
@@ -84,7 +83,7 @@ class SceneRequest:
         """The texts of the options that are present."""
         changes = "; ".join(f"{name}={value}" for name, value in self.entries.items()) or None
         folder = None if self.package is None else str(self.package.folder)
-        return {_flag(key): text for key, text in self.impact.items()} | passed(
+        return {flag(key): text for key, text in self.impact.items()} | passed(
             **{"--set": changes, "--hold": self.hold, "--model": folder}
         )
 
@@ -92,8 +91,7 @@ class SceneRequest:
         """Read the scene if one is named; InputError for an option that needs a scene."""
         if self.source is not None:
             return self.scene(remark=True)
-        for option, text in self.options.items():
-            raise InputError(option, text, f"a SCENE with {option}", "needs a SCENE")
+        refuse(self.options, "a SCENE with {}", "needs a SCENE")
         return None
 
     def scene(self, remark: bool = False) -> Scene:
@@ -121,19 +119,43 @@ class SceneRequest:
                 raise InputError("--set", name, accepted, problem)
         return self.scene()
 
+    def numeric(self, name: str) -> Field | None:
+        """The entry of this name if it is a number, of a user's model too."""
+        entry = fields(self.package).get(name)
+        return None if entry is None or entry.choices or entry.flag else entry
+
+    def varying(self, name: str, text: str, label: str, others: Mapping[str, Any] | None = None) -> Field:
+        """The entry that an option varies; InputError for another name, or one that is given otherwise too."""
+        from ..many.arguments import check_varies
+
+        check_varies(name, text, label, self.package)
+        if name in (others or {}) or name in self.entries:
+            other = "twice" if name in (others or {}) else "together with --set"
+            raise InputError(label, name, "every entry once", f"is given {other}")
+        return fields(self.package)[name]
+
+
+def refuse(given: Mapping[str, Any], accepted: str, problem: str = "") -> None:
+    """Raise InputError for the first of these options that is present."""
+    for option, value in given.items():
+        if value:
+            text = ",".join(value) if isinstance(value, list) else value[0] if isinstance(value, tuple) else value
+            raise InputError(option, text, accepted.format(option), problem)
+
+
+def several(source: Sequence[str], **given: Any) -> list[SceneRequest]:
+    """The requests of several scenes with the same options."""
+    return [SceneRequest.check(name, **given) for name in source or (None,)]
+
 
 def check_one_speed(typed: Mapping[str, str]) -> None:
     """Raise InputError if the impact is set by more than one of its speeds and the Stokes number."""
     first, *more = [key for key in typed if key != "angle"] or [""]
     if more:
-        accepted = "only one of " + ", ".join(_flag(name.partition(".")[2]) for name in SPEEDS)
+        accepted = "only one of " + ", ".join(flag(name.partition(".")[2]) for name in SPEEDS)
         raise InputError(
-            _flag(more[0]), typed[more[0]], accepted, f"is given together with {_flag(first)} = {typed[first]}"
+            flag(more[0]), typed[more[0]], accepted, f"is given together with {flag(first)} = {typed[first]}"
         )
-
-
-def _flag(key: str) -> str:
-    return f"--{key.replace('_', '-')}"
 
 
 def _entries(changes: Sequence[str], package: Package | None) -> dict[str, str]:
@@ -148,7 +170,7 @@ def _entries(changes: Sequence[str], package: Package | None) -> dict[str, str]:
     return values
 
 
-_OPTIONS = options_of(
+SHARED |= options_of(
     """
     SCENE (source):
     --stokes S: Normal Stokes number.
@@ -166,58 +188,33 @@ _OPTIONS = options_of(
     --engine E: taylor, or cvodes or rosenbrock, which integrate and check what it has found [taylor; for
         derivatives that it lacks, rosenbrock].
     --uncertainty NAME=VALUE: A standard deviation, as liquid.viscosity="5 %" or impact.angle="1 deg"; repeatable.
-    --prior NAME=PRIOR (priors): What is known of an entry, as particles.roughness="2 um +- 20 %"; repeatable.
+    --prior NAME=PRIOR: What is known of an entry, as particles.roughness="2 um +- 20 %"; repeatable.
 """.strip("\n")
 )
-_OPTIONS["changes"] = replace(_OPTIONS["changes"], settings={"multiple": True})
+_REPEATED = {"multiple": True}
+SHARED["changes"] = replace(SHARED["changes"], settings=_REPEATED)
+SHARED["uncertainty"] = replace(
+    SHARED["uncertainty"], read=lambda given: typed(assigned(_DEVIATION, given)), settings=_REPEATED
+)
+SHARED["prior"] = replace(SHARED["prior"], read=partial(assigned, _PRIOR), settings=_REPEATED)
+SHARED["rtol"] = replace(SHARED["rtol"], read=check_rtol)
+SHARED["engine"] = replace(SHARED["engine"], read=check_engine)
 _IMPACT = ("source", "stokes", "speed", "relative_speed", "angle", "changes", "hold", "model")
 
 
-def _group(read: Callable[..., Any], *names: str, **others: Option) -> Group:
-    return Group(read, {name: _OPTIONS[name] for name in names} | others)
+def group(read: Any, *names: str) -> Group:
+    """Options that commands share, read together."""
+    return Group(read, {name: SHARED[name] for name in names})
 
 
-_BESIDE = partial(SceneRequest.check, varies=False)
-
-
-def _several(source: Sequence[str], **options: Any) -> list[SceneRequest]:
-    return [SceneRequest.check(each, **options) for each in source or (None,)]
-
-
-def _measured(source: Sequence[str], **options: Any) -> list[tuple[SceneRequest, str | None]]:
-    """Scenes, each with the file of its impacts."""
-    requests = _several(source[::2], **options)
-    return list(zip(requests, [*source[1::2], None][: len(requests)], strict=True))
-
-
-Request = Annotated[SceneRequest, _group(_BESIDE, *_IMPACT)]
-OptionalRequest = Annotated[SceneRequest, _group(_BESIDE, *_IMPACT, source=Option("[SCENE]"))]
-NamedRequest = Annotated[SceneRequest, _group(_BESIDE, *_IMPACT, source=Option("[NAME]"))]
-VariedRequest = Annotated[SceneRequest, _group(SceneRequest.check, *_IMPACT)]
+Request = Annotated[SceneRequest, group(partial(SceneRequest.check, varies=False), *_IMPACT)]
+Varied = Annotated[SceneRequest, group(SceneRequest.check, *_IMPACT)]
 """For a command that varies entries itself, which --hold concerns as well."""
-EntriesRequest = Annotated[SceneRequest, _group(SceneRequest.check, "source", "changes", "model")]
-SeveralRequests = Annotated[
-    list[SceneRequest],
-    _group(_several, *(name for name in _IMPACT if name != "hold"), source=Option("SCENE...", settings={"nargs": -1})),
-]
-MeasuredRequests = Annotated[
-    list[tuple[SceneRequest, str | None]],
-    _group(_measured, "changes", "hold", "model",
-           source=Option("SCENE DATA.csv [SCENE DATA.csv ...]", settings={"nargs": -1})),
-]  # fmt: skip
-Changes = Annotated[dict[str, str], replace(_OPTIONS["changes"], read=lambda texts: typed(assigned(_CHANGE, texts)))]
+Entries = Annotated[SceneRequest, group(SceneRequest.check, "source", "changes", "model")]
+Impact = Annotated[dict[str, str], group(passed, *_IMPACT[1:5])]
+"""The texts of an impact, or of ranges of impacts, for a command that reads them itself."""
+Changes = Annotated[dict[str, str], lambda given: typed(assigned(_CHANGE, given))]
 """Entries of --set, unchecked; they apply to a scene that is read later."""
-Uncertainty = Annotated[
-    dict[str, str],
-    replace(
-        _OPTIONS["uncertainty"], read=lambda texts: typed(assigned(_DEVIATION, texts)), settings={"multiple": True}
-    ),
-]
-Rtol = Annotated[float | None, replace(_OPTIONS["rtol"], read=check_rtol)]
-Engine = Annotated[str | None, replace(_OPTIONS["engine"], read=check_engine)]
-Priors = Annotated[
-    dict[str, str], replace(_OPTIONS["priors"], read=partial(assigned, _PRIOR), settings={"multiple": True})
-]
 
 
 # ---- results
@@ -239,40 +236,40 @@ class Output:
         check_apart(file, picture, "--plot")
         return cls(as_json, picture, file)
 
-    def put(self, text: str, record: Mapping[str, Any] | None = None) -> None:
-        """Write the text, or the record as JSON if that is requested, to the file or to standard output."""
+    def put(self, text: str, record: Mapping[str, Any] | None = None, drawn: Any = None) -> None:
+        """Write the text, or the record as JSON if that is requested, and draw the picture as far as requested."""
         if self.as_json and record is not None:
             text = json_text(record)
         if self.file is None:
             click.echo(text)
         else:
             files.write(self.file, text + "\n")
+        if self.picture is not None and drawn is not None:
+            drawn.plot(self.picture)
 
     def show(self, result: Any, drawn: Any = None) -> None:
         """Write a result and draw its picture, or that of another result, as far as requested.
 
         A result that has `to_csv` goes to FILE.csv as that, and is shown as well.
         """
-        text = json_text(result.to_dict()) if self.as_json else str(result)
+        output = self
         if self.file is not None and self.file.suffix == ".csv" and hasattr(result, "to_csv"):
             files.write(self.file, result.to_csv())
-            click.echo(text)
+            output = replace(self, file=None)
+        if self.as_json:
+            output.put("", result.to_dict(), drawn or result)
         else:
-            self.put(text)
-        if self.picture is not None:
-            (drawn or result).plot(self.picture)
+            output.put(str(result), drawn=drawn or result)
 
 
-def json_text(record: Mapping[str, Any]) -> str:
+def json_text(record: Mapping[str, Any], ensure_ascii: bool = True) -> str:
     """A record as JSON, in which a number is finite."""
-    return json.dumps(record, indent=2, allow_nan=False)
+    return json.dumps(record, indent=2, allow_nan=False, ensure_ascii=ensure_ascii)
 
 
-Shown = Annotated[Output, _group(Output.check, "as_json", "plot", "output")]
-Written = Annotated[Output, _group(Output.check, "as_json", "output")]
-WrittenText = Annotated[Output, _group(Output.check, "output")]
-Picture = Annotated[Path | None, partial(outputs.check_file, label="", suffixes=outputs.PICTURES)]
-Folder = Annotated[Path | None, partial(outputs.check_folder, label="")]
+Shown = Annotated[Output, group(Output.check, "as_json", "plot", "output")]
+Written = Annotated[Output, group(Output.check, "as_json", "output")]
+WrittenText = Annotated[Output, group(Output.check, "output")]
 
 
 def check_apart(file: Path | None, other: Path | None, option: str) -> None:

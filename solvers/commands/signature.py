@@ -1,17 +1,36 @@
-"""Commands made of functions: options read off a signature and its docstring, and checked before any file is read."""
+"""Commands made of functions: options are read off docstrings, and their values checked before any file is read."""
 
+import ast
 import inspect
 import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
+from functools import partial
+from pathlib import Path
 from typing import Annotated, Any, get_args, get_origin, get_type_hints
 
 import click
 
+from ..engines.settings import UNTIL
 from ..errors import InputError
-from .texts import names, whole
+from ..host import outputs
+from ..scene.schema import FIELDS
+from . import texts
 
-_LINE = re.compile(r"(?P<flag>\S+)(?: (?P<metavar>[^(\s]\S*))??(?: \((?P<name>\w+)\))?:(?: (?P<help>.*))?", re.DOTALL)
+_LINE = re.compile(
+    r"(?:(?P<flag>-\S+?)(?: (?P<metavar>[^(\s]\S*?))?|(?P<argument>[^-(]+?))"
+    r"(?: \((?P<name>\w+)\))?(?::(?: (?P<help>.*))?)?"
+)
+_PUBLIC = r"^        (\w+): ((?:.|\n {12})*)"
+_FORMS: dict[str, Callable[[Any], Any]] = {
+    "N": texts.whole,
+    "NAMES": texts.names,
+    "DIR": partial(outputs.check_folder, label=""),
+    "FILE.png": partial(outputs.check_file, label="", suffixes=outputs.PICTURES),
+    "FILE.toml": partial(outputs.check_file, label="", suffixes=(".toml",)),
+    "TIME": UNTIL.number,
+}
+"""What reads a text, by what stands for it in the help."""
 
 
 @dataclass(frozen=True)
@@ -22,112 +41,177 @@ class Option:
         flag: as it is typed; an argument of the command if it does not begin with a dash.
         metavar: what stands for its value in the help; "" for an option without value.
         help: its line in the help.
-        read: the value of the text; an InputError of it without a field is about the option.
+        read: the value of the text, None for the text; an InputError of it without a field is about the option.
         settings: further arguments of `click.Option` or `click.Argument`.
     """
 
     flag: str
     metavar: str = ""
     help: str = ""
-    read: Callable[[Any], Any] = lambda text: text
+    read: Callable[[Any], Any] | None = None
     settings: Mapping[str, Any] = field(default_factory=dict)
 
     def parameter(self, name: str) -> click.Parameter:
         """The parameter of click."""
         if self.flag[0] != "-":  # not required by click, so that a wrong option is reported before a missing argument
-            return click.Argument([name], metavar=self.flag, **{"required": False, **self.settings})
-        form: dict[str, Any] = {"metavar": self.metavar} if self.metavar else {"is_flag": True}
-        return click.Option([self.flag, name], help=self.help, **form, **self.settings)
+            form: dict[str, Any] = {"required": False, "shell_complete": _completed, **self.settings}
+            return click.Argument([name], metavar=self.flag, **form)
+        form = {"metavar": self.metavar, "shell_complete": _completed} if self.metavar else {"is_flag": True}
+        return click.Option([self.flag, name], help=self.help, **{**form, **self.settings})
+
+
+def _completed(_ctx: click.Context, parameter: click.Parameter, begun: str) -> list[Any]:
+    """What a shell may complete: presets where a scene stands, and files."""
+    from click.shell_completion import CompletionItem
+
+    from ..scene.scenefile import PRESETS
+
+    presets = PRESETS if parameter.name == "source" else ()
+    return [CompletionItem(name) for name in presets if name.startswith(begun)] + [CompletionItem(begun, type="file")]
 
 
 @dataclass(frozen=True)
 class Group:
-    """Several options that are read together as one parameter.
-
-    Arguments:
-        read: the value of the texts, which are its keyword arguments.
-        options: the options by keyword.
-    """
+    """Several options that are read together as one parameter: the value of their texts, given by keyword."""
 
     read: Callable[..., Any]
     options: Mapping[str, Option]
 
 
-def options_of(text: str) -> dict[str, Option]:
-    """The options that an indented text describes, by parameter: lines `--flag VALUE (name): help`."""
-    options = {}
+SHARED: dict[str, Option] = {}
+"""Options that several commands have."""
+_REGISTERED: dict[str, tuple[Callable[..., None], str, Mapping[str, str]]] = {}
+
+
+def command(public: str = "", **required: str) -> Callable[[Callable[..., None]], Callable[..., None]]:
+    """Make a function the command of its name, whose docstring is the help.
+
+    The docstring's last section has a line `--flag VALUE: help` for each option, `--flag VALUE (name): help` where the
+    parameter has another name. Of an option that several commands have, the flag alone says the rest; a line without
+    help has that of the public function's docstring, with the default of its signature. What stands for the value says
+    how it is read, unless the parameter's annotation does; `str` is the text as it is typed; of [N=500] the value may
+    be absent. Tuples and dictionaries are repeatable. What is absent is None; the function's `**` has those that are
+    present and no parameter of its own. An InputError about a parameter, of whatever function, is reported under its
+    option.
+
+    Arguments:
+        public: the file below solvers/ and its function that the command is of, `collision.collide:collide`.
+        required: what is accepted, by parameter without which the command cannot run.
+    """
+
+    def register(function: Callable[..., None]) -> Callable[..., None]:
+        _REGISTERED[function.__name__.strip("_").replace("_", "-")] = (function, public, required)
+        return function
+
+    return register
+
+
+def built(name: str) -> click.Command:
+    """The command of click."""
+    function, public, required = _REGISTERED[name]
+    text, _, lines = inspect.cleandoc(function.__doc__ or "").partition("\n\nOptions:\n")
+    hints = get_type_hints(function, include_extras=True)
+    groups = {key: hint.__metadata__[0] for key, hint in hints.items() if get_origin(hint) is Annotated}
+    groups = {key: group for key, group in groups.items() if isinstance(group, Group)}
+    own = {key: _read_by(key, option, hints.get(key, Any)) for key, option in options_of(lines, public).items()}
+    # a scene with its options comes before the tolerance, results come last
+    order = [key for key in own if not any(key in group.options for group in groups.values())]
+    after = [*order, "rtol"].index("rtol")
+    order[after:after] = [key for key in groups if key != "output"]
+    order += [key for key in groups if key == "output"]
+    read_by = {key: groups[key] if key in groups else own[key] for key in order}
+    options: dict[str, Option] = {}
+    for key, item in read_by.items():
+        members = item.options if isinstance(item, Group) else {key: item}
+        options |= {name: own.get(name, option) for name, option in members.items()}
+    flags = {key: item.flag for key, item in read_by.items() if isinstance(item, Option)}
+
+    def run(**typed: Any) -> None:
+        values: dict[str, Any] = {}
+        key = ""
+        try:
+            for key, item in read_by.items():
+                if isinstance(item, Group):
+                    values[key] = item.read(**{name: typed[name] for name in item.options})
+                else:
+                    values[key] = typed[key] if typed[key] is None or item.read is None else item.read(typed[key])
+            _check_present(values, flags, required)
+            given = {key: value for key, value in values.items() if key in hints or not _is_absent(value)}
+            function(**given)
+        except InputError as error:
+            argument, _, rest = error.field.partition(" ")
+            flag = flags.get(argument or key, "")
+            if flag[:1] != "-":
+                raise
+            raise InputError(f"{flag} {rest}".strip(), error.value, error.accepted, error.problem) from None
+
+    parameters = [option.parameter(key) for key, option in options.items()]
+    debug = click.Option(["--debug"], is_flag=True, expose_value=False, help="Show a traceback behind an error.")
+    # a scene is the first argument, wherever its options stand
+    parameters.sort(key=lambda item: isinstance(item, click.Argument) and item.name != "source")
+    paragraphs = ["\b\n" * ("\n  " in paragraph) + paragraph for paragraph in text.split("\n\n")]
+    return click.Command(
+        name, callback=run, params=[*parameters, debug], help="\n\n".join(paragraphs),
+        short_help=" ".join(text.partition("\n\n")[0].split()),
+    )  # fmt: skip
+
+
+def _is_absent(value: Any) -> bool:
+    return value is None or value is False or value in ((), {})
+
+
+def _check_present(values: Mapping[str, Any], flags: Mapping[str, str], required: Mapping[str, str]) -> None:
+    for key, accepted in required.items():
+        if values[key] is None:
+            raise InputError(flags[key], None, accepted)
+
+
+def options_of(text: str, public: str = "") -> dict[str, Option]:
+    """The options that an indented text describes, by parameter."""
+    options: dict[str, Option] = {}
     for line in re.split(r"\n    (?=\S)", "\n" + text.rstrip())[1:]:
-        parts = _LINE.fullmatch(" ".join(line.split()))
-        assert parts is not None, line
-        name = parts["name"] or parts["flag"].lstrip("-").replace("-", "_")
-        options[name] = Option(parts["flag"], parts["metavar"] or "", parts["help"] or "")
+        words = _LINE.fullmatch(" ".join(line.split()))
+        assert words is not None, line
+        metavar, name, meaning = words.group("metavar", "name", "help")
+        flag = words["flag"] or words["argument"]
+        name = name or next((key for key, option in SHARED.items() if option.flag == flag), "")
+        name = name or flag.lstrip("-").replace("-", "_")
+        plain = SHARED.get(name, Option(flag))
+        meaning = meaning or plain.help or (_meaning(public, name) if public and flag[0] == "-" else "")
+        settings: dict[str, Any] = {"nargs": -1} if "..." in flag else {}
+        if metavar and metavar[0] == "[":
+            settings = {"is_flag": False, "flag_value": metavar[3:-1]}
+        settings = {**plain.settings, **settings}
+        options[name] = replace(plain, flag=flag, metavar=metavar or plain.metavar, help=meaning, settings=settings)
     return options
 
 
-def as_command(
-    short_help: str, kind: type[click.Command] = click.Command, **settings: Mapping[str, Any]
-) -> Callable[[Callable[..., None]], click.Command]:
-    """Make a function the command of its module's name; its signature and docstring say which options there are.
-
-    A parameter is annotated with a type, with a type and what reads it from a text, or with one of the options below.
-    Its flag, what stands for its value and its help are a line `--flag VALUE: help` of the docstring's last section,
-    `--flag VALUE (name): help` where the parameter has another name. Tuples and dictionaries are repeatable. Values are
-    read in the order of the parameters; one that is absent is None. An InputError about a parameter, of whatever
-    function, is reported under its option.
-
-    Arguments:
-        settings: of click's options, by parameter.
-    """
-
-    def decorated(function: Callable[..., None]) -> click.Command:
-        text, _, lines = inspect.cleandoc(function.__doc__ or "").partition("\n\nOptions:\n")
-        documented = options_of(lines)
-        read_by: dict[str, Option | Group] = {}
-        for name, hint in get_type_hints(function, include_extras=True).items():
-            if name != "return":
-                read_by[name] = _read_as(hint, documented.get(name), settings.get(name, {}))
-        flags = {name: each.flag for name, each in read_by.items() if isinstance(each, Option) and each.flag[0] == "-"}
-
-        def run(**texts: Any) -> None:
-            values: dict[str, Any] = {}
-            name = ""
-            try:
-                for name, option in read_by.items():
-                    if isinstance(option, Group):
-                        values[name] = option.read(**{key: texts[key] for key in option.options})
-                    else:
-                        values[name] = None if texts[name] is None else option.read(texts[name])
-                function(**values)
-            except InputError as error:
-                argument, _, rest = error.field.partition(" ")
-                flag = flags.get(argument or name)
-                if flag is None:
-                    raise
-                raise InputError(f"{flag} {rest}".strip(), error.value, error.accepted, error.problem) from None
-
-        parameters = [
-            option.parameter(name)
-            for key, each in read_by.items()
-            for name, option in (each.options if isinstance(each, Group) else {key: each}).items()
-        ]
-        debug = click.Option(["--debug"], is_flag=True, expose_value=False, help="Show a traceback behind an error.")
-        # a scene is the first argument, wherever its options stand
-        parameters.sort(key=lambda each: isinstance(each, click.Argument) and each.name != "source")
-        name = function.__module__.rpartition(".")[2].replace("_", "-")
-        return kind(name, callback=run, params=[*parameters, debug], help=text, short_help=short_help)
-
-    return decorated
+def _meaning(public: str, name: str) -> str:
+    """What a public function says of a parameter, and its default; to read its file is cheaper than to import it."""
+    file, function = public.split(":")
+    path = Path(__file__).parents[1].joinpath(*file.split(".")).with_suffix(".py")
+    tree = ast.parse(path.read_text(encoding="utf-8"))
+    definition = next(item for item in tree.body if isinstance(item, ast.FunctionDef) and item.name == function)
+    meanings = dict(re.findall(_PUBLIC, ast.get_docstring(definition, clean=False) or "", re.MULTILINE))
+    given = definition.args
+    defaults = [None] * (len(given.args) - len(given.defaults)) + [*given.defaults, *given.kw_defaults]
+    index = [argument.arg for argument in (*given.args, *given.kwonlyargs)].index(name)
+    default = getattr(defaults[index], "value", None)
+    sentence = " ".join(meanings[name].split()).rstrip(".")
+    ending = f" [{default}]." if default not in (None, False) else "."
+    return sentence[:1].upper() + sentence[1:] + ending
 
 
-def _read_as(hint: Any, line: Option | None, settings: Mapping[str, Any]) -> Option | Group:
-    """The option of a parameter, by its annotation and its line of the docstring."""
+def _read_by(name: str, option: Option, hint: Any) -> Option:
+    """An option that is read as its annotation or its form says."""
     kind, *more = get_args(hint) if get_origin(hint) is Annotated else (hint,)
-    if more and isinstance(more[0], (Option, Group)):
-        return more[0]
-    assert line is not None, hint
-    multiple = {"multiple": True} if get_origin(kind) in (tuple, dict) else {}
-    read = more[0] if more else {list[str] | None: names, int | None: whole}.get(kind, lambda text: text)
-    return replace(line, read=read, settings={**multiple, **settings})
+    settings = {"multiple": True} if get_origin(kind) in (tuple, dict) or kind in (tuple, dict) else {}
+    entry = FIELDS.get(f"impact.{name}")
+    if more or kind is str or str in get_args(kind):
+        return replace(option, read=more[0] if more else None, settings={**option.settings, **settings})
+    if option.read is None and entry is not None and option.metavar in ("RANGE", "LO:HI"):
+        return replace(option, read=partial(texts.entry_range if option.metavar == "RANGE" else texts.span, entry))
+    return replace(option, read=option.read or _FORMS.get(option.metavar), settings={**option.settings, **settings})
 
 
 def passed(**arguments: Any) -> dict[str, Any]:

@@ -5,7 +5,7 @@ An InputError without a field is about the option that is read.
 
 from collections.abc import Mapping, Sequence
 
-from ..errors import InputError, did_you_mean, excerpt
+from ..errors import InputError, excerpt
 from ..scene import units
 from ..scene.ranges import MOST, Ends, parse_range
 from ..scene.schema import FIELDS, Field
@@ -66,11 +66,15 @@ def whole(text: str) -> int:
         raise InputError("", text, "a whole number") from None
 
 
-def known(names: Sequence[str], text: str, label: str = "") -> str:
-    """One of the names; InputError with the nearest for another."""
-    if text not in names:
-        raise InputError(label, text, ", ".join(names), "is not known" + did_you_mean(text, names))
-    return text
+def numbers(impact: Mapping[str, str]) -> dict[str, float]:
+    """The numbers (SI) of an impact's entries, each under the name of its option."""
+    entries = {name: FIELDS[f"impact.{name}"] for name in impact}
+    return {name: entry.number(with_degrees(entry, impact[name]), label=flag(name)) for name, entry in entries.items()}
+
+
+def flag(name: str) -> str:
+    """The option of a name."""
+    return f"--{name.replace('_', '-')}"
 
 
 def with_degrees(entry: Field, text: str) -> str:

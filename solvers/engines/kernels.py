@@ -1,14 +1,14 @@
 """What the Taylor kernels of scenes answer, and `compile_kernels`, which compiles them before they are needed."""
 
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 from ..errors import ComputationError
 from ..host.arguments import check_flag
 from ..host.compiler import compiler
 from ..host.user_cache import folder, why_unwritable
+from ..scene.origin import Recorded
 from ..scene.scene import Scene
 from .settings import RTOL, check_rtol
 from .taylor.build import compile_all, is_compiled, kernel_supports, size_of
@@ -22,7 +22,7 @@ Named = Scene | str | Path
 
 
 @dataclass(frozen=True)
-class CompiledKernel:
+class CompiledKernel(Recorded):
     """A kernel of a scene.
 
     Attributes:
@@ -35,6 +35,8 @@ class CompiledKernel:
         bytes: size in the cache.
     """
 
+    _keys = "scene oblique order serves already seconds bytes"
+
     scene: str
     oblique: bool
     order: int
@@ -43,8 +45,10 @@ class CompiledKernel:
     seconds: float
     bytes: int
 
-    def to_dict(self) -> dict[str, Any]:
-        return asdict(self) | {"serves": list(self.serves)}
+    def __str__(self) -> str:
+        took = "already compiled" if self.already else f"{self.seconds:.2f} s"
+        about, size = "oblique" if self.oblique else "head-on", f"{self.bytes / 1000:4.0f} kB"
+        return f"  {about:7}  order {self.order:2}  {took:>16}  {size}  {', '.join(self.serves)}"
 
 
 def compile_kernels(

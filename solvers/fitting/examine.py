@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -14,7 +14,7 @@ from ..changes.experiment import STEEPEST, Experiment, free_names
 from ..errors import InputError
 from ..formatting.markdown import aligned
 from ..scene.held import NAMES
-from ..scene.origin import origin
+from ..scene.origin import Recorded
 from ..scene.scene import Scene
 from .likelihood import check_energy
 from .measurements import UNKNOWN, Measurements, read_data, rows_of
@@ -44,7 +44,7 @@ class Finding:
 
 
 @dataclass(frozen=True)
-class Checkup:
+class Checkup(Recorded):
     """The result of `check_data`.
 
     Attributes:
@@ -55,6 +55,8 @@ class Checkup:
         notes: sentences on how the columns were read and what the data lack.
     """
 
+    _keys = "points=data.size agreement differing findings telling notes"
+
     data: Measurements
     scene: Scene
     findings: tuple[Finding, ...]
@@ -62,13 +64,6 @@ class Checkup:
     differing: tuple[str, ...]
     telling: dict[str, int]
     notes: tuple[str, ...]
-
-    def to_dict(self) -> dict[str, Any]:
-        """The JSON object of `wetdoublet check --json`."""
-        return {
-            "points": self.data.size, "agreement": self.agreement, "differing": list(self.differing),
-            "findings": [asdict(item) for item in self.findings], "telling": self.telling, "notes": list(self.notes),
-        } | origin(self.scene)  # fmt: skip
 
     def __str__(self) -> str:
         lines = [*self.notes, f"As the scene is, {self.agreement:.0%} of the impacts come out as observed."]

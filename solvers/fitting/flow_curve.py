@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import asdict, dataclass, field
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -18,6 +18,7 @@ import numpy as np
 from ..errors import InputError
 from ..formatting.markdown import aligned
 from ..host.pictures import Drawn
+from ..scene.origin import Recorded
 from ..scene.schema import FIELDS
 from .rheometer import flow_curve_of
 
@@ -78,7 +79,7 @@ class Parameter:
 
 
 @dataclass(frozen=True)
-class FlowCurve(Drawn):
+class FlowCurve(Drawn, Recorded):
     """A law fitted to a flow curve.
 
     Attributes:
@@ -91,6 +92,7 @@ class FlowCurve(Drawn):
     """
 
     _picture = "fitting.plot_flow_curve.draw"
+    _keys = "law parameters criteria scatter points=rate.size rates reference_rate entries"
 
     law: str
     parameters: Mapping[str, Parameter]
@@ -104,6 +106,11 @@ class FlowCurve(Drawn):
         """The viscosity by the law, Pa s."""
         values = {name: parameter.value for name, parameter in self.parameters.items()}
         return next(curve for law, curve, _ in _LAWS if law == self.law)(np.asarray(rate), values, self.reference_rate)
+
+    @property
+    def rates(self) -> tuple[float, float]:
+        """Lowest and highest shear rate, 1/s."""
+        return float(self.rate[0]), float(self.rate[-1])
 
     @property
     def entries(self) -> dict[str, str | float]:
@@ -130,15 +137,6 @@ class FlowCurve(Drawn):
         parameter = self.parameters[name]
         ends = ["open" if end is None else f"{end:.4g}" for end in (parameter.low, parameter.high)]
         return f"95 %: {ends[0]} to {ends[1]}"
-
-    def to_dict(self) -> dict[str, Any]:
-        """The JSON object of `wetdoublet flow-curve --json`."""
-        return {
-            "law": self.law, "parameters": {name: asdict(parameter) for name, parameter in self.parameters.items()},
-            "criteria": dict(self.criteria), "scatter": self.scatter, "points": len(self.rate),
-            "rates": [float(self.rate[0]), float(self.rate[-1])], "reference_rate": self.reference_rate,
-            "entries": self.entries,
-        }  # fmt: skip
 
     def __str__(self) -> str:
         """The table to paste, and how the laws compare."""

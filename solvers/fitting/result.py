@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass, field
+from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -17,7 +17,7 @@ from ..host.arguments import check_whole
 from ..host.outputs import check_file
 from ..host.pictures import plot
 from ..host.progress import Estimated, Progress
-from ..scene.origin import origin
+from ..scene.origin import origin, plain
 from ..scene.scene import Scene
 from .free_entries import IDENTIFIED, FreeEntries, interval, unit_shown
 from .joint import Part, home, worded
@@ -178,18 +178,18 @@ class Fit:
     def to_dict(self) -> dict[str, Any]:
         """The JSON object of `wetdoublet fit --json`."""
         names = list(self.estimates)
-        residuals = {
-            name: [float(value) if np.isfinite(value) else None for value in values]
-            for name, values in self.rows.residual.items()
-        }
         return {
-            "estimates": {name: asdict(estimate) for name, estimate in self.estimates.items()},
+            "estimates": plain(self.estimates),
             "log_likelihood": self.log_likelihood,
             "points": self.points,
             "correlation": {name: dict(zip(names, row)) for name, row in zip(names, self.correlation.tolist())},
             "combinations": list(self.combinations),
             "remarks": list(self.remarks),
-            "residuals": {"probability": self.rows.probability.tolist(), **residuals, "pull": self.rows.pull.tolist()},
+            "residuals": {
+                "probability": self.rows.probability.tolist(),
+                **plain(self.rows.residual, gaps=True),
+                "pull": self.rows.pull.tolist(),
+            },
             "quadrature": self.quadrature,
             "others": [{"values": dict(values), "log_likelihood": height} for values, height in self.others],
             **origin(self.first),

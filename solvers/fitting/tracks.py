@@ -134,11 +134,10 @@ def tracks(
         scale: length of a pixel, in m or with its unit, as "12.5 um"; or as "2 um/px", "80 px/mm".
         scale_sd: its relative standard deviation.
         noise: standard deviation of a tracked coordinate, in the unit of the columns, or with its own, as "0.2 px";
-            None: from the scatter about the straight paths.
+            default from the scatter about the straight paths.
         near: frames of a smaller gap between the spheres are left out; in m or with a unit, as "0.1 mm", "8 px". None:
             of those off the straight path of the others the direction alone counts. 0: all count.
-        particles: of several the two, as "3,7" or (3, 7); "3+8,7" if the tracker went on with 3 as 8. None: those that
-            meet.
+        particles: of several the two, as "3,7"; "3+8,7" if the tracker went on with 3 as 8. Default those that meet.
 
     `rate`, `scale`, `noise` and `near` may be quantities of pint.
 

@@ -17,7 +17,8 @@ from ..host.buffered import Buffered
 from ..host.thread_caches import own_cache
 from ..scene.contact import GAPS
 from ..scene.scene import Scene
-from ..scene.user_model import OwnEvent, Package
+from ..scene.user_model import Package
+from ..scene.user_model_declared import OwnEvent
 from .key import ModelKey
 
 # Fraction of the contact gap. Solutions stay above the contact gap; the floor keeps trial stages out of x <= 0.

@@ -53,12 +53,13 @@ def design(
         over: window of impacts, {"stokes": (0.02, 0.5), "angle": ("0 deg", "80 deg")}; also speed or relative_speed,
             and one value in place of two ends.
         n: number of impacts.
-        target: the entry that matters, of `free`; the others are then estimated little more than that needs. None: all
+        target: the entry of `free` that matters; the others are then estimated little more than that needs. Default all
             alike (D-optimal).
         data: impacts measured before, as of `fit`; they are fitted first, and what they tell counts.
         prior: what is known of free entries, as of `fit`.
         speed_sd: scatter of the speed, relative ("2 %"); angle_sd: of the angle. Default: the data's, or `fit`'s.
-        restitution_sd: standard deviation of the measured restitution; "none" if only outcomes are recorded.
+        restitution_sd: standard deviation of the measured restitution; "none" if only outcomes are recorded. Default
+            the data's, or 0.02.
         rtol: relative tolerance of the collisions.
         progress: called with (impacts evaluated, impacts in all); the second is an estimate, which may grow, and is
             reached at the end. A fit of `data` before is not counted.

@@ -15,7 +15,7 @@ from ..fitting.measurements import Measurements
 from ..formatting.markdown import aligned
 from ..host.pictures import Drawn
 from ..scene.held import NAMES
-from ..scene.origin import origin
+from ..scene.origin import Recorded, origin
 from ..scene.scene import Scene
 from .information import information
 from .search import Choice
@@ -48,6 +48,9 @@ class Impact:
     angle: float
     probability: tuple[float, float, float]
 
+    def to_dict(self) -> dict[str, Any]:
+        return asdict(self) | {"probability": dict(zip(OUTCOMES, self.probability))}
+
 
 @dataclass(frozen=True)
 class Expected:
@@ -59,7 +62,7 @@ class Expected:
 
 
 @dataclass(frozen=True)
-class Design(Drawn):
+class Design(Drawn, Recorded):
     """The result of `design`: planned impacts, what they will tell, and how that is shown and written.
 
     `plot` draws what single impacts tell over the window, and the planned ones.
@@ -85,6 +88,7 @@ class Design(Drawn):
     """
 
     _picture = "planning.plot.draw"
+    _keys = "impacts expected before against_grid grid combinations for=target candidates"
 
     window: Window
     free: FreeEntries
@@ -169,16 +173,10 @@ class Design(Drawn):
         """The JSON object of `wetdoublet design --json`."""
         scatter = self.window.scatter
         return {
-            "impacts": [
-                asdict(impact) | {"probability": dict(zip(OUTCOMES, impact.probability))} for impact in self.impacts
-            ],
-            "expected": {name: asdict(entry) for name, entry in self.expected.items()},
-            "before": {name: asdict(entry) for name, entry in self.before.items()},
-            "against_grid": dict(self.against_grid),
-            "grid": list(self.grid),
-            "combinations": list(self.combinations), "for": self.target, "candidates": self.candidates,
+            **super().to_dict(),
             "scatter": {self._speed: scatter.speed, "angle": scatter.angle, "restitution": scatter.restitution},
-        } | origin(self.window.scene)  # fmt: skip
+            **origin(self.window.scene),
+        }
 
     def to_csv(self) -> str:
         """A row for each impact in the form that `fit` reads, its observations empty."""

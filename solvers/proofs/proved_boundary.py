@@ -15,7 +15,7 @@ from ..engines.interval.call import BOX, OUTCOME, enclose
 from ..engines.interval.inputs import Inputs
 from ..engines.interval.prove import Proof, prove_inputs
 from ..errors import ComputationError, InputError
-from ..scene.origin import origin
+from ..scene.origin import Recorded
 from ..scene.scene import Scene
 
 _LINES = 48  # points of a line between which changes are looked for
@@ -45,7 +45,7 @@ class Change(NamedTuple):
 
 
 @dataclass(frozen=True)
-class ProvedBoundary:
+class ProvedBoundary(Recorded):
     """Changes of outcome along a line of constant angle (rad), each between two proved collisions.
 
     Attributes:
@@ -58,6 +58,8 @@ class ProvedBoundary:
         >>> prove_boundary("granulation", angle="10 deg", stokes=(0.25, 0.35)).changes
         ()
     """
+
+    _keys = "angle changes undecided"
 
     scene: Scene
     angle: float
@@ -78,15 +80,6 @@ class ProvedBoundary:
         lines += [f"undecided: St {low:.10g} to {high:.10g}" for low, high in self.undecided]
         lines.append("everywhere else on the line the outcome is proved and does not change")
         return "\n".join(lines)
-
-    def to_dict(self) -> dict[str, Any]:
-        """The JSON object of `wetdoublet prove --boundary --json`."""
-        changes = [
-            {"stokes": list(change.stokes), "outcomes": list(change.outcomes), "within": list(change.within)}
-            for change in self.changes
-        ]
-        undecided = [list(stretch) for stretch in self.undecided]
-        return {"angle": self.angle, "changes": changes, "undecided": undecided, **origin(self.scene)}
 
 
 def prove_boundary(scene: Scene | str | Path, *, angle: float | str, stokes: tuple[float, float]) -> ProvedBoundary:

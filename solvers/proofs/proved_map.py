@@ -21,7 +21,7 @@ from ..errors import ComputationError, InputError
 from ..host.cores import usable_cores
 from ..many.collide_many import collide_many
 from ..results import outcome_attributes
-from ..scene.origin import origin
+from ..scene.origin import Recorded
 from ..scene.scene import Scene
 from .cells import UNDECIDED, Cell
 
@@ -35,7 +35,7 @@ _ROTATE = OUTCOMES.index(ROTATE)
 
 
 @dataclass(frozen=True)
-class ProvedMap:
+class ProvedMap(Recorded):
     """Cells that cover a rectangle of Stokes numbers and angles, each with one proved outcome, or undecided.
 
     Attributes:
@@ -47,6 +47,8 @@ class ProvedMap:
         >>> prove_map("granulation", stokes=[0.3, 0.301], angle=[0.35, 0.351]).shares["bounce"]
         1.0
     """
+
+    _keys = "shares undecided_area proofs cells"
 
     scene: Scene
     cells: tuple[Cell, ...]
@@ -86,18 +88,6 @@ class ProvedMap:
     def __str__(self) -> str:
         lines = [f"{100 * share:8.3f} %  {name}" for name, share in self.shares.items()]
         return "\n".join([f"{len(self.cells)} cells, {self.proofs} boxes enclosed; shares of the area:", *lines])
-
-    def to_dict(self) -> dict[str, Any]:
-        """The JSON object of `wetdoublet prove --map --json`."""
-        words = dict(enumerate(OUTCOMES)) | {UNDECIDED: None}
-        cells = [{"stokes": list(c.stokes), "angle": list(c.angle), "outcome": words[c.outcome]} for c in self.cells]
-        return {
-            "shares": self.shares,
-            "undecided_area": self.undecided_area,
-            "proofs": self.proofs,
-            "cells": cells,
-            **origin(self.scene),
-        }
 
     def plot(self, path: str | Path | None = None) -> Any:
         """Draw the cells; returns the matplotlib Figure.

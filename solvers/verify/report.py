@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from textwrap import wrap
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
+
+from ..scene.origin import Recorded
 
 if TYPE_CHECKING:
     import xarray
@@ -56,14 +58,12 @@ def note(name: str, statement: str, figure: str, where: str = "", about: tuple[s
 
 
 @dataclass(frozen=True)
-class Report:
+class Report(Recorded):
     """All findings; `str` is the report."""
 
-    findings: tuple[Finding, ...]
+    _keys = "ok summary=headline findings"
 
-    def to_dict(self) -> dict[str, Any]:
-        """Whether all checks hold, and every finding by its attributes."""
-        return {"ok": self.ok, "summary": self.headline, "findings": [asdict(finding) for finding in self.findings]}
+    findings: tuple[Finding, ...]
 
     def to_dataset(self) -> xarray.Dataset:
         """The findings over `check`; `ok` is 1, 0, or -1 for a note."""

@@ -7,10 +7,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from time import perf_counter
-from typing import Any
 
 from ....generated.automaton import OUTCOMES
-from ...scene.origin import origin
+from ...scene.origin import Recorded
 from ...scene.scene import Scene
 from .build import NotProvable
 from .call import BOX, OUTCOME, REASONS, SHARP, Enclosure, Range, enclose
@@ -20,7 +19,7 @@ _REFUSED = "not provable here: "
 
 
 @dataclass(frozen=True, kw_only=True)
-class Proof:
+class Proof(Recorded):
     """What is proved of a collision, or of every collision in a box.
 
     Attributes:
@@ -38,6 +37,8 @@ class Proof:
         >>> bool(prove("granulation", stokes=0.3, angle="20 deg"))
         True
     """
+
+    _keys = "proved outcome restitution reason smallest_gap rebounds steps seconds inputs=ranges within=box"
 
     outcome: str | None
     restitution: Range | None
@@ -68,22 +69,6 @@ class Proof:
             lines += [f"{self.rebounds} rebounds, {self.steps} steps of the enclosure"]
         lines += [f"for every {name} between {low:.10g} and {high:.10g} (SI)" for name, (low, high) in self.box.items()]
         return "\n".join(lines)
-
-    def to_dict(self) -> dict[str, Any]:
-        """The JSON object of `wetdoublet prove --json`."""
-        return {
-            "proved": self.proved,
-            "outcome": self.outcome,
-            "restitution": None if self.restitution is None else list(self.restitution),
-            "reason": self.reason,
-            "smallest_gap": self.smallest_gap,
-            "rebounds": self.rebounds,
-            "steps": self.steps,
-            "seconds": self.seconds,
-            "inputs": {name: list(ends) for name, ends in self.ranges.items()},
-            "within": {name: list(ends) for name, ends in self.box.items()},
-            **origin(self.scene),
-        }
 
 
 def prove(

@@ -197,9 +197,9 @@ def test_scenes():
 
 def test_a_bare_generate_beside_no_source_asks_where_to(monkeypatch, tmp_path):
     """An installed package has no tree to rewrite: `--out` or `--check` are named, and nothing is written."""
-    from wetdoublet.solvers.commands import generate
+    from wetdoublet.solvers.commands import scenes
 
-    monkeypatch.setattr(generate, "OWN", tmp_path / "generated")
+    monkeypatch.setattr(scenes, "OWN", tmp_path / "generated")
     result = run("generate")
     assert result.exit_code == 2
     assert str(tmp_path / "generated") in result.stderr and "--out DIR, or --check" in result.stderr
@@ -268,6 +268,23 @@ def test_a_home_that_cannot_be_written(tmp_path):
         [sys.executable, *line], check=False, capture_output=True, text=True, env=kept | {"HOME": "/proc/none"}
     )
     assert (done.returncode, quiet(done.stderr)) == (0, "") and (tmp_path / "a.png").is_file()
+
+
+@pytest.mark.parametrize(
+    ("line", "completed"),
+    [("col", {"collide"}), ("collide --sto", {"--stokes"}), ("collide gran", {"granulation", "granulation-dry-bridge"}),
+     ("collide granulation --engine ro", {"ro"})],
+)  # fmt: skip
+def test_a_shell_completes(line, completed):
+    """Commands, options and presets are completed, by what click writes for bash; values of options are files."""
+    words = f"wetdoublet {line}"
+    env = {"_WETDOUBLET_COMPLETE": "bash_complete", "COMP_WORDS": words, "COMP_CWORD": str(words.count(" "))}
+    done = subprocess.run(
+        [sys.executable, "-c", "from wetdoublet.solvers.commands.cli import main; main()"],
+        check=False, capture_output=True, text=True, env=os.environ | env,
+    )  # fmt: skip
+    assert (done.returncode, done.stderr) == (0, "")
+    assert completed <= {entry.partition(",")[2] for entry in done.stdout.split()}
 
 
 def floats(low, high):

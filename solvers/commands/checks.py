@@ -1,25 +1,84 @@
-"""`wetdoublet verify`: checks of the laws with their numbers; or all engines against each other."""
+"""Checks: the laws, the engines against each other and against the clock, and the paper's figures and numbers."""
+
+from __future__ import annotations
 
 from functools import partial
-from itertools import pairwise
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated
 
 import click
 
 from ..errors import CheckFailed, InputError
-from ..host.files import write
+from ..host.arguments import check_name
+from ..host.files import write, write_all_in
 from ..host.outputs import check_file, check_folder
 from ..host.progress import Estimated
-from . import options
+from ..scene.schema import Field, Range
 from .bar import Bar
-from .signature import as_command
+from .options import Request, Shown, json_text, refuse
+from .signature import command
 
+_WANTED = Field("--error", "an absolute error of e_n", "1e-6", Range("above 0 and below 1", 0.0, 1.0))
 _SYMBOLIC, _NUMERIC = 156, 17  # usual numbers of findings; the latter of a scene, with or without rotation
+
+
+@command()
+def bench(error: Annotated[float | None, _WANTED.number], out: Path | None, request: Request, output: Shown) -> None:
+    """Run time against error of the engines for SCENE [granulation] on this machine, and a recommendation.
+
+    CPU time of a collision about the impact of the scene alone and in a batch of 100, and its error against another
+    engine at a tighter tolerance, for tolerances 1e-4 to 1e-12; then the recommended engine and tolerance for the error
+    wanted. About ten seconds.
+
+    Examples:
+      wetdoublet bench pendulum --error 1e-8
+      wetdoublet bench granulation --set liquid.viscosity="3 Pa s" --plot bench.png
+
+    Options:
+        [SCENE] (source):
+        --error E: Wanted: largest absolute error of e_n [1e-06].
+        --out DIR: Folder for bench.txt, bench.json and bench.png.
+    """
+    scene = request.optional_scene()
+
+    from ..scene.scene import Scene
+    from ..verify.work_precision import work_precision
+    from ..verify.work_precision_report import draw, text, to_dict
+
+    wanted = error or 1e-6
+    with Bar("settings") as progress:
+        measured = work_precision(scene or Scene.load("granulation"), progress=progress)
+    table, record = text(measured, wanted), to_dict(measured, wanted)
+    if out is not None:
+        write_all_in(out, {"bench.txt": table + "\n", "bench.json": json_text(record) + "\n"})
+    for picture in [out and out / "bench.png", output.picture]:
+        if picture is not None:
+            draw(measured, wanted, picture)
+    output.put(table, record)
+
+
+@command()
+def reproduce(part: str | None, out: Path | None) -> None:
+    """The paper's figures and numbers beside ours, as pictures and one report.
+
+    Figures, Table 1 and the critical numbers of Donahue et al. (2012), or one PART of them. Writes pictures (PNG) and
+    report.md; all numbers are computed in the run.
+
+    Options:
+        [all|table1|fig1|fig3|fig4a|fig4b|factors] (part):
+        --out DIR: Write there [paper, in the current folder]; it may hold other files.
+    """
+    from ..paper.reproduce import PARTS, reproduce
+
+    chosen = "all" if part is None else check_name(part, ("all", *PARTS), "PART")
+    with Bar("parts", "a single PART takes less") as progress:
+        written = reproduce(tuple(PARTS) if chosen == "all" else (chosen,), out or Path("paper"), progress=progress)
+    click.echo("\n".join(map(str, written)))
 
 
 def _count(text: str) -> int:
     """The number of scenes; InputError unless it is a whole number in range."""
+    text = text.strip()
     try:
         count = int(text)
     except ValueError:
@@ -29,28 +88,15 @@ def _count(text: str) -> int:
     return count
 
 
-class _Counted(click.Command):
-    """A command whose --stress takes an optional value."""
-
-    def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
-        """Check a negative number before click, which would read it as an option."""
-        for option, value in pairwise(args):
-            if option == "--stress" and value[:1] == "-" and value[1:2].isdigit():
-                _count(value)
-        return super().parse_args(ctx, args)
-
-
-@as_command(
-    "Check the laws: symbolic identities and numbers.", _Counted, stress={"is_flag": False, "flag_value": "500"}
-)
-def command(
-    request: options.OptionalRequest,
+@command()
+def verify(
+    request: Request,
     output: Annotated[Path | None, partial(check_file, label="", suffixes=(".md", ".txt"))],
     stress: Annotated[int | None, _count],
     out: str | None,
     recompute: bool,
 ) -> None:
-    """Check the laws on SCENE, or on all presets; the report goes to standard output.
+    """Check the laws on SCENE, or on all presets: symbolic identities and numbers; the report goes to standard output.
 
     Its first line says that all hold, or what failed and why. The symbolic verdicts are kept in the cache for as long
     as the equations, and what they depend on otherwise, are the same.
@@ -59,21 +105,20 @@ def command(
     their error, or makes the exit status 1.
 
     Options:
+        [SCENE] (source):
         -o FILE (output): Write the report to FILE as well.
-        --stress N: Instead: compare all engines on N scenes, drawn and beside boundaries [500].
+        --stress [N=500]: Instead: compare all engines on N scenes, drawn and beside boundaries.
         --out DIR: Folder for record, tables and worst scenes of --stress [stress].
         --recompute: Make the symbolic verdicts again, though they are kept.
     """
     if stress is not None:
-        others: dict[str, Any] = {"SCENE": request.source, **request.options, "-o": output}
-        for name, value in (others | {"--recompute": "given" * recompute}).items():
-            if value:
-                problem = "is given together with --stress, which draws its own scenes"
-                raise InputError(name, str(value), "--stress N and --out DIR alone", problem)
+        others = {"SCENE": request.source, **request.options, "-o": output and str(output)}
+        others["--recompute"] = "given" * recompute
+        problem = "is given together with --stress, which draws its own scenes"
+        refuse(others, "--stress N and --out DIR alone", problem)
         _stress_test(stress, check_folder(out or "stress", "--out"))
         return
-    if out is not None:
-        raise InputError("--out", out, "--stress N with --out", "needs --stress")
+    refuse({"--out": out}, "--stress N with --out", "needs --stress")
     scene = request.optional_scene()
 
     from ..verify import Finding, Report, verify
@@ -119,10 +164,10 @@ def _stress_test(count: int, folder: Path) -> None:
     with Bar("scenes") as progress:
         result = stress(count, tell=progress)
     files = write_report(result, folder)
-    for one, issue in result.unexplained:
-        click.echo(f"unexplained ({issue.kind}): {one.case.name}: {issue.message}")
+    for verdict, issue in result.unexplained:
+        click.echo(f"unexplained ({issue.kind}): {verdict.case.name}: {issue.message}")
     if result.remarks:
-        outside = sum(bool(one.remarks) for one in result.verdicts)
+        outside = sum(bool(verdict.remarks) for verdict in result.verdicts)
         click.echo(f"outside the range that a bridge law was made for: {outside} scenes, counted in stress.md")
     click.echo(f"written: {', '.join(map(str, files[:4]))}" + (f" and {len(files) - 4} scenes" if files[4:] else ""))
     click.echo(result.summary())

@@ -1,0 +1,89 @@
+"""What a user's model declares beside laws, by its entries in the manifest: events, criteria and terms."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from ...generated.automaton import Event
+
+
+@dataclass(frozen=True)
+class OwnEvent:
+    """An event that a model declares, by its entry in the manifest.
+
+    Arguments:
+        row: the event as a row of the automaton's table.
+        mark: name of the state that is 1 before the event and 0 after it.
+        reach: signs of the guard's derivatives by the gap, and by the speed while opening and closing, where proved;
+            None if they do not determine where the guard is least.
+        takes: proved that its jump never adds kinetic energy.
+        harmless: proved, in addition, that it leaves every energy barrier as it is.
+        rotates: guard or jump contains a rotation, which is absent beside a wall.
+        turns: the guard depends on rotations only, so that the event does not happen head-on.
+        spins: the jump changes a rotation.
+    """
+
+    row: Event
+    mark: str
+    meaning: str
+    reach: Mapping[str, int | None] | None
+    takes: bool
+    harmless: bool
+    rotates: bool
+    turns: bool
+    spins: bool
+
+    @classmethod
+    def from_manifest(cls, entry: Mapping[str, Any]) -> OwnEvent:
+        """The event that an element of the manifest's `events` describes; JSON's lists become tuples."""
+        from ...generated.automaton import Event  # imported here because `generate` must run without emitted code
+
+        fields = {name: entry[name] for name in Event._fields}
+        fields |= {"where": tuple((component, value) for component, value in entry["where"])}
+        fields |= {name: tuple(entry[name]) for name in ("functions", "words", "actions")}
+        own_fields = ("mark", "meaning", "reach", "takes", "harmless", "rotates", "turns", "spins")
+        return cls(Event(**fields), **{name: entry[name] for name in own_fields})
+
+    @property
+    def name(self) -> str:
+        return self.row.name
+
+    @property
+    def word(self) -> str:
+        return self.row.words[0]
+
+
+@dataclass(frozen=True)
+class OwnCriterion:
+    """A rebound criterion that a model declares: its word in reports, and the group that is its gap."""
+
+    word: str
+    group: str
+    meaning: str
+    source: str
+
+    @property
+    def sentence(self) -> str:
+        return f"rebounded because the gap was down to {self.meaning}"
+
+
+@dataclass(frozen=True)
+class Terms:
+    """What a model adds to the equations of motion, by its entry in the manifest.
+
+    Arguments:
+        forces: the coordinates on which a generalised force acts.
+        inertia: a kinetic energy is declared.
+        rotates: they speak of a rotation, so that the angular momentum of the spheres is not conserved.
+        drives: they turn what does not turn.
+        admits_barrier: the energy certificate holds with them.
+    """
+
+    forces: tuple[str, ...]
+    inertia: bool
+    rotates: bool
+    drives: bool
+    admits_barrier: bool
