@@ -163,11 +163,10 @@ class Likelihood:
         segments = segments.subset((segments.mass() > _PASSED) & (segments.share > _PASSED))
         seen = np.zeros((lines.row.size, 4), bool)  # undecided ones in the last column
         seen[segments.line, segments.outcome] = True
-        count, some = np.zeros((self.size, 4), int), np.unique(segments.line)
-        np.add.at(count, lines.row[some], seen[some])
-        unlike: np.ndarray = ((count > 0) & (count < np.bincount(lines.row[some], minlength=self.size)[:, None])).any(
-            axis=1
-        )
+        count, sampled = np.zeros((self.size, 4), int), np.unique(segments.line)
+        np.add.at(count, lines.row[sampled], seen[sampled])
+        lines_of_row = np.bincount(lines.row[sampled], minlength=self.size)[:, None]
+        unlike: np.ndarray = np.any((count > 0) & (count < lines_of_row), axis=1)
         return unlike
 
     def experiment_at(self, values: np.ndarray) -> Experiment:

@@ -39,8 +39,8 @@ CASES = {
     "added mass": (LIQUID + "energy(added*u**2/2*x0/(x0 + x))", "4e-10*u**2*x0/(x0 + x)", {}),
     "added spin": (LIQUID + "energy(added*R**2*xi**2*x/x0)", "8e-10*4*a**2*xi**2*x/x0", {}),
     "added inertia": (
-        LIQUID + "energy(added*r**2*omega**2/2*(1 + cos(beta)/2) + added*R**2*xi**2*x/x0)",
-        "4e-10*(4*a + x)**2*omega**2*(1 + cos(beta)/2) + 8e-10*4*a**2*xi**2*x/x0", {},
+        LIQUID + "energy(added*R**2*omega**2/2*(1 + cos(beta)/2) + added*R**2*xi**2*x/x0)",
+        "4e-10*4*a**2*omega**2*(1 + cos(beta)/2) + 8e-10*4*a**2*xi**2*x/x0", {},
     ),
     "torque": (TWIST + 'force_on("rotation", twist)', "0", {"beta": "1e-10"}),
     "spring": (TWIST + "energy(50*twist*beta**2/2)", "-50e-10*beta**2/2", {}),
