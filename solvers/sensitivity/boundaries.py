@@ -90,7 +90,7 @@ class BoundarySensitivities(Drawn):
     def to_dict(self) -> dict[str, Any]:
         """The JSON object of `wetdoublet boundary --wrt NAMES --json`."""
         changes = [
-            [self.boundaries.change_dict(one.change, angle) | one.to_dict() for one in line]
+            [self.boundaries.change_dict(shift.change, angle) | shift.to_dict() for shift in line]
             for angle, line in zip(self.angles, self.changes, strict=True)
         ]
         scene = self.boundaries.scene
@@ -105,13 +105,13 @@ class BoundarySensitivities(Drawn):
         import xarray as xr
 
         pairs, over = self.pairs, ("change", "parameter")
-        data: dict[str, Any] = {"reason": ("change", np.array([one.reason for _, one in pairs], dtype=str))}
+        data: dict[str, Any] = {"reason": ("change", np.array([shift.reason for _, shift in pairs], dtype=str))}
         for of in _OF:
             for kind in ("gradient", "elasticity"):
-                rows = [[getattr(one, kind).get(of, {}).get(name) for name in self.parameters] for _, one in pairs]
+                rows = [[getattr(shift, kind).get(of, {}).get(name) for name in self.parameters] for _, shift in pairs]
                 data[f"{of}_{kind}"] = over, np.array(rows, dtype=float).reshape(len(pairs), len(self.parameters))
         angles = np.array([angle for angle, _ in pairs], dtype=float)
-        columns = {name: ("change", np.array([getattr(one.change, name) for _, one in pairs]))
+        columns = {name: ("change", np.array([getattr(shift.change, name) for _, shift in pairs]))
                    for name in ("stokes", "before", "after")}  # fmt: skip
         return xr.Dataset(
             data, {"angle": ("change", angles, {"units": "rad"}), **columns, "parameter": list(self.parameters)}
@@ -120,7 +120,7 @@ class BoundarySensitivities(Drawn):
     @property
     def pairs(self) -> list[tuple[float, Moving]]:
         """Every change with its angle."""
-        return [(angle, one) for angle, line in zip(self.angles, self.changes, strict=True) for one in line]
+        return [(angle, shift) for angle, line in zip(self.angles, self.changes, strict=True) for shift in line]
 
     def __str__(self) -> str:
         return "\n\n".join([str(self.boundaries), *self._tables()])
@@ -129,14 +129,14 @@ class BoundarySensitivities(Drawn):
 
     def _tables(self) -> list[str]:
         tables = []
-        for angle, one in self.pairs:
-            title = f"{np.degrees(angle):.6g} deg, {one.change.before} -> {one.change.after}"
-            if one.reason:
-                tables.append(f"{title}: {one.reason}")
+        for angle, shift in self.pairs:
+            title = f"{np.degrees(angle):.6g} deg, {shift.change.before} -> {shift.change.after}"
+            if shift.reason:
+                tables.append(f"{title}: {shift.reason}")
                 continue
-            rows = [["", *(f"d ln {_SYMBOLS[of]}" for of in one.results)]]
+            rows = [["", *(f"d ln {_SYMBOLS[of]}" for of in shift.results)]]
             rows += [
-                [name, *(cell(one.elasticity[of][name], one.gradient[of][name]) for of in one.results)]
+                [name, *(cell(shift.elasticity[of][name], shift.gradient[of][name]) for of in shift.results)]
                 for name in self.parameters
             ]
             what = "elasticities by p (where it is zero *: dSt*/dp, dv*/dp, dCe*/dp, SI); v* is the normal speed"
@@ -201,7 +201,7 @@ def check_boundary_wrt(scene: Scene, wrt: Sequence[str] | str | None, label: str
     names = check_wrt(scene, wrt, label)
     for name in names:
         if wrt is not None and name in SPEEDS:
-            accepted = ", ".join(one for one in check_wrt(scene, None) if one not in SPEEDS)
+            accepted = ", ".join(entry for entry in check_wrt(scene, None) if entry not in SPEEDS)
             raise InputError(label, name, accepted, "is what a boundary is followed in")
     return tuple(name for name in names if name not in SPEEDS)
 

@@ -161,8 +161,8 @@ def along_speed(courses: Courses, ladder: Sequence[float]) -> Near | None:
     here = next((key for key, number in numbers.items() if number == label[len(ladder)]), None)
     if here is not None and _RESTS in here:
         return Near(CHATTER, 0.0, "rebound speed")
-    known = label >= 0
-    changes = Brackets.between(np.zeros(int(known.sum()), int), places[known], label[known])
+    valid = label >= 0
+    changes = Brackets.between(np.zeros(int(valid.sum()), int), places[valid], label[valid])
     if not changes.size:
         return None
     closest = np.argsort(np.maximum(np.abs(changes.low), np.abs(changes.high)))[:2]  # one to either side

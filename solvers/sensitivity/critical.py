@@ -99,7 +99,7 @@ class Critical(Drawn):
 
     def to_dict(self) -> dict[str, Any]:
         """The JSON object of `wetdoublet critical --json`: the row itself if there is one, else `rows`."""
-        rows = [asdict(each) for each in self.rows]
+        rows = [asdict(row) for row in self.rows]
         from_where = {} if self.scene is None else origin(self.scene)
         return (rows[0] if len(rows) == 1 else {"rows": rows}) | {"rtol": self.rtol, "units": _UNITS} | from_where
 
@@ -108,23 +108,23 @@ class Critical(Drawn):
         head = ["material", "angle (deg)", "sticks up to relative speed (m/s)", "95 % interval", "normal speed (m/s)",
                 "St", "then", "bounces above relative speed (m/s)"]  # fmt: skip
         rows = [
-            [one.material, f"{math.degrees(one.angle):.6g}", _number(one.relative_speed), _interval(one.interval),
-             _number(one.speed), _number(one.stokes), one.to or "-", _number(one.bounces_above)]
-            for one in self.rows
+            [row.material, f"{math.degrees(row.angle):.6g}", _number(row.relative_speed), _interval(row.interval),
+             _number(row.speed), _number(row.stokes), row.to or "-", _number(row.bounces_above)]
+            for row in self.rows
         ]  # fmt: skip
         columns = [k for k in range(len(head)) if any(row[k] for row in rows)]
         return [head[k] for k in columns], [[row[k] for k in columns] for row in rows]
 
     def __str__(self) -> str:
         head, rows = self.table()
-        where = [f"{one.material} {math.degrees(one.angle):.6g} deg".strip() for one in self.rows]
+        where = [f"{row.material} {math.degrees(row.angle):.6g} deg".strip() for row in self.rows]
         lines = aligned([head, *rows])
-        lines += [f"{at}: {text}" for at, one in zip(where, self.rows, strict=True) for text in one.sentences]
-        names = dict.fromkeys(name for one in self.rows for name in one.gradient)
+        lines += [f"{at}: {text}" for at, row in zip(where, self.rows, strict=True) for text in row.sentences]
+        names = dict.fromkeys(name for row in self.rows for name in row.gradient)
         if names:
             lines += ["", "d ln(relative speed)/d ln p (* its derivative, SI, where p is zero)"]
             slopes = [
-                [name, *(cell(one.elasticity.get(name), one.gradient.get(name), "0") for one in self.rows)]
+                [name, *(cell(row.elasticity.get(name), row.gradient.get(name), "0") for row in self.rows)]
                 for name in names
             ]
             lines += aligned([["", *where], *slopes])
@@ -135,8 +135,8 @@ class Critical(Drawn):
     def columns(self) -> dict[str, list[Any]]:
         """A value for each material and angle (rad) by name; speeds in m/s."""
         names = ("material", "angle", "relative_speed", "low", "high", "speed", "stokes", "to", "bounces_above")
-        records = [vars(one) | dict(zip(("low", "high"), one.interval or (None, None))) for one in self.rows]
-        return {name: [each[name] for each in records] for name in names}
+        records = [vars(row) | dict(zip(("low", "high"), row.interval or (None, None))) for row in self.rows]
+        return {name: [record[name] for record in records] for name in names}
 
     def to_csv(self) -> str:
         """A row for each material and angle: speeds in m/s, angles in rad; empty where there is none."""
@@ -196,8 +196,8 @@ def critical(
 
     Example:
         >>> import wetdoublet as wd
-        >>> one = wd.critical("granulation", angle="30 deg").rows[0]
-        >>> round(one.relative_speed, 3), one.to
+        >>> row = wd.critical("granulation", angle="30 deg").rows[0]
+        >>> round(row.relative_speed, 3), row.to
         (1.795, 'stick-rotate-separate')
     """
     rtol, samples = check_rtol(rtol), check_samples(check_whole(samples, "samples", 2, 2**16))
@@ -218,7 +218,7 @@ def _of_material(
     stokes: tuple[float, float] | None, samples: int, rtol: float,
 ) -> list[CriticalSpeed]:  # fmt: skip
     scene = material.scene
-    for name in [each for each in uncertainty if each in SPEEDS]:
+    for name in [entry for entry in uncertainty if entry in SPEEDS]:
         raise InputError("uncertainty", name, "entries other than the speed", "is what is sought")
     names = () if wrt is None else check_boundary_wrt(scene, None if wrt == "all" else wrt)
     if uncertainty:
@@ -236,7 +236,7 @@ def _of_material(
             row = _with_interval(scene, row, uncertainty, samples, rtol, traced.range_text)
         if row.stokes is not None and names:
             slopes = moving(scene, at, changes[0], names, rtol)
-            gradient, elasticity = (each.get("relative_speed", {}) for each in (slopes.gradient, slopes.elasticity))
+            gradient, elasticity = (table.get("relative_speed", {}) for table in (slopes.gradient, slopes.elasticity))
             sentences = [f"no derivatives: {slopes.reason}"] if slopes.reason else []
             sentences += [text for name in names if wrt != "all" for text in _extremes(scene, row, name, rtol)]
             row = replace(row, gradient=gradient, elasticity=elasticity, sentences=(*row.sentences, *sentences))
@@ -255,8 +255,8 @@ def _row(scene: Scene, row: CriticalSpeed, changes: Sequence[Change], searched: 
             return replace(row, sentences=(reason,), failed=True)
         slowest = OUTCOMES[seen.outcome.item()]
     per_stokes = 1 / scene.stokes_per_speed / math.cos(row.angle)
-    outcomes = [slowest, *(one.after for one in changes)]
-    ends = [each * per_stokes for each in (row.searched[0], *(one.stokes for one in changes), row.searched[1])]
+    outcomes = [slowest, *(change.after for change in changes)]
+    ends = [edge * per_stokes for edge in (row.searched[0], *(change.stokes for change in changes), row.searched[1])]
     sticks = tuple((ends[k], ends[k + 1]) for k, outcome in enumerate(outcomes) if outcome == STICK)
     above = ends[-2] if changes and outcomes[-1] == BOUNCE else None
     row, sentences = replace(row, slowest=slowest, sticks=sticks, bounces_above=above), []
@@ -316,9 +316,9 @@ def _speeds(at: Scene, row: CriticalSpeed, columns: dict[str, np.ndarray], count
 
     near = max(low, centre / _NEAR), min(high, centre * _NEAR)
     parts = ((low, near[0], _COARSE), (*near, _FINE), (near[1], high, _COARSE))
-    grids = [np.geomspace(a, b, 2 + int(each * np.log10(b / a))) for a, b, each in parts if b > a]
+    grids = [np.geomspace(a, b, 2 + int(density * np.log10(b / a))) for a, b, density in parts if b > a]
     grid = np.unique(np.concatenate(grids))
-    changes = locate(labels, np.tile(grid, (possible.size, 1)), lambda each: _WIDTH * each.low, unknown=-1)
+    changes = locate(labels, np.tile(grid, (possible.size, 1)), lambda brackets: _WIDTH * brackets.low, unknown=-1)
     ends = np.where(changes.first == 0, np.inf, 0.0)
     first = np.flatnonzero((changes.before == 0) & (np.append(-1, changes.line[:-1]) != changes.line))
     ends[changes.line[first]] = changes.place[first]
@@ -331,7 +331,7 @@ def _extremes(scene: Scene, row: CriticalSpeed, name: str, rtol: float) -> list[
     """Where the critical speed has a maximum or a minimum over an entry, within a factor of `_REACH` of its value."""
     at = scene.with_impact(angle=row.angle)
     entry, value = at.fields[name], value_of(at, name)
-    grid = np.array([each for each in value * np.geomspace(1 / _REACH, _REACH, _PLACES) if entry.range.holds(each)])
+    grid = np.array([place for place in value * np.geomspace(1 / _REACH, _REACH, _PLACES) if entry.range.holds(place)])
     try:
         speeds, texts = _speeds(at, row, {name: grid}, grid.size, rtol), []
     except ComputationError:  # no compiled kernel

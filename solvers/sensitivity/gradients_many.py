@@ -134,14 +134,14 @@ def _by_kernel(request: _Gradients) -> np.ndarray:
     """Compute collisions by the kernel; returns the indices of those left to CasADi."""
     moves = request.oblique
     turns = any(DEFINITIONS[name].odd for name in request.of) and bool({*request.wrt} & {*SIDEWAYS})
-    parts, rest = [], [np.flatnonzero(~moves) if turns else np.zeros(0, int)]
+    blocks, rest = [], [np.flatnonzero(~moves) if turns else np.zeros(0, int)]
     for which in (np.flatnonzero(request.angle > 0), np.flatnonzero((request.angle == 0) & (moves | (not turns)))):
-        parts += [which[k : k + _STRETCH] for k in range(0, which.size, _STRETCH)]
-    if len(parts) > 1:
+        blocks += [which[k : k + _STRETCH] for k in range(0, which.size, _STRETCH)]
+    if len(blocks) > 1:
         with ThreadPoolExecutor(usable_cores()) as pool:  # the kernel releases the interpreter's lock
-            rest += pool.map(lambda part: _stretch(request, part), parts)
+            rest += pool.map(lambda block: _stretch(request, block), blocks)
     else:
-        rest += [_stretch(request, part) for part in parts]
+        rest += [_stretch(request, block) for block in blocks]
     return np.sort(np.concatenate(rest))
 
 
@@ -150,22 +150,22 @@ def _stretch(request: _Gradients, which: np.ndarray) -> np.ndarray:
     # for few parameters forward tangents cost no more
     back = request.of == kernel.BACKWARD and len(request.wrt) > kernel.DIRECTIONS
 
-    def run_part(
-        part: np.ndarray, rtol: float, budget: int, backward: bool, nearest: float = 0.0
+    def run_block(
+        block: np.ndarray, rtol: float, budget: int, backward: bool, nearest: float = 0.0
     ) -> kernel.Along | None:
         order = (order_backward if backward else order_for)(request.rtol)
         return kernel.gradients_by_kernel(
-            request.subset(part), kind, request.wrt, request.of, rtol, order, budget, backward, nearest
+            request.subset(block), kind, request.wrt, request.of, rtol, order, budget, backward, nearest
         )
 
-    answered = run_part(which, request.rtol, _SOON, back, NEAR)  # what is nearer is repeated
+    answered = run_block(which, request.rtol, _SOON, back, NEAR)  # what is nearer is repeated
     if answered is None:
         return which
     run, value, first = answered
     answers, measures = run.answers, run.near
     failures = np.flatnonzero(answers["status"] > LAST_ANSWER)
     if back and failures.size:  # forward tangents of long trajectories, as these also limit the step
-        held = run_part(which[failures], request.rtol, _SOON, False)
+        held = run_block(which[failures], request.rtol, _SOON, False)
         if held is None:
             return which
         answers[failures], measures[failures] = held[0].answers, held[0].near
@@ -188,14 +188,14 @@ def _stretch(request: _Gradients, which: np.ndarray) -> np.ndarray:
     decades = np.maximum(np.ceil(np.log10(NEAR / np.where(close, np.maximum(near, SHARPEST), NEAR))), 0.0)
     decades[hinted] += _HINTED
     for decade in np.unique(decades[close]):
-        part = which[close & (decades == decade)]
+        block = which[close & (decades == decade)]
         sharper = min(request.rtol, max(request.rtol * 10.0**-decade, SHARPEST))
         for backward in (True, False) if back else (False,):
-            again = run_part(part, sharper, _LONG, backward)
+            again = run_block(block, sharper, _LONG, backward)
             if again is not None:
-                _keep(request, part, again, again[0].answers["outcome"] > 0)
-                part = part[again[0].answers["status"] > LAST_ANSWER]
-            if not part.size:
+                _keep(request, block, again, again[0].answers["outcome"] > 0)
+                block = block[again[0].answers["status"] > LAST_ANSWER]
+            if not block.size:
                 break
     sticks = (answers["outcome"] == OUTCOMES.index(STICKS)) & (answers["status"] <= LAST_ANSWER)
     stuck = which[_alike_beside(request, which, answers, np.flatnonzero(sticks))]
@@ -209,18 +209,18 @@ def _stretch(request: _Gradients, which: np.ndarray) -> np.ndarray:
 
 def _without(request: _Gradients, which: np.ndarray, rtol: float, factor: float = 1.0) -> Carried:
     """The collisions without derivatives, by the same kernel."""
-    part, oblique = request.subset(which), bool(request.angle[which[0]] > 0)
+    block, oblique = request.subset(which), bool(request.angle[which[0]] > 0)
     answered = run_tangent(
-        replace(part, speed=part.speed * factor), oblique, rtol, "rotation" in request.of, (), order_for(request.rtol)
+        replace(block, speed=block.speed * factor), oblique, rtol, "rotation" in request.of, (), order_for(request.rtol)
     )
     assert answered is not None  # the kernel is available
     return answered
 
 
-def _keep(request: _Gradients, which: np.ndarray, answered: kernel.Along, part: np.ndarray) -> None:
+def _keep(request: _Gradients, which: np.ndarray, answered: kernel.Along, mask: np.ndarray) -> None:
     run, value, first = answered
     slopes = np.where(np.isnan(value)[:, :, None], np.nan, first)
-    request.fill(which[part], run.answers["outcome"][part], "taylor", "", value[:, part], slopes[:, part])
+    request.fill(which[mask], run.answers["outcome"][mask], "taylor", "", value[:, mask], slopes[:, mask])
 
 
 def _alike_beside(request: _Gradients, which: np.ndarray, answers: np.ndarray, checked: np.ndarray) -> np.ndarray:

@@ -161,7 +161,7 @@ def _of_one_pair(
     units = np.append(parameter_map(kind, entries, ()).at(reference)[2], typical[components])
     n, axes = _scaled(pair)
     given = reference, x, axes, n.groups["obliquity"], units
-    p, dp = (each.full() for each in in_groups(*given))
+    p, dp = (matrix.full() for matrix in in_groups(*given))
     n = replace(n, groups={**n.groups, **dict(zip(model.groups, p.ravel().tolist(), strict=True))})
     followed, courses = _followed(pair, n)
     try:
@@ -174,7 +174,7 @@ def _of_one_pair(
         end, by_p, dp = differentiated(followed, model.choice, query, "rosenbrock", path.parting, p.ravel(), dp)
     except ComputationError as error:
         raise n.in_si(error) from None
-    value, by_end, by_theta = (each.full() for each in in_results(end, *given))
+    value, by_end, by_theta = (matrix.full() for matrix in in_results(end, *given))
     return OUTCOMES.index(path.outcome), (value.ravel(), (by_end @ (by_p @ dp) + by_theta) / units)
 
 

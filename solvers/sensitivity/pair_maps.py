@@ -87,7 +87,7 @@ def pair_maps(
 
     def function(name: str, arguments: list[SX], *outputs: SX) -> Function:
         here = substitute(list(outputs), [theta], [SX.zeros(size)])
-        return Function(name, [*arguments, reference, x, axes, scale, units], [densify(each) for each in here])
+        return Function(name, [*arguments, reference, x, axes, scale, units], [densify(output) for output in here])
 
     return (
         function("groups", [], p, jacobian(p, theta)),
@@ -153,7 +153,7 @@ def _beside_wall(model: Model, end: SX, groups: SX, quantities: Mapping[str, SX]
     spinning = SX(groups)
     spinning[list(model.groups).index("initial_spin")] = 1
     places = [model.names("outputs").index(name) for name in ("tangential_restitution", "final_spin")]
-    slides, both = (model.function("outputs")(y, each) for each in (groups, spinning))
+    slides, both = (model.function("outputs")(y, p) for p in (groups, spinning))
     restitution = slides[model.names("outputs").index("restitution")]
     sliding = dot(normal, inputs.relative) * normal - inputs.relative
     rolling = radius * cross(normal, inputs.spins[0])

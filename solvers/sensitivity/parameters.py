@@ -48,7 +48,7 @@ def cell(elasticity: float | None, gradient: float | None, none: str = "none") -
     return f"{elasticity:.5g}" if elasticity else none
 
 
-def known(scene: Scene) -> tuple[str, ...]:
+def parameters_of(scene: Scene) -> tuple[str, ...]:
     """The parameters of a scene: its numeric entries in the file's order, then speed, Stokes number and angle."""
     numeric = [name for name, value in scene.si if not (isinstance(value, str) or name in MEETING)]
     return (*numeric, *((RELATIVE,) if RELATIVE in scene.entries else ()), *IMPACT)
@@ -56,7 +56,7 @@ def known(scene: Scene) -> tuple[str, ...]:
 
 def check_wrt(scene: Scene, wrt: Sequence[str] | str | None, label: str = "wrt") -> tuple[str, ...]:
     """The requested parameters; InputError with the nearest known name for one that the scene does not have."""
-    everything = known(scene)
+    everything = parameters_of(scene)
     if wrt is None:
         return everything
     # parameters even if the scene takes their defaults or gives another speed
@@ -94,7 +94,7 @@ class Kind:
 
 def kind_of(scene: Scene, hold: str) -> Kind:
     """The kind (key of the parameter map) of a scene's collision."""
-    entries = dict.fromkeys(name for name in (*known(scene), *_defaults(scene)) if name not in MEETING)
+    entries = dict.fromkeys(name for name in (*parameters_of(scene), *_defaults(scene)) if name not in MEETING)
     own_rupture = scene.bridge.law if scene.bridge is not None and scene.bridge.rupture == "own" else None
     return Kind(
         (*entries, f"impact.{hold}", "impact.angle"),
@@ -135,7 +135,7 @@ class ParameterMap:
 
     def at(self, reference: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Groups and scales (n,), their derivatives in theta (n, parameters), and dp/dtheta (parameters,)."""
-        numbers, slopes, units = (each.full() for each in (self.values(reference), *self.slopes(reference)))
+        numbers, slopes, units = (matrix.full() for matrix in (self.values(reference), *self.slopes(reference)))
         return numbers.ravel(), slopes, units.ravel()
 
 
@@ -169,7 +169,7 @@ def parameter_map(kind: Kind, wrt: tuple[str, ...], groups: tuple[str, ...]) -> 
 
     def function(name: str, *outputs: SX) -> Function:
         here = substitute(list(outputs), [theta], [SX.zeros(len(wrt))])
-        return Function(name, [reference], [densify(each) for each in here])
+        return Function(name, [reference], [densify(output) for output in here])
 
     return ParameterMap(function("values", column), function("slopes", jacobian(column, theta), vertcat(*units)))
 

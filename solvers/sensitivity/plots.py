@@ -116,13 +116,13 @@ def draw_boundaries(boundaries: Any) -> Figure:
     grid = figure.subplots(down, across, sharey=True, squeeze=False)
     for axis in grid.ravel()[len(panels) :]:
         axis.set_visible(False)
-    for axis, (angle, one) in zip(grid.ravel(), panels):
-        of = one.results[-1]
-        values = [one.elasticity[of][name] or 0.0 if one.elasticity else 0.0 for name in parameters]
+    for axis, (angle, shift) in zip(grid.ravel(), panels):
+        of = shift.results[-1]
+        values = [shift.elasticity[of][name] or 0.0 if shift.elasticity else 0.0 for name in parameters]
         _bars(axis, values, parameters, fontsize=7.5)
         symbol = {"centrifugal": "Ce*", "speed": "(normal speed)"}[of]
-        axis.set_title(f"{math.degrees(angle):.4g}°, {one.change.before} → {one.change.after}", fontsize=8)
-        axis.set_xlabel(f"d ln {symbol}/d ln p" if not one.reason else one.reason[:40], fontsize=8)
+        axis.set_title(f"{math.degrees(angle):.4g}°, {shift.change.before} → {shift.change.after}", fontsize=8)
+        axis.set_xlabel(f"d ln {symbol}/d ln p" if not shift.reason else shift.reason[:40], fontsize=8)
     figure.suptitle("how the boundaries move with the parameters" if panels else "no change of outcome", fontsize=11)
     return figure
 
@@ -143,7 +143,7 @@ def draw_gradients(data: xarray.Dataset) -> Figure:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", RuntimeWarning)  # a parameter without elasticity anywhere
             size = np.nan_to_num(np.nanmedian(np.abs(values), axis=0))
-        parameters = [str(one) for one in data["parameter"].values]
+        parameters = [str(parameter) for parameter in data["parameter"].values]
         if {"impact.stokes", "impact.speed"} <= {*parameters}:  # one variable
             size[parameters.index("impact.stokes")] = 0.0
         strongest = [k for k in np.argsort(-size) if size[k] > 0]
@@ -190,21 +190,21 @@ def draw_band(data: xarray.Dataset) -> Figure:
 def draw_critical(critical: Any) -> Figure:
     """Relative speed up to which impacts stick, over the angle; by material where each has one angle."""
     lines = critical.rows
-    labels = list(dict.fromkeys(one.material for one in lines))
+    labels = list(dict.fromkeys(row.material for row in lines))
     by_material = len(labels) == len(lines) > 1
     figure = Figure(figsize=(6.4, 4.0), layout="constrained")
     axes = figure.subplots()
     for label in [""] if by_material else labels:
-        rows = [one for one in lines if by_material or one.material == label]
-        x = [float(k) if by_material else math.degrees(one.angle) for k, one in enumerate(rows)]
-        y = [math.nan if one.relative_speed is None else one.relative_speed for one in rows]
+        rows = [row for row in lines if by_material or row.material == label]
+        x = [float(k) if by_material else math.degrees(row.angle) for k, row in enumerate(rows)]
+        y = [math.nan if row.relative_speed is None else row.relative_speed for row in rows]
         (line,) = axes.plot(x, y, "o" if by_material else "o-", label=label or None)
-        for at, one in zip(x, rows, strict=True):
-            ends = [each for each in one.interval or () if each is not None]
+        for at, row in zip(x, rows, strict=True):
+            ends = [end for end in row.interval or () if end is not None]
             if len(ends) == 2:
                 axes.plot([at, at], ends, "-", color=line.get_color(), linewidth=3, alpha=0.4)
-            if one.bounces_above not in (None, one.relative_speed):
-                axes.plot(at, one.bounces_above, "^", color=NOTE, markersize=4)
+            if row.bounces_above not in (None, row.relative_speed):
+                axes.plot(at, row.bounces_above, "^", color=NOTE, markersize=4)
     if by_material:
         axes.set_xticks(range(len(labels)), labels, rotation=30, ha="right")
     elif len(labels) > 1:

@@ -95,10 +95,10 @@ def solve(
     name, value = _target(target)
     rtol, loaded = check_rtol(rtol), Scene.load(scene)
     given = {"stokes": stokes, "speed": speed, "relative_speed": relative_speed, "angle": angle}
-    for each, number in given.items():
-        clashes = free == f"impact.{each}" or (free in SPEEDS and each != "angle")
+    for key, number in given.items():
+        clashes = free == f"impact.{key}" or (free in SPEEDS and key != "angle")
         if clashes and number is not None:
-            raise InputError(each, number, f"{each} left out, where {free} is free", "is given together with free")
+            raise InputError(key, number, f"{key} left out, where {free} is free", "is given together with free")
     loaded = loaded.with_impact(**given)
     (entry,) = check_wrt(loaded, (free,), "free")
     if not isinstance(within, (tuple, list)) or len(within) != 2:
@@ -191,7 +191,7 @@ class Search:
             options[self.free.partition(".")[2]] = values
         else:
             measured = self.scene.fields[self.free].or_unit  # a volume is given with its unit
-            given = [self.scene.as_given(self.free, each) for each in values.tolist()] if measured else values
+            given = [self.scene.as_given(self.free, value) for value in values.tolist()] if measured else values
             options |= {"vary": {self.free: given}, "hold": self.hold}
         return collide_many(self.scene, **options)
 
@@ -225,17 +225,17 @@ class Search:
     def solutions(self) -> Solutions:
         """All roots, the jumps over the value, and where it does not change."""
         place, result, label = self._samples()
-        known = label >= 0
-        if not known.any():
+        valid = label >= 0
+        if not valid.any():
             raise ComputationError(f"no collision with {self.free} in the range can be computed: {self._failed(place)}")
-        failed = place[~known]
+        failed = place[~valid]
         edges = enclose(  # roots may lie between the last sample and where there are no collisions
             lambda _, at: self._computed(at),
-            Brackets.between(np.zeros(place.size, int), place, known.astype(int)),
+            Brackets.between(np.zeros(place.size, int), place, valid.astype(int)),
             _SEEN, at_once=4 * _FINER,
         )  # fmt: skip
         ends = np.where(edges.before == 1, edges.low, edges.high)
-        columns = np.hstack([[place[known], result[known], label[known]], [ends, *self.sampled(ends)]])
+        columns = np.hstack([[place[valid], result[valid], label[valid]], [ends, *self.sampled(ends)]])
         columns = columns[:, np.argsort(columns[0])]
         place, result, label = columns[0], columns[1], columns[2].astype(int)
         defined = result[~np.isnan(result) & ((label // _SIDES // _KINDS > 0) | (self.of in OF_IMPACT))]
@@ -249,7 +249,7 @@ class Search:
         closed = enclose(
             labels,
             self._in_reach(changes, place, result, label),
-            lambda each: np.where(each.before // _SIDES == each.after // _SIDES, _SEEN, _CHANGED),
+            lambda brackets: np.where(brackets.before // _SIDES == brackets.after // _SIDES, _SEEN, _CHANGED),
             **options,
         )
         roots: list[float] = []
@@ -262,7 +262,7 @@ class Search:
                 jumps.append(self._jump(low, high))
             elif not roots or root - roots[-1] > _SAME:
                 roots.append(root)
-        remarks = [] if known.all() else [self._failed(failed)]
+        remarks = [] if valid.all() else [self._failed(failed)]
         if not defined.size:
             stuck = bool((label // _SIDES // _KINDS == OUTCOMES.index(STICK)).all())
             remarks.append("all stick" if stuck else f"no collision of this scene has {DEFINITIONS[self.of].label}")
@@ -331,23 +331,23 @@ class Search:
             scene = self.scene.with_impact(**{self.free.partition(".")[2]: root})
         else:
             scene = self.scene.with_si({self.free: root}, self.hold)
-        one, (of, _, term) = collide(scene, rtol=self.rtol), self.of.partition(".")
-        result = getattr(one.energy, term) if term else getattr(one, of)
+        collision, (of, _, term) = collide(scene, rtol=self.rtol), self.of.partition(".")
+        result = getattr(collision.energy, term) if term else getattr(collision, of)
         if result is None or not abs(result - self.value) <= allowed:
             message = f"the collision with {self.free} = {root!r} has {self.of} {result}, not {self.value:g}"
             raise ComputationError(message, advice="it lies within the error of a boundary; try a smaller rtol")
         if self.of not in DIFFERENTIATED:
-            return Solution(root, one.outcome)
+            return Solution(root, collision.outcome)
         try:
             slopes = sensitivities(scene, [self.of], hold=self.hold, rtol=self.rtol).gradient[self.of]
         except WetDoubletError as error:  # too near a boundary
-            return Solution(root, one.outcome, reason=str(error))
+            return Solution(root, collision.outcome, reason=str(error))
         by_free = slopes.get(self.free)
         if not by_free:
-            return Solution(root, one.outcome, reason=f"{self.of} does not change with {self.free} there")
+            return Solution(root, collision.outcome, reason=f"{self.of} does not change with {self.free} there")
         same = SPEEDS if self.free in SPEEDS else (self.free,)
         gradient = {name: -slope / by_free for name, slope in slopes.items() if name not in same and slope is not None}
-        return Solution(root, one.outcome, gradient | {self.of: 1 / by_free})
+        return Solution(root, collision.outcome, gradient | {self.of: 1 / by_free})
 
 
 class Solutions(list[float]):
@@ -362,11 +362,11 @@ class Solutions(list[float]):
     """
 
     def __init__(
-        self, asked: Search, found: Sequence[Solution], jumps: Sequence[Jump],
+        self, asked: Search, roots: Sequence[Solution], jumps: Sequence[Jump],
         throughout: Sequence[tuple[float, float]], attained: tuple[float, float] | None, remarks: Sequence[str],
     ) -> None:  # fmt: skip
-        super().__init__(each.value for each in found)
-        self.asked, self.found, self.jumps, self.throughout = asked, tuple(found), tuple(jumps), tuple(throughout)
+        super().__init__(root.value for root in roots)
+        self.asked, self.found, self.jumps, self.throughout = asked, tuple(roots), tuple(jumps), tuple(throughout)
         self.attained, self.remarks = attained, tuple(remarks)
 
     def to_dict(self) -> dict[str, Any]:
@@ -374,9 +374,9 @@ class Solutions(list[float]):
         asked = self.asked
         return {
             "solutions": list(self),
-            "outcomes": [each.outcome for each in self.found],
-            "gradients": [dict(each.gradient) for each in self.found],
-            "jumps": [vars(each) for each in self.jumps],
+            "outcomes": [root.outcome for root in self.found],
+            "gradients": [dict(root.gradient) for root in self.found],
+            "jumps": [vars(jump) for jump in self.jumps],
             "throughout": self.throughout,
             "attained": self.attained,
             "free": asked.free,
@@ -391,16 +391,16 @@ class Solutions(list[float]):
         unit, of_result = asked.scene.fields[asked.free].unit or "", result.unit.removeprefix("1")
         span = f"{asked.free} from {asked.low:.6g} to {asked.high:.6g} {unit}".rstrip()
         lines = [f"{name_of(asked.scene)}: {result.label} = {asked.value:.6g} {of_result}".rstrip() + f", {span}"]
-        lines += [f"  {each.value:.10g} {unit}".rstrip() + f"  {each.outcome}" for each in self.found]
+        lines += [f"  {root.value:.10g} {unit}".rstrip() + f"  {root.outcome}" for root in self.found]
         lines += [f"  all along from {low:.6g} to {high:.6g} {unit}".rstrip() for low, high in self.throughout]
         if len(lines) == 1:
             others = self.attained and "; collisions there have {:.6g} to {:.6g}".format(*self.attained)
             lines.append(f"  none: no {span} has it{others or ''}")
-        lines += [f"  jumped over at {each}" for each in self.jumps]
-        lines += [f"  no derivatives at {each.value:.6g}: {each.reason}" for each in self.found if each.reason]
+        lines += [f"  jumped over at {jump}" for jump in self.jumps]
+        lines += [f"  no derivatives at {root.value:.6g}: {root.reason}" for root in self.found if root.reason]
         lines += [f"  {text}" for text in self.remarks]
-        names = dict.fromkeys(name for each in self.found for name, slope in each.gradient.items() if slope)
-        rows = [[name, *(f"{each.gradient.get(name, float('nan')):.6g}" for each in self.found)] for name in names]
+        names = dict.fromkeys(name for root in self.found for name, slope in root.gradient.items() if slope)
+        rows = [[name, *(f"{root.gradient.get(name, float('nan')):.6g}" for root in self.found)] for name in names]
         return "\n".join([*lines, *(["", f"d({asked.free})/dp, SI", *numbers_aligned(rows)] if rows else [])])
 
     __repr__ = __str__  # what a notebook shows
@@ -409,5 +409,5 @@ class Solutions(list[float]):
 def _runs(at_value: np.ndarray, regime: np.ndarray) -> list[tuple[int, int]]:
     """First and last indices of at least three samples one after another that have the value in one regime."""
     group = np.cumsum(np.append(True, (np.diff(regime) != 0) | (np.diff(at_value.astype(int)) != 0)))
-    runs = (np.flatnonzero(group == each) for each in np.unique(group[at_value]))
+    runs = (np.flatnonzero(group == number) for number in np.unique(group[at_value]))
     return [(int(run[0]), int(run[-1])) for run in runs if run.size > 2]

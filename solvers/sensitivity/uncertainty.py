@@ -86,8 +86,8 @@ def first_order(gradients: Sensitivities, deviation: Mapping[str, float]) -> dic
 
 def in_words(gradients: Sensitivities, spread: Mapping[str, float | None]) -> str:
     """The standard deviations as text, one line each."""
-    known = {name: value for name, value in gradients.value.items() if value is not None and spread[name] is not None}
-    return "\n".join(f"{name} = {value:.6g} ± {spread[name]:.2g} (first order)" for name, value in known.items())
+    results = {name: value for name, value in gradients.value.items() if value is not None and spread[name] is not None}
+    return "\n".join(f"{name} = {value:.6g} ± {spread[name]:.2g} (first order)" for name, value in results.items())
 
 
 def band(
@@ -154,7 +154,7 @@ def band(
     speeds, angles = np.array([scene.need_impact() for scene in at]).T
     spreads = np.array([[*deviations(scene, uncertainty).values()] for scene in held])
     gradients = gradients_many(at[0], speed=speeds, angle=angles, wrt=tuple(uncertainty), of=[of], rtol=rtol, hold=hold)
-    known = gradients.outcome.values >= 0
+    valid = gradients.outcome.values >= 0
     samples_of = _sampled(held, speeds, angles, uncertainty, of, samples, rtol, hold)
     low, high = np.nanquantile(samples_of, LEVELS, axis=1)
     return xr.Dataset(
@@ -164,8 +164,8 @@ def band(
             "low": (over, low),
             "high": (over, high),
             "sampled": (over, np.nanstd(samples_of, axis=1)),
-            "reason": (over, np.where(known, "", gradients.reason.values)),
-            "outcome": (over, np.where(known, np.array(OUTCOMES)[gradients.outcome.values], "")),
+            "reason": (over, np.where(valid, "", gradients.reason.values)),
+            "outcome": (over, np.where(valid, np.array(OUTCOMES)[gradients.outcome.values], "")),
         },
         {over: (over, where, {"units": FIELDS[over].unit or "1"})},
         {
@@ -222,7 +222,7 @@ def possible_values(entry: Field, value: float, deviation: np.ndarray) -> np.nda
     holds = entry.range.holds
     moved = np.array(deviation)
     for _ in range(60):
-        bad = np.array([not holds(float(value + each)) for each in moved])
+        bad = np.array([not holds(float(value + offset)) for offset in moved])
         if not bad.any():
             return value + moved
         moved[bad] /= 2

@@ -4,7 +4,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 from wetdoublet.solvers import Scene, collide_many
-from wetdoublet.solvers.sensitivity.parameters import known
+from wetdoublet.solvers.sensitivity.parameters import parameters_of
 
 GRANULATION, DRY, PENDULUM = (Scene.load(name) for name in ("granulation", "granulation-dry-bridge", "pendulum"))
 STEPS = (4e-3, 2e-3, 1e-3)
@@ -55,7 +55,7 @@ def elasticities(case: Case) -> dict[str, dict[str, float]]:
     scene, (speed, angle) = case.scene, case.scene.need_impact()
     of = ("restitution", "contact_time", "smallest_gap", *(TURNING if angle else ()))
     given = {**scene.entries, "impact.speed": speed, "impact.angle": angle}
-    names = [name for name in known(scene) if name != "impact.stokes" and given[name]]
+    names = [name for name in parameters_of(scene) if name != "impact.stokes" and given[name]]
     parts = np.ravel([[h, -h] for h in STEPS])
     columns = {name: np.full((len(names), parts.size), float(given[name])) for name in names}
     for k, name in enumerate(names):

@@ -13,7 +13,7 @@ from wetdoublet.solvers.many.collide_many import collide_many
 from wetdoublet.solvers.model.dimensionless import Problem
 from wetdoublet.solvers.model.model import load, select_model
 from wetdoublet.solvers.scene.scene import Scene
-from wetdoublet.solvers.sensitivity.parameters import Kind, kind_of, known, parameter_map, references
+from wetdoublet.solvers.sensitivity.parameters import Kind, kind_of, parameter_map, parameters_of, references
 from wetdoublet.solvers.sensitivity.sensitivities import sensitivities
 
 from .answers import Impact, dimensionless
@@ -46,7 +46,7 @@ class Gradients:
             kept += [each for each, found in zip(impacts, outcome, strict=True) if found > 0 and each.angle > 0]
             if len(kept) >= count:
                 break
-        names = [name for name in known(scene) if name != "impact.stokes"]
+        names = [name for name in parameters_of(scene) if name != "impact.stokes"]
         return cls(scene, tuple(kept[:count]), tuple(names[-COUNT:]))
 
     @cached_property

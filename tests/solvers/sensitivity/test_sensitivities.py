@@ -5,7 +5,7 @@ from functools import cache
 
 import pytest
 from wetdoublet.solvers import InputError, Scene, Sensitivities, collide
-from wetdoublet.solvers.sensitivity.parameters import known
+from wetdoublet.solvers.sensitivity.parameters import parameters_of
 
 from ...helpers.reference import sensitivities
 from ...helpers.sensitive import CASES, GRANULATION, apart, elasticities
@@ -154,7 +154,7 @@ def test_parameters_are_the_files_own() -> None:
     spheres |= {"radius": "100 um", "density": mass / (2 / 3 * math.pi * 1e-12)}
     other = Scene.from_dict(tables)
     plain, found = (sensitivities(each, rtol=1e-10).elasticity["restitution"] for each in (scene, other))
-    assert known(other)[:2] == ("particles.roughness", "particles.dry_restitution")
+    assert parameters_of(other)[:2] == ("particles.roughness", "particles.dry_restitution")
     mass_part = float(plain["particles.reduced_mass"] or 0)
     assert found["particles.density"] == pytest.approx(mass_part, rel=1e-8)
     expected = float(plain["particles.reduced_radius"] or 0) + 3 * mass_part
