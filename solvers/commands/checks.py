@@ -58,19 +58,19 @@ def bench(error: Annotated[float | None, _WANTED.number], out: Path | None, requ
 
 
 @command()
-def reproduce(part: str | None, out: Path | None) -> None:
+def reproduce(item: str | None, out: Path | None) -> None:
     """The paper's figures and numbers beside ours, as pictures and one report.
 
     Figures, Table 1 and the critical numbers of Donahue et al. (2012), or one PART of them. Writes pictures (PNG) and
     report.md; all numbers are computed in the run.
 
     Options:
-        [all|table1|fig1|fig3|fig4a|fig4b|factors] (part):
+        [all|table1|fig1|fig3|fig4a|fig4b|factors] (item):
         --out DIR: Write there [paper, in the current folder]; it may hold other files.
     """
     from ..paper.reproduce import PARTS, reproduce
 
-    chosen = "all" if part is None else check_name(part, ("all", *PARTS), "PART")
+    chosen = "all" if item is None else check_name(item, ("all", *PARTS), "PART")
     with Bar("parts", "a single PART takes less") as progress:
         written = reproduce(tuple(PARTS) if chosen == "all" else (chosen,), out or Path("paper"), progress=progress)
     click.echo("\n".join(map(str, written)))

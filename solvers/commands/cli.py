@@ -131,13 +131,13 @@ def _settle_streams() -> None:
 
 def _remarks() -> Callable[..., None]:
     """A `warnings.showwarning` that writes each distinct warning once per command, as one line on standard error."""
-    shown: set[str] = set()
+    lines: set[str] = set()
 
     def remark(message: Warning | str, category: type[Warning], *_: Any) -> None:
         problem = "warning" if category is ModelWarning else category.__name__
         line = f"{problem}: {one_line(str(message))}"
-        if line not in shown:
-            shown.add(line)
+        if line not in lines:
+            lines.add(line)
             click.echo(line, err=True)
 
     return remark

@@ -160,13 +160,13 @@ def check_one_speed(typed: Mapping[str, str]) -> None:
 
 def _entries(changes: Sequence[str], package: Package | None) -> dict[str, str]:
     """The entries of --set by dotted name, each checked by itself."""
-    values, known = assigned(_CHANGE, changes, "--set"), fields(package)
+    values, schema = assigned(_CHANGE, changes, "--set"), fields(package)
     for name, value in values.items():
         if name != "name":
-            if name not in known:
+            if name not in schema:
                 raise unknown(name, value, package) or unknown_entry(name, value)
-            values[name] = with_degrees(known[name], value)
-            known[name].read(values[name])
+            values[name] = with_degrees(schema[name], value)
+            schema[name].read(values[name])
     return values
 
 

@@ -130,8 +130,8 @@ def compile_(
     output.put("\n".join([*lines, f"{new} compiled, {len(kernels) - new} already compiled"]), record)
 
 
-@command(one=_MODELS, other=_MODELS)
-def diff(one: str, other: str, probe: str | None, changes: Changes, output: WrittenText) -> None:
+@command(old=_MODELS, new=_MODELS)
+def diff(old: str, new: str, probe: str | None, changes: Changes, output: WrittenText) -> None:
     """The terms in which the models A and B differ, and their effect.
 
     Models are `library`, presets, scene files, models, or two folders of `generate`. --set changes entries of B. Models
@@ -142,15 +142,15 @@ def diff(one: str, other: str, probe: str | None, changes: Changes, output: Writ
       wetdoublet diff granulation granulation --set bridge.law=willett
 
     Options:
-        A (one):
-        B (other):
+        A (old):
+        B (new):
         --scene SCENE (probe): Scene of the comparison [granulation].
         --set (changes)
     """
     from ..export.differences import differences
     from ..export.text import as_text
 
-    output.put(as_text(differences(one, other, changes=changes, **passed(probe=probe))))
+    output.put(as_text(differences(old, new, changes=changes, **passed(probe=probe))))
 
 
 @command(to="one of " + ", ".join(KINDS), out="a folder to write into")

@@ -78,7 +78,7 @@ def differences(old: str, new: str, probe: str = "granulation", changes: dict[st
     """Compare two models; InputError for an argument that is none of these.
 
     Arguments:
-        one, other: `library`, a preset, a scene file, a model's folder or file, or a folder of `generate`.
+        old, new: `library`, a preset, a scene file, a model's folder or file, or a folder of `generate`.
         probe: the scene into which models are put for the compared collisions.
         changes: entries to change in the second scene.
     """
