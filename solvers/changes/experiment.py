@@ -236,7 +236,7 @@ class Experiment:
         done, count = answers["status"] <= LAST_ANSWER, len(self.rows.names)
         results.outcome[which] = np.where(done, answers["outcome"], UNDECIDED)
         axes = np.eye(count + 2)  # of the free entries, speed and angle
-        by = {one: self.slopes[one][share] @ axes[:count] for one in moved[:-2]}
+        by = {entry: self.slopes[entry][share] @ axes[:count] for entry in moved[:-2]}
         by |= {"speed": np.tile(axes[-2], (which.size, 1)), "angle": np.tile(axes[-1], (which.size, 1))}
         film = self.columns["film_thickness"][share]
         time = film / impacts.speed, -by["speed"] / impacts.speed[:, None]

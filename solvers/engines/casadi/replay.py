@@ -263,7 +263,7 @@ class Run:
             return
         at, size = self.at, len(self.model.state)
         event = reset(self.choice, step.criterion, step.holds, step.own)
-        after, dry, friction, own, rebounded = (each.full().ravel() for each in event(at.y[:size], self.p))
+        after, dry, friction, own, rebounded = (matrix.full().ravel() for matrix in event(at.y[:size], self.p))
         at.dry_loss += float(dry[0])
         at.friction_loss += float(friction[0])
         at.own_loss += float(own[0])
