@@ -50,7 +50,7 @@ def law_header(law: Law) -> str:
             lines += documented(each.doc, head, [*body, f"return {dual(each.result, lambda symbol: symbol.name)};"])
             continue
         if (law.slot, each.name) in COMPARED:
-            expression, intermediates, fixed = clearance(each, intermediates, moving)[0], [], [*fixed, LIMIT]
+            expression, fixed = clearance(each, moving)[0], [*fixed, LIMIT]
         else:
             expression = each.result
         program, result = cheapest(expression, intermediates, moving)
