@@ -19,7 +19,7 @@ import sympy as sp
 
 from ...physics.references import Reference
 from ...physics.slots import approach
-from ...user import aspect, gap, law, let, normal_velocity, positive
+from ...user import aspect, gap, law, let, mu, normal_velocity, positive, quantity, v0, x0
 from ..film import KANTAK
 from ..glass import CRADLE
 from ..shear import ONEILL
@@ -160,3 +160,36 @@ def representative_squared(index: sp.Expr) -> sp.Expr:
     ln(1 + w)/w is its approximant of Padé, regular at n = 1, with which the viscosity is right to 0.3 % for n > 0.1.
     """
     return sp.exp(-6 * index * (5 * index + 1) / (37 * index**2 + 16 * index + 1))
+
+
+def plateau_laws(
+    name: str,
+    source: Reference,
+    begins: str,
+    thinning: Callable[[sp.Expr, sp.Symbol], sp.Expr],
+    floor: Callable[[sp.Symbol], sp.Expr] | None = None,
+) -> None:
+    """Declare the entries and laws of a liquid between two plateaus.
+
+    Arguments:
+        begins: what the inverse of its relaxation time is the rate of.
+        thinning: from 1 at rest to 0, by the squared rate times the time and by the index.
+        floor: as of `Liquid`, by the time.
+    """
+    index = quantity(
+        "flow_index", "n", bounds="> 0 and <= 1", meaning="slope of the stress over the rate where it thins"
+    )
+    time = quantity("relaxation_time", r"\lambda", unit="s", over=x0 / v0, meaning=f"inverse rate where it {begins}")
+    infinite = quantity("infinite_shear_viscosity", r"\mu_\infty", unit="Pa s", bounds=">= 0", over=mu)
+    deborah, plateau = let("deborah", time * v0 / x0), let("plateau", infinite / mu)
+    at_wall = let("at_wall", representative_squared(index))
+
+    def viscosity(rate: sp.Expr) -> sp.Expr:
+        return plateau + (1 - plateau) * thinning(deborah**2 * rate, index)
+
+    def in_slit(rate: sp.Expr) -> sp.Expr:
+        return viscosity(at_wall * rate)
+
+    meaning = f"viscosity between two plateaus, by {name.title()}"
+    rest = sp.S.Zero if floor is None else let("rest", floor(deborah))
+    film_laws(Liquid(name, (source,), meaning, viscosity, in_slit, rest))
