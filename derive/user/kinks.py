@@ -41,8 +41,7 @@ def smooth(function: LawFunction, still: Collection[sp.Symbol], positive: Collec
     smoothing = _Smoothing({argument for argument in function.arguments if argument not in still}, positive)
     for symbol, value in function.definitions:
         smoothing.definitions.append((symbol, smoothing(value)))
-        if value not in smoothing.positive:
-            smoothing.written[symbol] = value.xreplace(smoothing.written)
+        smoothing.written[symbol] = value.xreplace(smoothing.written)
     result = smoothing(function.result)
     definitions = needed([result, *(kink for kink, _ in smoothing.kinks)], smoothing.definitions)[0]
     return replace(function, result=result, definitions=tuple(definitions), kinks=tuple(smoothing.kinks))
