@@ -17,7 +17,7 @@ from .groups import System, check_criteria
 from .held import adjusted_impact, held_quantity, impact_quantity
 from .liquids import is_named, liquid
 from .quantities import SHADOW, Ways, coating_fraction
-from .schema import FIELDS, LEAST_ANGLE, NEWTONIAN, SPEEDS, TABLES, Field, Raw
+from .schema import FIELDS, LEAST_ANGLE, LIQUIDS, NEWTONIAN, SPEEDS, TABLES, Field, Raw
 from .tables import Attraction, Bridge, Impact, Liquid, Model, Particles, Pendulum
 from .user_model import Package, fields
 from .user_model_source import liquid_package, open_package
@@ -190,9 +190,10 @@ class Scene(System):
         lines = (f'liquid.viscosity = "{text}" ({liquid(str(text)).origin})',) if is_named(text) else ()
         if self.package is None or self.package.table != "liquid":
             return lines
-        rate = self.entries.get("liquid.reference_rate")
-        default = "" if "liquid.reference_rate" in dict(self.given) else " (default)"
-        where = "at rest" if rate is None else f"at liquid.reference_rate = {rate:.6g} 1/s{default}"
+        name, where = "liquid.reference_rate", "at rest"
+        if "reference_rate" in LIQUIDS[self.package.name.replace("_", "-")]:
+            default = "" if name in self.entries else " (default)"
+            where = f"at {name} = {self.entries.get(name, FIELDS[name].default):.6g} 1/s{default}"
         return (*lines, f"liquid.viscosity is that {where}; St and Ca are of it, not of the rates in the film")
 
     def _flowing(self) -> tuple[str, ...]:
