@@ -205,6 +205,18 @@ def test_a_criterion_is_a_roughness_of_its_own_name(tmp_path: Path):
     assert collide(own.with_entries({"custom.soft": "0.1 um"}), rtol=1e-11).reversal == "rough"
 
 
+@pytest.mark.parametrize(
+    ("gap", "says"), [("2*soft", "not below the film"), ("-soft", "is negative"), ("soft*v0/soft*soft/v0*3", "film")]
+)
+def test_a_criterion_outside_the_film_is_refused(gap: str, says: str, tmp_path: Path):
+    """As a roughness is: with the criterion, its gap, and the film's thickness; at any speed and at one."""
+    body = f'soft = quantity("soft", unit="m", default="5 um", bounds=">= 0")\ncriterion("layer", gap={gap})'
+    with pytest.raises(InputError, match=says) as caught:
+        collide(scene(tmp_path, body, FREE))
+    assert caught.value.field == "criterion layer"
+    assert "8e-06 m" in str(caught.value)
+
+
 @pytest.mark.slow
 @pytest.mark.filterwarnings("ignore::wetdoublet.solvers.ModelWarning")
 @pytest.mark.parametrize(
