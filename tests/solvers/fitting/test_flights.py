@@ -111,7 +111,8 @@ def test_a_fit_finds_the_film_that_was_guessed_wrong() -> None:
     shots, ends = films(scene, 6, 6), []
     for factor in (0.8, 1.2):
         guess = guessed(scene, factor).with_entries({"liquid.viscosity": "10 mPa s"})
-        found = fit(guess, tracks(shots, guess, rate=2e5, scale=PIXEL).columns, ["liquid.viscosity", FILM])
+        columns = tracks(shots, guess, rate=2e5, scale=PIXEL).columns
+        found = fit(guess, columns, ["liquid.viscosity", FILM], starts=0)
         for name, each in found.estimates.items():
             assert each.low < dict(scene.si)[name] < each.high
         assert not [each for each in found.remarks if "uncertain" in each or "contradict" in each]

@@ -203,9 +203,7 @@ def test_a_criterion_is_a_roughness_of_its_own_name(tmp_path: Path):
 
 @pytest.mark.slow
 @pytest.mark.filterwarnings("ignore::wetdoublet.solvers.ModelWarning")
-@pytest.mark.parametrize(
-    ("number", "verdict"), [(0, "right"), (1, "right"), (5, "refused"), (13, "right"), (101, "right")]
-)
+@pytest.mark.parametrize(("number", "verdict"), [(0, "right"), (1, "right"), (5, "refused"), (13, "right")])
 def test_models_drawn_at_random(number: int, verdict: str, tmp_path: Path):
     """Terms, criteria, events and laws: refused with a sentence, or right by three engines, with the derivatives."""
     found, how = judged(number, tmp_path)
