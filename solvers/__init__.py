@@ -113,10 +113,10 @@ if not TYPE_CHECKING:  # so that type checkers know the names above and no other
                 from .errors import InputError, did_you_mean
 
                 parameters = signature(function).parameters
-                known = [name for name, each in parameters.items() if each.kind is not each.VAR_KEYWORD]
-                for name in options.keys() - known if len(known) == len(parameters) else ():
-                    problem = f"is no argument of {function.__name__}" + did_you_mean(name, known)
-                    raise InputError(name, options[name], ", ".join(known), problem) from None
+                names = [name for name, parameter in parameters.items() if parameter.kind is not parameter.VAR_KEYWORD]
+                for name in options.keys() - names if len(names) == len(parameters) else ():
+                    problem = f"is no argument of {function.__name__}" + did_you_mean(name, names)
+                    raise InputError(name, options[name], ", ".join(names), problem) from None
                 raise
 
         called.__module__ = __name__  # where pickle finds it

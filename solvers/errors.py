@@ -9,7 +9,7 @@ _LONGEST_NAME = 200  # most characters of its field, which may be a file and a l
 _NEAR = 0.6  # least similarity, 0 to 1, at which a name is suggested
 
 
-def shown(value: object) -> str:
+def excerpt(value: object) -> str:
     """Return `value` as in a scene file, on one line of at most 80 characters."""
     if isinstance(value, str):
         text = '"' + repr(value[: _LONGEST + 1])[1:-1] + '"'  # repr escapes line breaks
@@ -47,7 +47,7 @@ def one_line(text: str) -> str:
     return "".join(c if c.isprintable() else repr(c)[1:-1] for c in text)
 
 
-def nearest(word: object, known: Iterable[str]) -> str | None:
+def nearest(word: object, candidates: Iterable[str]) -> str | None:
     """Return the known name most similar to `word`, preferably one that begins with it, or None if none is near.
 
     Leading dashes of options are ignored.
@@ -56,16 +56,16 @@ def nearest(word: object, known: Iterable[str]) -> str | None:
 
     if not isinstance(word, str):
         return None
-    names = {name.lower().lstrip("-"): name for name in known}
+    names = {name.lower().lstrip("-"): name for name in candidates}
     wanted = word[:_LONGEST].lower().lstrip("-")
     close = get_close_matches(wanted, names, cutoff=_NEAR)
     begun = [name for name in close if name.startswith(wanted)]
     return names[(begun or close)[0]] if close else None
 
 
-def did_you_mean(word: object, known: Iterable[str]) -> str:
+def did_you_mean(word: object, candidates: Iterable[str]) -> str:
     """Return `, did you mean NAME?` for the nearest known name, or an empty text."""
-    name = nearest(word, known)
+    name = nearest(word, candidates)
     return f", did you mean {name}?" if name else ""
 
 
@@ -129,7 +129,7 @@ class InputError(WetDoubletError, ValueError):
         if self.value is None:
             text = self.problem or "missing"
         else:
-            text = f"{shown(self.value)} {text}"
+            text = f"{excerpt(self.value)} {text}"
         return one_line(f"{cut(str(self.field), _LONGEST_NAME)}: {text}; accepted: {self.accepted}")
 
 
@@ -170,7 +170,7 @@ class ComputationError(WetDoubletError, RuntimeError):
         when = f" at t = {self.time:.6g} s" if self.time is not None else ""
         state = ", ".join(f"{name} = {value:.6g}" for name, value in self.state.items())
         parts = [self.message + where + when, state and f"state {state}", self.advice]
-        return " ".join("; ".join(part for part in parts if part).split())
+        return " ".join("; ".join(text for text in parts if text).split())
 
 
 class CheckFailed(WetDoubletError):

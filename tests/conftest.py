@@ -25,6 +25,9 @@ os.environ.setdefault("WETDOUBLET_CFLAGS", QUICK)
 # a shell starts what runs in the background with Ctrl-C ignored, and processes inherit that
 signal.signal(signal.SIGINT, signal.default_int_handler)
 
+# What is imported is hardly ever garbage, and looking for it takes a fifth of the time that collecting takes.
+gc.disable()
+
 # no test depends on how fast the machine is
 settings.register_profile("unhurried", deadline=None, suppress_health_check=[HealthCheck.too_slow])
 settings.load_profile("unhurried")
@@ -51,6 +54,7 @@ def pytest_collection_finish() -> None:
     """Leave what was imported alone when garbage is collected: expressions of sympy are many and small."""
     gc.freeze()
     gc.set_threshold(50_000, 50, 50)
+    gc.enable()
 
 
 def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool | None:
@@ -66,6 +70,11 @@ def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """The files that take longest come first, lest one processor waits for them at the end."""
     items.sort(key=lambda item: not str(item.path).endswith(_LONGEST))
+
+
+def _quick(config: pytest.Config) -> bool:
+    """Whether slow tests are left out."""
+    return bool(config.option.markexpr == "not slow")
 
 
 def _name(case: dict[str, Any]) -> str:
@@ -93,18 +102,21 @@ def reference_boundaries() -> dict[str, Any]:
 
 
 @pytest.fixture(scope="module")
-def optimized() -> Iterator[None]:
-    """Kernels of this module are optimized."""
-    yield from _compiled(OPTIMIZED)
+def optimized(pytestconfig: pytest.Config) -> Iterator[None]:
+    """Kernels of this module are optimized, for its slow tests; quick ones share those that others compile."""
+    yield from _compiled(OPTIMIZED, pytestconfig)
 
 
 @pytest.fixture(scope="module")
-def released() -> Iterator[None]:
-    """What this module compiles is compiled as users do: enclosures take ten times as long without optimization."""
-    yield from _compiled("")
+def released(pytestconfig: pytest.Config) -> Iterator[None]:
+    """What this module compiles for its slow tests is compiled as users do: enclosures are then ten times as fast."""
+    yield from _compiled("", pytestconfig)
 
 
-def _compiled(flags: str) -> Iterator[None]:
+def _compiled(flags: str, config: pytest.Config) -> Iterator[None]:
+    if _quick(config):
+        yield
+        return
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("WETDOUBLET_CFLAGS", flags)
         for known in (kernel, engine):

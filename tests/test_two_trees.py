@@ -44,15 +44,11 @@ def test_what_is_equal_agrees(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     "changes",
     [
-        {"restitution": math.nextafter(E_N, 1).hex()},
-        {"restitution": None},
-        {"events": ["turned"]},
-        {"events": ["turned", "rests"]},
-        {"text": "flight\nended\n"},
-        {"more": 1},
+        {"restitution": math.nextafter(E_N, 1).hex()}, {"restitution": None}, {"events": ["turned"]},
+        {"events": ["turned", "rests"]}, {"text": "flight\nended\n"}, {"more": 1},
     ],
     ids=str,
-)
+)  # fmt: skip
 def test_any_difference_is_reported(tmp_path: Path, changes: dict[str, Any]) -> None:
     """The last bit of a number, an event, a line of text, a field: each is told with its place."""
     differ, said = compared(tmp_path, with_value(**changes))

@@ -69,7 +69,7 @@ def _rotation(
 ) -> None:
     """Preconditions of the rotation: angular momentum is conserved and the shear dissipates."""
     lever, shear = laws["arm"], laws["shear"]
-    conserved = [each.describe() for each in dissipation.conserved(lever, structure) if each.is_angular_momentum]
+    conserved = [form.describe() for form in dissipation.conserved(lever, structure) if form.is_angular_momentum]
     held += [f"conserved: {text}" for text in conserved]
     if structure.strings:  # whose torque rules out the energy argument; without a bridge the margins apply
         torque = "strings exert a torque, dL/dt = -r S_t"

@@ -21,11 +21,11 @@ def force_falls(laws: Iterable[Law], last: sp.Expr = sp.oo) -> tuple[Check, ...]
     """dF/dx <= 0 for every law declared to decrease with the gap, up to the gap `last`."""
     checks = []
     for law in laws:
-        for each in law.functions:
-            if each.falls:
-                first = sp.Symbol(each.arguments[0].name, positive=True)
-                force = each(*each.arguments).subs(each.arguments[0], first).subs(sp.cos(q.contact_angle), _COSINE)
-                if q.aspect in each.arguments:  # a volume per film thickness, to keep the expressions short
+        for entry in law.functions:
+            if entry.falls:
+                first = sp.Symbol(entry.arguments[0].name, positive=True)
+                force = entry(*entry.arguments).subs(entry.arguments[0], first).subs(sp.cos(q.contact_angle), _COSINE)
+                if q.aspect in entry.arguments:  # a volume per film thickness, to keep the expressions short
                     force = force.subs(q.volume, sp.pi * q.aspect**2 * q.volume)
                 slope = sp.factor(sp.simplify(sp.simplify(force).diff(first)))
                 if slope.is_nonpositive is None and last != sp.oo:

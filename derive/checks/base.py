@@ -41,7 +41,7 @@ def checks(function: Callable[P, C]) -> Callable[P, C]:
 
 def checks_of(*modules: str) -> list[Several]:
     """The checks of modules, in the order of their definition."""
-    return [each for module in modules for each in _REGISTERED[module]]
+    return [entry for module in modules for entry in _REGISTERED[module]]
 
 
 def check(name: str, statement: str) -> Callable[[Callable[P, Evidence]], Callable[P, Check]]:
@@ -51,13 +51,13 @@ def check(name: str, statement: str) -> Callable[[Callable[P, Evidence]], Callab
         @wraps(function)
         def run(*args: P.args, **kwargs: P.kwargs) -> Check:
             residuals, false, figure = list[sp.Expr](), list[str](), ""
-            for part in function(*args, **kwargs):
-                if isinstance(part, str):
-                    figure = part
-                elif isinstance(part, tuple):
-                    false += [] if part[0] else [part[1]]
+            for item in function(*args, **kwargs):
+                if isinstance(item, str):
+                    figure = item
+                elif isinstance(item, tuple):
+                    false += [] if item[0] else [item[1]]
                 else:
-                    residuals.append(part)
+                    residuals.append(item)
             result = vanishing(name, statement, residuals, figure)
             return replace(result, ok=False, figure=false[0]) if false and result.ok else result
 
@@ -68,8 +68,8 @@ def check(name: str, statement: str) -> Callable[[Callable[P, Evidence]], Callab
 
 def run(several: Iterable[Several]) -> tuple[Check, ...]:
     """The results of checks; one function may give several."""
-    results = (each() for each in several)
-    return tuple(chain.from_iterable([each] if isinstance(each, Check) else each for each in results))
+    results = (test() for test in several)
+    return tuple(chain.from_iterable([result] if isinstance(result, Check) else result for result in results))
 
 
 def vanishing(
@@ -100,8 +100,8 @@ def settled(expression: sp.Expr) -> sp.Expr:
 
 def readable(expression: sp.Expr) -> str:
     """The expression as text, with the literature's symbols for quantities."""
-    quantities = (each for each in q.VOCABULARY.values() if each.symbol in expression.free_symbols)
-    latex = {each.symbol: each.latex for each in quantities if any(each.dimension.exponents)}
+    quantities = (quantity for quantity in q.VOCABULARY.values() if quantity.symbol in expression.free_symbols)
+    latex = {quantity.symbol: quantity.latex for quantity in quantities if any(quantity.dimension.exponents)}
     without = str.maketrans("", "", "\\_{},")
     return str(expression.xreplace({symbol: sp.Symbol(text.translate(without)) for symbol, text in latex.items()}))
 
@@ -194,8 +194,8 @@ def positive(expression: sp.Expr) -> bool:
     return all(map(no_negative, sp.fraction(sp.together(sp.expand(expression)))))
 
 
-def no_negative(part: sp.Expr) -> bool:
+def no_negative(expression: sp.Expr) -> bool:
     """True for a positive number, or a polynomial without a negative coefficient."""
-    expanded = sp.expand(part)
+    expanded = sp.expand(expression)
     symbols = sorted(expanded.free_symbols, key=str)
     return all(c >= 0 for c in sp.Poly(expanded, *symbols).coeffs()) if symbols else bool(expanded > 0)

@@ -72,4 +72,4 @@ def energy_balance(structure: Structure) -> sp.Expr:
 def energy(among: Iterable[Structure] = _FULL) -> tuple[Check, ...]:
     """Film, shear and bridge are the only forces that change the mechanical energy; strings are conservative."""
     statement = "d(kinetic + strings)/dt = -(film + shear + bridge power), for all laws and both arms"
-    return tuple(vanishing(f"energy: {each.name}", statement, [energy_balance(each)]) for each in among)
+    return tuple(vanishing(f"energy: {structure.name}", statement, [energy_balance(structure)]) for structure in among)

@@ -56,7 +56,7 @@ def torque(lever: Law) -> sp.Expr:
 @cache
 def conserves(lever: Law) -> bool:
     """True if angular momentum is among the invariants found for the free doublet with this arm."""
-    return any(each.is_angular_momentum for each in conserved(lever))
+    return any(invariant.is_angular_momentum for invariant in conserved(lever))
 
 
 @cache
@@ -78,7 +78,7 @@ def angular_momentum(lever: Law) -> Check:
             change = filled(rates[q.orbital_momentum] + sp.Rational(32, 5) * rates[q.spin], {"arm": lever})
             residuals.append(change - model.expanded(lost))
     if conserves(lever):
-        words = "; ".join(each.describe() for each in conserved(lever))
+        words = "; ".join(invariant.describe() for invariant in conserved(lever))
         return vanishing(
             name, "dL/dt = 0 without strings, for every tangential and bridge law", residuals, f"found: {words}"
         )

@@ -84,14 +84,14 @@ def _at_rest(exact: LawFunction, samples: Samples) -> str:
 
 def _different(casadi: list[float], kernel: list[float], function: LawFunction) -> str:
     """What is wrong with the value and the slopes by two forms; "" if nothing."""
-    for place, (one, other) in enumerate(zip(casadi, kernel, strict=True)):
+    for place, (first, other) in enumerate(zip(casadi, kernel, strict=True)):
         what = f"{function.name}'s slope by {function.arguments[place - 1].name}" if place else function.name
-        for form, value in (("by CasADi", one), ("by the kernel's recurrences", other)):
+        for form, value in (("by CasADi", first), ("by the kernel's recurrences", other)):
             if not math.isfinite(value):
                 return f"{what} {form} is no finite number"
         size = max(map(abs, casadi[1:] if place else casadi[:1]))
-        if abs(one - other) > (100 if place else 1) * _EQUAL * max(size, 1.0):  # a branch not taken leaves rounding
-            return f"{what} is {one:.6g} by CasADi and {other:.6g} by the kernel's recurrences"
+        if abs(first - other) > (100 if place else 1) * _EQUAL * max(size, 1.0):  # a branch not taken leaves rounding
+            return f"{what} is {first:.6g} by CasADi and {other:.6g} by the kernel's recurrences"
     return ""
 
 
@@ -119,7 +119,7 @@ def _by_kernel(function: LawFunction, moving: tuple[sp.Symbol, ...]) -> _Values:
     """The same by the operations of the kernel's programs, at order zero."""
     value, result, program, slopes = slope_program(function, moving)
     lines = [*_lines(value), *_lines(program)]
-    results = ", ".join(each if isinstance(each, str) else _text(each) for each in (result, *slopes.values()))
+    results = ", ".join(form if isinstance(form, str) else _text(form) for form in (result, *slopes.values()))
     names = ", ".join(argument.name for argument in function.arguments)
     space: dict[str, Any] = {"cmath": cmath, "side": lambda value: math.copysign(1.0, complex(value).real)}
     exec("\n    ".join([f"def values({names}):", *lines, f"return [{results}]"]), space)  # our own text
@@ -136,7 +136,7 @@ def _by_kernel(function: LawFunction, moving: tuple[sp.Symbol, ...]) -> _Values:
 
 def _lines(program: Program) -> list[str]:
     named = [f"{symbol.name} = {_text(value)}" for symbol, value in program.named.items()]
-    return [*named, *(f"{each.name} = {_text(_expression(each))}" for each in program.operations)]
+    return [*named, *(f"{operation.name} = {_text(_expression(operation))}" for operation in program.operations)]
 
 
 def _text(expression: sp.Expr) -> str:
@@ -144,19 +144,19 @@ def _text(expression: sp.Expr) -> str:
     return str(text).replace("math.", "cmath.")
 
 
-def _expression(each: Operation) -> sp.Expr:
+def _expression(operation: Operation) -> sp.Expr:
     """An operation as an expression in its operands."""
-    parts = [sp.Symbol(name) for name in each.series]
-    match each.kind:
+    parts = [sp.Symbol(name) for name in operation.series]
+    match operation.kind:
         case "linear":
-            return sp.Add(*(f * part for f, part in zip(each.factors, parts, strict=False)), each.factors[-1])
+            return sp.Add(*(f * term for f, term in zip(operation.factors, parts, strict=False)), operation.factors[-1])
         case "product":
-            return each.factors[0] * parts[0] * parts[1]
+            return operation.factors[0] * parts[0] * parts[1]
         case "quotient":
             return parts[0] / parts[1]
         case "power":
-            return sp.Pow(parts[0], each.factors[0], evaluate=False)
+            return sp.Pow(parts[0], operation.factors[0], evaluate=False)
     functions = {"square": lambda a: a**2, "reciprocal": lambda a: 1 / a, "sqrt": sp.sqrt, "exp": sp.exp, "log": sp.log}
     functions |= {"sine": sp.sin, "cosine": sp.cos, "arctangent": sp.atan, "side": sp.Function("side")}
-    result: sp.Expr = functions[each.kind](parts[0])
+    result: sp.Expr = functions[operation.kind](parts[0])
     return result

@@ -50,8 +50,8 @@ def momentum_is_the_bodies() -> Evidence:
     whole = equations_of_motion().angular_momentum
     orbital, spun = (whole.coeff(rate) * rate for rate in (q.omega, q.xi))
     first = {q.x: q.x0, q.omega: q.omega0, q.xi: q.impact_spin}
-    parts = [_per_unit(part.subs(first)) for part in (orbital, spun)]
-    expected = 1 + (_per_unit(whole) - sum(parts)) / sum(sp.Abs(part) for part in parts)
+    parts = [_per_unit(momentum.subs(first)) for momentum in (orbital, spun)]
+    expected = 1 + (_per_unit(whole) - sum(parts)) / sum(sp.Abs(term) for term in parts)
     for structure in structures():
         if structure.oblique and not structure.reduced:
             model = derive(structure)

@@ -91,7 +91,7 @@ def remainders_are_bounded() -> Evidence:
 @check("energy above the least", "E = E_least + u^2/2 + sum of A_i A_j (omega_i - omega_j)^2 / sum of A_i, A_i > 0")
 def excess_is_of_squares() -> Evidence:
     """The energy that the runtime counts above the least at the same gap, in the structures that are enclosed."""
-    for structure in (*(each for each in structures() if each.reduced), _PAIR, Structure(False, True, False)):
+    for structure in (*(item for item in structures() if item.reduced), _PAIR, Structure(False, True, False)):
         model = derive(structure)
         energy = sp.Add(*model["energies"].by_name.values())
         least = model["effective_potential"]["energy"]
@@ -125,7 +125,7 @@ def rebounds_stay_low() -> Evidence:
     bound = 2 * g * k / f + sp.sqrt(2 * g / f)
     beyond = sp.simplify(f * bound**2 / 2 - k * g * bound - g)
     yield (beyond.is_positive is True, f"{beyond} is not positive")
-    for structure in (*(each for each in structures() if each.reduced), _PAIR, Structure(False, True, False)):
+    for structure in (*(item for item in structures() if item.reduced), _PAIR, Structure(False, True, False)):
         model = derive(structure)
         for state, rate in model.by_state("right_hand_side").items():
             if state != q.gap:

@@ -66,8 +66,8 @@ def never_gains() -> Check:
     """An impulse of at most the one that sticks dissipates, for 0 <= beta_0 <= 1."""
     model = derive(_FREE[0])
     lost = model["friction_loss"]["dry_friction"]
-    part = _share * (1 + 1 / (1 + _beyond)) * DRY_SLIP / COMPLIANCE  # beta_0 = 1/(1 + z)
-    sign = nonnegative(sp.factor(lost.subs(IMPULSE, part)), _share, sp.Integer(1))
+    impulse = _share * (1 + 1 / (1 + _beyond)) * DRY_SLIP / COMPLIANCE  # beta_0 = 1/(1 + z)
+    sign = nonnegative(sp.factor(lost.subs(IMPULSE, impulse)), _share, sp.Integer(1))
     statement = "friction_loss >= 0 for any part of the impulse that sticks and 0 <= beta_0 <= 1"
     return Check("friction dissipates", statement, sign.proved, sign.witness)
 
@@ -125,10 +125,10 @@ def in_space() -> tuple[Check, ...]:
     Energy and angular momentum are those of the plane for each component, so what is shown there holds in space.
     """
     model, pair = derive(replace(_FREE[1], partner="space")), derive(_FREE[1])
-    jump, planar = (each["rubbed"].by_name for each in (model, pair))
+    jump, planar = (form["rubbed"].by_name for form in (model, pair))
     midgap = {LEVER: dict(model.definitions)[LEVER]}
     twist = [RADIUS * TWIST + PARTNER_RADIUS * PARTNER_TWIST]
-    slips = [dict(model.definitions)[each] for each in DRY_SLIPS]
+    slips = [dict(model.definitions)[symbol] for symbol in DRY_SLIPS]
     flat = dict(pair.definitions)[DRY_SLIP].subs(midgap)
     size, residuals = sp.sqrt(dot(DRY_SLIPS, DRY_SLIPS) + LEAST_DIRECTION**2), []
     twists = {TWIST: dot(SLIPS, q.normal), PARTNER_TWIST: dot(PARTNER_SLIPS, q.normal)}
@@ -142,9 +142,9 @@ def in_space() -> tuple[Check, ...]:
         for state, vector in planes.items():
             change = (planar[state.name] - state) * DRY_SLIPS[k] / size
             residuals.append(jump[vector[k].name] - vector[k] - change)
-    part = sp.factor(1 - dot(DRY_SLIPS, DRY_SLIPS) / size**2)
+    margin = sp.factor(1 - dot(DRY_SLIPS, DRY_SLIPS) / size**2)
     return (
         vanishing("friction in space: direction", "the slip lies across the line of centres", [across]),
         vanishing("friction in space: answer", "each component of slip and impulse is the plane's", residuals),
-        Check("friction in space: cone", "|impulse| <= Coulomb's limit", part.is_nonnegative, str(part)),
+        Check("friction in space: cone", "|impulse| <= Coulomb's limit", margin.is_nonnegative, str(margin)),
     )

@@ -82,7 +82,7 @@ def head_on_closed_form(laws: Iterable[Law]) -> tuple[Check, ...]:
         speed = -(1 - integral / stokes)
         rate = filled(model.expanded(model["right_hand_side"]["normal_velocity"]), {"film": law})
         residuals = [speed * speed.diff(q.gap) - rate.subs({closing: speed, film_flag: 1}), speed.subs(q.gap, 1) + 1]
-        residuals += [integral - each(q.gap) for each in law.functions if each.name == "stopping"]
+        residuals += [integral - function(q.gap) for function in law.functions if function.name == "stopping"]
         figure = f"Lf(s) = {integral}".replace("gap", "s")
         if law.name == "finite" and not integral.has(sp.Integral):
             residuals.append(
@@ -145,7 +145,7 @@ def resistances() -> Check:
     """The resistance of every film is nowhere negative, so that lubrication only dissipates."""
     wrong = []
     for law in LAWS["film"].values():
-        for function in (each for each in law.functions if not each.for_proof):
+        for function in (item for item in law.functions if not item.for_proof):
             value = function(*function.arguments).subs(q.gap, sp.Symbol("s", positive=True))
             if not (sp.factor(value) * sp.Symbol("s", positive=True)).is_nonnegative:
                 wrong.append(f"{law.name} {function.name}")

@@ -23,7 +23,7 @@ def reduced_is_full() -> Evidence:
             32, 5
         ) * q.initial_spin  # L/(m a^2 Omega) at first
         eliminated = {q.spin: (initial - q.orbital_momentum) * sp.Rational(5, 32)}
-        rates, full_rates = (each.by_state("right_hand_side") for each in (reduced, full))
+        rates, full_rates = (model.by_state("right_hand_side") for model in (reduced, full))
 
         yield from (filled(full_rates[s], MIDGAP).subs(eliminated) - rate for s, rate in rates.items())
         # the eliminated spin has the rate of the full equations
@@ -59,8 +59,8 @@ def mirror() -> Evidence:
     for structure in (_ATTRACTED, replace(_ATTRACTED, partner="pair")):
         model = derive(structure)
         reversed_ = {state: -state for state in model.states if state in _TURNING}
-        names = {each.name for each in model.functions}
-        for name in ("right_hand_side", *(each for each in _EVEN if each in names)):
+        names = {function.name for function in model.functions}
+        for name in ("right_hand_side", *(quantity for quantity in _EVEN if quantity in names)):
             for key, value in model[name].outputs:
                 result = model.expanded(value, SIZES)
                 sign = -1 if name == "right_hand_side" and key in {state.name for state in reversed_} else 1

@@ -70,7 +70,7 @@ def midgap_ends() -> Check:
     top, bottom = sp.fraction(sp.cancel(sp.together(-slope.subs(ahead))))
     falls = no_negative(top) and no_negative(bottom)
     statement = "nothing is left once omega = xi at the edge of the shear"
-    same = vanishing("exchange ends, midgap", statement, [_settled(each) for each in residuals])
+    same = vanishing("exchange ends, midgap", statement, [_settled(residual) for residual in residuals])
     return replace(same, ok=same.ok and falls)
 
 
@@ -96,7 +96,7 @@ def transferable_bounds() -> tuple[Check, ...]:
     share = orbital.rigid_momentum(sp.Symbol("r", positive=True), whole, sp.Integer(0))
     here, beyond = (share.subs(sp.Symbol("r", positive=True), d) for d in (closer, closer + _BEYOND))
     products = [(beyond + excess) * (beyond + excess - here), -excess * (-excess - here)]
-    fall = all(no_negative(part) for value in products for part in sp.fraction(sp.cancel(sp.together(value))))
+    fall = all(no_negative(factor) for value in products for factor in sp.fraction(sp.cancel(sp.together(value))))
     same = vanishing("exchange takes, any sign", "d(margin) = -c (omega - xi) dxi for momenta of any sign", residuals)
     bounded = Check(
         "what can be transferred",

@@ -34,11 +34,11 @@ def momenta_are_found() -> Check:
     """Linear momentum and total angular momentum are the only invariants linear in the momenta."""
     result = conserved_momenta()
     expected = [{"X": 1}, {"Y": 1}, {"beta": 1, "alpha_1": 1, "alpha_2": 1}]
-    missing = len(result) != len(expected) or any(each not in result for each in expected)
+    missing = len(result) != len(expected) or any(momentum not in result for momentum in expected)
     statement = (
         "two unequal spheres that act on each other only keep P_X, P_Y and L = m r^2 omega + I_1 xi_1 + I_2 xi_2"
     )
-    figure = "; ".join(" + ".join(f"p_{name}" for name in each) for each in result)
+    figure = "; ".join(" + ".join(f"p_{name}" for name in names) for names in result)
     return Check("pair: conserved momenta", statement, not missing, figure)
 
 
@@ -72,7 +72,7 @@ def friction_dissipates() -> Evidence:
     # the force from stress and pressure on a sphere agrees with the torques and dL/dt = 0
     reduced = rolling.R_1 * rolling.R_2 / (rolling.R_1 + rolling.R_2)
     by_torque = (matrix[0, :] + matrix[1, :]) / (rolling.R_1 + rolling.R_2)
-    yield from [sp.simplify(each.subs(q.a, reduced)) for each in by_torque - rolling.force_on_second()]
+    yield from [sp.simplify(entry.subs(q.a, reduced)) for entry in by_torque - rolling.force_on_second()]
     shear, pressed = rolling.stresses(), rolling.pressure_forces()
     yield sp.simplify((sum(shear) + sum(pressed)).subs(q.a, reduced))
     yield positive, "not positive definite"
@@ -112,7 +112,7 @@ def equal_is_the_doublet() -> Evidence:
     yield from [rates[s] - rate for s, rate in expected.items()]
     yield rates[q.partner_spin] - rates[q.spin]
     names = ("energies", "angular_momentum", "effective_potential", "inward_force", "turning_rate", "outputs")
-    yield from special_case(equal, names, pair, lambda each: each.subs(together))
+    yield from special_case(equal, names, pair, lambda expression: expression.subs(together))
 
 
 @check("pair, doublet: slip energy", "T = L^2/(2 I) + T of the deviation from rigid rotation")
@@ -147,7 +147,7 @@ def wall_is_head_on() -> Evidence:
     for beside in (derive(_WALL), derive(replace(_WALL, friction="all"))):
         rates = beside.by_state("right_hand_side")
         yield from [rates[state] - expected[state] for state in (q.gap, q.normal_velocity)]
-        yield from special_case(alone, names, beside, lambda each: each)
+        yield from special_case(alone, names, beside, lambda expression: expression)
     impulse = beside.by_state("rubbed")
     yield from [impulse[state] - state for state in (q.gap, q.normal_velocity)]
     (escape,), (kinetic,) = beside["escape_energy"].outputs, alone["energies"].outputs
@@ -164,17 +164,17 @@ def wall_friction_decays() -> Evidence:
     They stay positive if the sphere does not spin at first.
     """
     model = derive(_WALL)
-    known, (rate,) = dict(model.definitions), wall.rotation().rates.values()
+    values, (rate,) = dict(model.definitions), wall.rotation().rates.values()
     definitions, rates = wall.friction_rates()
-    modes = {wall.SLOW_MODE: known[wall.SLOW_MODE], wall.FAST_MODE: known[wall.FAST_MODE]}
-    solved = {state: known[state].subs(modes) for state in (q.slide, q.roll)}
+    modes = {wall.SLOW_MODE: values[wall.SLOW_MODE], wall.FAST_MODE: values[wall.FAST_MODE]}
+    solved = {state: values[state].subs(modes) for state in (q.slide, q.roll)}
     yield from (solved[q.slide].subs(q.decay, 0) - q.initial_turning, solved[q.roll].subs(q.decay, 0) - q.initial_spin)
     yield from [
         solved[s].diff(q.decay) * rate - rates[s].subs(dict(definitions)).subs(solved) for s in (q.slide, q.roll)
     ]
-    ratio = known[wall.FAST_MODE].args[0] / -q.decay
+    ratio = values[wall.FAST_MODE].args[0] / -q.decay
     slower = sp.Symbol("slower", positive=True)
     unspun = {q.initial_turning: 1, q.initial_spin: 0}
-    shares = [known[s].subs(unspun).subs(wall.SLOW_MODE, wall.FAST_MODE + slower) for s in (q.slide, q.roll)]
+    shares = [values[s].subs(unspun).subs(wall.SLOW_MODE, wall.FAST_MODE + slower) for s in (q.slide, q.roll)]
     positive = sp.simplify(ratio) > 1 and all(sp.expand(share).is_positive for share in shares)
     yield positive, f"not positive: {shares}"

@@ -74,7 +74,7 @@ def pull_grows() -> tuple[Check, ...]:
         steeper = stiffness.diff(offset_squared).subs(offset_squared, q.string_ratio**2 - hanging)
         swing = (q.aspect * q.gap) ** 2 / 4 + _HERE * 4 * _HALF**2
         across = sp.simplify(pull / stiffness.subs(offset_squared, swing))
-        grows = [positive(each) for by in (q.gap, _HALF) for each in (across.diff(by), swing.diff(by))]
+        grows = [positive(slope) for by in (q.gap, _HALF) for slope in (across.diff(by), swing.diff(by))]
         ok = all(grows) and positive(across) and sp.simplify(steeper).is_nonnegative is True
         statement, figure = "dS_n/dr >= 0 and dS_n/dbeta >= 0 up to beta = pi", sp.factor(across / q.weight)
         checks.append(Check(f"S_n grows, {name} strings", statement, ok, f"S_n ~ ({figure}) stiffness"))
@@ -103,7 +103,7 @@ def reach_of(law: Law) -> Check:
     """`reach` is the largest gap at which a glass criterion is met for a given speed, and grows with the speed."""
     speed = sp.Symbol("approach", positive=True)
     pressure, at = law["pressure"], law["reach"](speed, q.glass_number)
-    signs = [sp.simplify(each).is_positive is True for each in (-pressure(q.gap, speed).diff(q.gap), at.diff(speed))]
+    signs = [sp.simplify(slope).is_positive is True for slope in (-pressure(q.gap, speed).diff(q.gap), at.diff(speed))]
     ok = sp.simplify(pressure(at, speed) - q.glass_number) == 0 and all(signs)
     statement = "pressure(reach(u), u) = p_gt; larger for a larger u"
     return Check(f"reach of the glass criterion, {law.name}", statement, ok, str(at))
@@ -159,7 +159,7 @@ def margins_are_the_lemmas() -> tuple[Check, ...]:
     `impulse` has its own check, `impulse_as_emitted`.
     """
     checks = []
-    margins = {key: value for each in pendulum.functions() for key, value in each[2].items()}
+    margins = {key: value for row in pendulum.functions() for key, value in row[2].items()}
     for name, (bound, words) in _bounds().items():
         emitted = _model().expanded(margins[name])
         same = sp.expand(emitted - _model().expanded(bound)) == 0  # same Max and calls: no need to simplify
@@ -267,7 +267,7 @@ def impulse_as_emitted() -> Evidence:
     yield named[pendulum.SCALED_MOMENTUM] - q.obliquity * pendulum.LARGEST_MOMENTUM
     # at sin(beta/2) = final_half_sine the pull, with the present stiffness, equals the centrifugal force of J_max
     level = named[pendulum.FINAL_HALF_SINE].args[0]
-    (zero,) = (part for part in next(iter(level.atoms(sp.Min))).args if part != 1)
+    (zero,) = (argument for argument in next(iter(level.atoms(sp.Min))).args if argument != 1)
     yield model.expanded(pendulum.WEIGHING * (q.aspect * contact_gap + 8 * zero) - pendulum.OUTWARD)
     ahead = 2 * pendulum.FINAL_HALF_SINE + (sp.pi - 2) * pendulum.FINAL_HALF_SINE**3 - q.beta
     yield named[pendulum.WIDTH] * pendulum.PANELS - sp.Max(0, ahead)
@@ -281,9 +281,9 @@ def impulse_as_emitted() -> Evidence:
         total += sp.Max(0, sp.factor(result).subs(_PULL, pull))
     emitted = model["pendulum_impulse"]["impulse"]
     first = {symbol: value for symbol, value in model.definitions if symbol.name == "contact"}
-    parts = [sp.expand(part.subs(first)) for part in sp.Mul.make_args(emitted) if part != pendulum.WIDTH]
-    ours = sorted((sp.expand(each.args[1]) for each in total.args), key=str)
-    theirs = sorted((sp.expand(each.args[1]) for part in parts for each in sp.Add.make_args(part)), key=str)
+    parts = [sp.expand(factor.subs(first)) for factor in sp.Mul.make_args(emitted) if factor != pendulum.WIDTH]
+    ours = sorted((sp.expand(term.args[1]) for term in total.args), key=str)
+    theirs = sorted((sp.expand(term.args[1]) for factor in parts for term in sp.Add.make_args(factor)), key=str)
     yield from [a - b for a, b in zip(ours, theirs, strict=True)]
 
 
@@ -292,7 +292,7 @@ def impulse_as_emitted() -> Evidence:
 
 def taken_by(law: Law, name: str) -> Check:
     """A film's `stopping` or `braking` is the integral of its resistance between a gap and x0."""
-    taken, resistance = (law[each](*law[each].arguments) for each in (name, "resistance"))
+    taken, resistance = (law[key](*law[key].arguments) for key in (name, "resistance"))
     residuals = [taken.diff(q.gap) + resistance, taken.subs(q.gap, 1)]
     return vanishing(f"{name}: {law.name}", "dB/dx = -resistance, B(x0) = 0", residuals)
 

@@ -40,8 +40,8 @@ def changed(before: UserModel, after: UserModel) -> list[str]:
     lines = [f"Against {before.name}, {count(changes)}" + (":" if changes else "."), *in_lines(changes), ""]
     old, new = (list(_listed(model)) for model in models)
     for kind in ("law", "term", "group", "event", "criterion", "conserved"):
-        rows = [("removed", text) for each, text in old if each == kind and (each, text) not in new]
-        rows += [("added", text) for each, text in new if each == kind and (each, text) not in old]
+        rows = [("removed", text) for heading, text in old if heading == kind and (heading, text) not in new]
+        rows += [("added", text) for heading, text in new if heading == kind and (heading, text) not in old]
         lines += [f"{kind:<10} {word:<8} {text}".rstrip() for word, text in rows or [("as before", "")]]
     return lines
 
@@ -67,7 +67,7 @@ def _listed(model: UserModel) -> Iterator[tuple[str, str]]:
     yield from (("law", f"{law.slot} {law.name}") for law in model.laws)
     yield from (("term", f"energy {energy}") for energy in model.declarations.energies)
     yield from (("term", f"force on the {on}: {force}") for on, force in model.declarations.forces)
-    yield from (("criterion", f"{known.word}: at a gap of {known.gap}") for known in model.criteria)
+    yield from (("criterion", f"{criterion.word}: at a gap of {criterion.gap}") for criterion in model.criteria)
     for group in model.groups:
         yield "group", f"{group.symbol}" + (f" = {group.definition}" if group.definition != group.symbol else "")
     for event in model.events:

@@ -60,7 +60,7 @@ def coefficients_are_monotonic() -> Check:
         share = sp.cancel(result["rigid"] / MOMENTUM)
         signs.append(not share.has(MOMENTUM))
         rising = (-result["centrifugal"], lever, -lever / DISTANCE, share, -share.diff(DISTANCE))
-        for slope in (each.diff(DISTANCE) for each in rising):
+        for slope in (expression.diff(DISTANCE) for expression in rising):
             over, under = sp.fraction(sp.factor(sp.together(model.expanded(slope).subs(DISTANCE, 4 + _OPEN))))
             signs.append(sp.expand(over).is_nonnegative is True and sp.expand(under).is_positive is True)
     return Check(

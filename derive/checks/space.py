@@ -47,7 +47,7 @@ def momenta_in_space_are_found() -> Check:
         return Check(name, statement, False, str(error))
     model = derive(_SPACE)
     momenta = [dict(model.definitions)[momentum] for momentum in space.MOMENTA]
-    residuals = [model.expanded(one.expression - momentum) for one, momentum in zip(result, momenta, strict=True)]
+    residuals = [model.expanded(form.expression - momentum) for form, momentum in zip(result, momenta, strict=True)]
     return vanishing(name, statement, residuals)
 
 
@@ -57,7 +57,7 @@ def directions_are_found() -> Check:
     unit = quadratic_invariants(_rates(), q.normal)
     across = quadratic_invariants(_rates(), (*q.normal, *q.orbital_momenta), _UNIT)
     expected = [_UNIT + 1, _ORTHOGONAL]
-    missing = [each for each in expected if not any(sp.expand(each - one) == 0 for one in across)]
+    missing = [form for form in expected if not any(sp.expand(form - invariant) == 0 for invariant in across)]
     ok = not missing and len(across) == 2 and list(unit) == expected[:1]
     return Check("space: directions", "|n| = 1 and J . n = 0 are conserved", ok, "; ".join(map(str, across)))
 
@@ -77,14 +77,14 @@ def energy_in_space() -> Evidence:
 def friction_in_space_dissipates() -> Evidence:
     """The power of shear is the planar quadratic form of the slips, summed over the directions: never negative."""
     first, second = sp.symbols("s_1 s_2", real=True)
-    one, other = space.torques((first, second))
-    form = sp.expand(one * first + other * second)
+    moment, other = space.torques((first, second))
+    form = sp.expand(moment * first + other * second)
     hessian = sp.hessian(form, (first, second))
     positive = bool(hessian[0, 0].is_positive and sp.expand(hessian.det()).is_positive)
     parts = sp.Integer(0)
-    for each in range(3):
-        across = {first: space.SLIPS[each] - space.TWIST * q.normal[each]}
-        across[second] = space.PARTNER_SLIPS[each] - space.PARTNER_TWIST * q.normal[each]
+    for axis in range(3):
+        across = {first: space.SLIPS[axis] - space.TWIST * q.normal[axis]}
+        across[second] = space.PARTNER_SLIPS[axis] - space.PARTNER_TWIST * q.normal[axis]
         parts += form.subs(across, simultaneous=True)
     model = derive(_SPACE)
     torque = {s: value for s, value in model.definitions if s.name.startswith(("torque", "partner_torq"))}
@@ -125,7 +125,7 @@ def excess_of_orbital_momentum() -> Evidence:
     apart = sp.Matrix(q.spins) - sp.Matrix(q.partner_spins)
     bound = 2 * space.slip_energy() * DISTANCE**2 * sum(inertias) / INERTIA_RATIO
     spare = DISTANCE**2 * sp.Mul(*inertias) / INERTIA_RATIO * vectors.dot(apart, apart)
-    names = (DISTANCE.name, *(each.name for each in inertias))
+    names = (DISTANCE.name, *(inertia.name for inertia in inertias))
     yield model.expanded(bound - vectors.dot(excess, excess) - spare, names)
     rigid = DISTANCE**2 * sp.sqrt(space.MOMENTUM_SQUARE) / INERTIA_RATIO
     yield space.outward_at_most() - space.centrifugal((rigid + sp.sqrt(bound)) ** 2)
@@ -150,7 +150,7 @@ def outward_at_smaller_gaps() -> Evidence:
         sp.expand(far**3 * inner - near**3 * here),  # r I/(r' I') <= (r/r')^4
         sp.expand(here - inner),  # L^2/(2 I) is no smaller at r'
     ]
-    positive = all(each.is_positive for each in falls)
+    positive = all(slope.is_positive for slope in falls)
     yield added - 2 * work * q.aspect / DISTANCE
     yield positive, f"not all positive: {falls}"
 
@@ -166,7 +166,7 @@ def rebounds_do_not_come_back() -> Evidence:
     depth + (1 - e^2) s: positive.
     """
     model = derive(_SPACE)
-    rate, inward = (model[each].by_name for each in ("right_hand_side", "inward_force"))
+    rate, inward = (model[key].by_name for key in ("right_hand_side", "inward_force"))
     film = sp.expand(model.expanded(rate[q.normal_velocity.name] + inward["inward_force"], SIZES))
     yield from (film.subs(q.normal_velocity, 0), film.diff(q.normal_velocity, 2))
     depth, surplus, spare, centrifugal, lost = sp.symbols("depth surplus spare centrifugal lost", positive=True)
@@ -184,7 +184,7 @@ def reduced_in_space() -> Evidence:
     keep = (*_OPEN, *(momentum.name for momentum in space.MOMENTA))
     assert len(spun) == len(begun) == 3
     names = ("right_hand_side", "energies", "inward_force")
-    for difference in special_case(reduced, names, full, lambda each: each.subs(spun), keep):
+    for difference in special_case(reduced, names, full, lambda expression: expression.subs(spun), keep):
         yield _on_the_surface(sp.expand(difference))
 
 
@@ -201,7 +201,7 @@ def plane_in_space() -> Evidence:
     planar |= _components((q.spins, upright(q.spin)), (q.partner_spins, upright(q.partner_spin)))
     turning = pair.expanded(pair["turning_rate"][q.beta.name], SIZES)
     expected = {state: filled(rate, MIDGAP) for state, rate in pair.by_state("right_hand_side", SIZES).items()}
-    moved = _components((q.normal, tuple(each.diff(q.beta) * turning for each in line)))
+    moved = _components((q.normal, tuple(component.diff(q.beta) * turning for component in line)))
     turning_states = (q.orbital_momentum, q.spin, q.partner_spin)
     for vector, state in zip((q.orbital_momenta, q.spins, q.partner_spins), turning_states, strict=True):
         moved |= _components((vector, upright(expected[state])))

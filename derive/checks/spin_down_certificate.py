@@ -45,7 +45,7 @@ def _by_slip(structure: Structure, model: Model) -> dict[sp.Symbol, sp.Expr]:
     }
     momentum = model.expanded(model["angular_momentum"]["angular_momentum"], SIZES).subs(state)
     (value,) = sp.solve(sp.expand(momentum), orbital_rate)
-    return {s: sp.cancel(each.subs(orbital_rate, value)) for s, each in state.items()}
+    return {s: sp.cancel(rate.subs(orbital_rate, value)) for s, rate in state.items()}
 
 
 @check("spin-down: slips decay", "ds/dt = -A s; dE_rot/dt by shear = -s N A s, N A positive definite")
@@ -60,10 +60,10 @@ def slips_decay() -> Evidence:
         here = model.expanded(DISTANCE, SIZES)
         matrix = spin_down.decay(structure, DISTANCE, DISTANCE, _LOG).subs(DISTANCE, here)
         rates = {state: _sheared_at_midgap(rate) for state, rate in model.by_state("right_hand_side", SIZES).items()}
-        slip_of = {s: q.orbital_momentum / here**2 - each for s, each in zip(slips, _spins(structure), strict=True)}
-        for row, each in enumerate(_spins(structure)):
+        slip_of = {s: q.orbital_momentum / here**2 - spin for s, spin in zip(slips, _spins(structure), strict=True)}
+        for row, spin in enumerate(_spins(structure)):
             expected = -sum(matrix[row, k] * slip_of[s] for k, s in enumerate(slips))
-            yield rates[q.orbital_momentum] / here**2 - rates[each] - expected
+            yield rates[q.orbital_momentum] / here**2 - rates[spin] - expected
         by_slip = _by_slip(structure, model)
         energy = sp.cancel(_rotation_energy(model).subs(by_slip, simultaneous=True))
         weight = sp.hessian(energy, slips)
@@ -80,7 +80,7 @@ def slips_decay() -> Evidence:
 def _is_positive(value: sp.Expr) -> bool:
     """True for a quotient of polynomials with positive coefficients, the centre distance written out."""
     top, bottom = sp.fraction(sp.factor(sp.together(value.subs(q.gap, sp.Symbol("x", positive=True)))))
-    return all(sp.expand(part).is_positive is True for part in (top, bottom))
+    return all(sp.expand(side).is_positive is True for side in (top, bottom))
 
 
 @check("spin-down: least rate", "A = (K_line/r + K_spin r) F; det A/tr A is below both eigenvalues")
@@ -100,14 +100,14 @@ def mobility_is_monotonic() -> Evidence:
             friction = torque_matrix().subs({R_1: RADIUS, R_2: PARTNER_RADIUS}) / q.mu
             inverse = friction.inv()
             line, turn = (line * inverse).applyfunc(sp.cancel), (turn * inverse).applyfunc(sp.cancel)
-            yield from [line[0, 0] - each for each in line]
+            yield from [line[0, 0] - entry for entry in line]
             yield from (turn[0, 1], turn[1, 0])
-        scaled = [part / (q.aspect * _LOG) for part in (line[0, 0], *(turn[k, k] for k in range(turn.rows)))]
-        ok &= all(_is_positive(part.subs(sp.Symbol("a", positive=True), 1)) for part in scaled)
-        ok &= not any(part.free_symbols & {spin_down.NEAR, spin_down.FAR} for part in scaled)
-    one, other = sp.symbols("one other", positive=True)
-    two = sp.diag(one, other)
-    yield one - spin_down.slowest(two) - one**2 / (one + other)
+        scaled = [mobility / (q.aspect * _LOG) for mobility in (line[0, 0], *(turn[k, k] for k in range(turn.rows)))]
+        ok &= all(_is_positive(entry.subs(sp.Symbol("a", positive=True), 1)) for entry in scaled)
+        ok &= not any(entry.free_symbols & {spin_down.NEAR, spin_down.FAR} for entry in scaled)
+    rate, other = sp.symbols("one other", positive=True)
+    two = sp.diag(rate, other)
+    yield rate - spin_down.slowest(two) - rate**2 / (rate + other)
     yield ok, "a part of the mobility is negative"
 
 
@@ -140,7 +140,7 @@ def film_takes() -> tuple[Check, ...]:
     excess = q.e_dry * (speed - (now + deeper) + now) - (now + deeper)  # S at the gap of the rebound is now + deeper
     worst = sp.expand(q.e_dry * speed - now - excess)
     for law in LAWS["film"].values():
-        if any(each.name == "stopping" for each in law.functions):
+        if any(function.name == "stopping" for function in law.functions):
             residuals = [law["stopping"].result.diff(q.gap) + law["resistance"].result, worst - (1 + q.e_dry) * deeper]
             statement = "S' = -resistance; rebounds from deeper are slower"
             checks.append(vanishing(f"spin-down: film, {law.name}", statement, residuals))

@@ -59,7 +59,7 @@ def checks_of(model: UserModel) -> tuple[Check, ...]:
     result += _term_checks(model)
     for law, emitted in zip(model.written, model.laws, strict=True):
         result += _law_checks(model, law, emitted)
-    names = {part for check in result for part in (check.name, check.name.partition(":")[0])}
+    names = {name for check in result for name in (check.name, check.name.partition(":")[0])}
     for foreign in sorted(model.accepted - names):
         choices = ", ".join(dict.fromkeys(check.name.partition(":")[0] for check in result))
         result.append(
@@ -84,16 +84,16 @@ def _law_checks(model: UserModel, law: Law, emitted: Law) -> Iterator[Check]:
         figure = "identity" if rate == 0 else f'dL/dt over its scale = {rate}; known: accept=("angular momentum",)'
         yield Check(f"angular momentum: {label}", "dL/dt = 0 without strings, for every other law", rate == 0, figure)
     yield from force_falls([law], last=1 if law.slot in ("film", "shear") else sp.oo)
-    for function in (each for each in law.functions if each.for_proof):
+    for function in (item for item in law.functions if item.for_proof):
         yield reach_of(law) if law.slot == "glass" else taken_by(law, function.name)
     for function in law.functions:
         if f"{law.slot}.{function.name}" in _SIGNED:
             yield _sign(model, law, function, label)
     if law.slot == "strings":
         rise, stiffness = law["rise"], law["stiffness"]
-        left = sp.simplify(2 * rise(*rise.arguments).diff(rise.arguments[1]) - stiffness(*stiffness.arguments))
-        figure = "identity" if left == 0 else f"left over: {left}"
-        yield Check(f"potential: {label}", "stiffness is twice the slope of rise", left == 0, figure)
+        difference = sp.simplify(2 * rise(*rise.arguments).diff(rise.arguments[1]) - stiffness(*stiffness.arguments))
+        figure = "identity" if difference == 0 else f"left over: {difference}"
+        yield Check(f"potential: {label}", "stiffness is twice the slope of rise", difference == 0, figure)
     for group in model.groups:
         if group.quantity.bounds.low == 0 and not group.quantity.bounds.low_open:
             yield from _without(model, law, group.symbol, label)
@@ -105,15 +105,15 @@ def _term_checks(model: UserModel) -> Iterator[Check]:
         return
     shape = Structure(oblique=True, bridge=True, strings=False, terms=model.terms)
     statement = "d(kinetic + declared energy)/dt = -(power taken by film, shear, bridge and declared forces)"
-    left = _balance_at_points(model.derived(shape))
-    yield Check("energy: terms", statement, left < _EQUAL, f"{_POINTS} states: {left:.0e} of the largest power left")
+    rest = _balance_at_points(model.derived(shape))
+    yield Check("energy: terms", statement, rest < _EQUAL, f"{_POINTS} states: {rest:.0e} of the largest power left")
     rate = torque(model)
     figure = "identity" if rate == 0 else f"dL/dt over its scale = {rate}: not conserved"
     yield Check("angular momentum: terms", "dL/dt of the spheres = 0 without strings", rate == 0 or None, figure)
     values = []
     for share in (share for symbol, share in definitions(shape) if symbol.is_nonnegative):
         at = {s: _TRIED.get(s.name) or _tried(model, s) for s in sorted(share.free_symbols, key=str)}
-        values += [complex(share.subs(dict(zip(at, each, strict=True)))).real for each in product(*at.values())]
+        values += [complex(share.subs(dict(zip(at, point, strict=True)))).real for point in product(*at.values())]
     if values:
         figure = f"least value {min(values):.3g} of that of the spheres"
         yield Check("inertia: terms", "a declared kinetic energy is never negative", min(values) >= 0, figure)
@@ -198,21 +198,21 @@ def _sign(model: UserModel, law: Law, function: LawFunction, label: str) -> Chec
 
 def _without(model: UserModel, law: Law, symbol: sp.Symbol, label: str) -> Iterator[Check]:
     """The law of the library that remains if a quantity is zero, by values; reported, not required."""
-    for known in LAWS[law.slot].values():
-        if all(_same(model, law, function, known, symbol) for function in law.functions):
+    for limit in LAWS[law.slot].values():
+        if all(_same(model, law, function, limit, symbol) for function in law.functions):
             statement = f"without {symbol.name} it is a law of the library"
-            yield Check(f"limit: {label}", statement, True, f"{symbol.name} = 0 gives {known.name}")
+            yield Check(f"limit: {label}", statement, True, f"{symbol.name} = 0 gives {limit.name}")
             return
 
 
-def _same(model: UserModel, law: Law, function: LawFunction, known: Law, symbol: sp.Symbol) -> bool:
-    there = next((f for f in known.functions if f.name == function.name), None)
-    if there is None or not set(there.arguments) <= set(function.arguments):
+def _same(model: UserModel, law: Law, function: LawFunction, limit: Law, symbol: sp.Symbol) -> bool:
+    twin = next((f for f in limit.functions if f.name == function.name), None)
+    if twin is None or not set(twin.arguments) <= set(function.arguments):
         return False
-    mine, theirs = _evaluated(function), _evaluated(there)
+    mine, theirs = _evaluated(function), _evaluated(twin)
     samples = _samples(model, law, function)
-    pairs = ((_value(mine, {**at, symbol: 0.0}), _value(theirs, {s: at[s] for s in there.arguments})) for at in samples)
-    return all(abs(one - other) <= _EQUAL * abs(other) for one, other in pairs)
+    pairs = ((_value(mine, {**at, symbol: 0.0}), _value(theirs, {s: at[s] for s in twin.arguments})) for at in samples)
+    return all(abs(value - other) <= _EQUAL * abs(other) for value, other in pairs)
 
 
 def _at(at: Mapping[sp.Symbol, float]) -> str:

@@ -63,7 +63,7 @@ def _of_event(event: OwnEvent) -> str:
         text += "the motion is continuous. "
     if event.harmless:
         return text + "The energy certificate holds beside it."
-    if event.reach(BRIDGED).known:
+    if event.reach(BRIDGED).is_known:
         return text + "Sticks are proved where the energy does not suffice for it, or after it."
     return text + "Sticks are proved after it only."
 
@@ -72,7 +72,7 @@ def _of_event(event: OwnEvent) -> str:
 def conserved(model: UserModel) -> tuple[str, ...]:
     """The conserved quantities without strings and rebounds, for any other laws."""
     result = invariants(replace(model, events=()).derived(BRIDGED), {"arm": _arm(model)})
-    return tuple(_ANGULAR_MOMENTUM if each.is_angular_momentum else each.describe() for each in result)
+    return tuple(_ANGULAR_MOMENTUM if invariant.is_angular_momentum else invariant.describe() for invariant in result)
 
 
 def in_words(model: UserModel) -> tuple[str, ...]:
@@ -86,8 +86,8 @@ def in_words(model: UserModel) -> tuple[str, ...]:
     lines.append(f"{takers}; the bridge stores it (its force depends on the gap alone).")
     groups = model.derived(BRIDGED).groups
     new = {group.symbol: group for group in model.groups}
-    known = ", ".join(symbol.name for symbol in groups if symbol not in new)
-    lines.append(f"An oblique collision with a bridge is governed by the library's groups {known}.")
+    names = ", ".join(symbol.name for symbol in groups if symbol not in new)
+    lines.append(f"An oblique collision with a bridge is governed by the library's groups {names}.")
     for group in model.groups:
         name, meaning = group.symbol.name, group.quantity.meaning
         plain = group.symbol == group.quantity.symbol

@@ -70,12 +70,12 @@ def compare(before: Equations, after: Equations) -> tuple[Change, ...]:
     return tuple(result)
 
 
-def same(one: sp.Expr, other: sp.Expr) -> bool:
+def same(term: sp.Expr, other: sp.Expr) -> bool:
     """True if two expressions are equal, as written or in value at random points (simplification may not end)."""
-    if one == other:
+    if term == other:
         return True
-    calls = {node: sp.Symbol(f"call {node}", positive=True) for e in (one, other) for node in e.atoms(AppliedUndef)}
-    pair = [expression.xreplace(calls) for expression in (one, other)]
+    calls = {node: sp.Symbol(f"call {node}", positive=True) for e in (term, other) for node in e.atoms(AppliedUndef)}
+    pair = [expression.xreplace(calls) for expression in (term, other)]
     free = sorted(set().union(*(e.free_symbols for e in pair)), key=str)
     compiled = sp.lambdify(free, pair, modules=["math"], dummify=True)
     draw, compared = Random(1), 0
@@ -95,8 +95,8 @@ def same(one: sp.Expr, other: sp.Expr) -> bool:
 def _terms(name: str, before: sp.Expr, after: sp.Expr) -> Iterable[Change]:
     old, new = list(sp.Add.make_args(before)), list(sp.Add.make_args(after))
     # equal terms; those that differ in a numeric factor only; those of the same symbols
-    same_factors = lambda one, other: one.as_coeff_Mul()[1] == other.as_coeff_Mul()[1]  # noqa: E731 -- like its neighbours
-    for alike in (same, same_factors, lambda one, other: _symbols(one) == _symbols(other)):
+    same_factors = lambda first, other: first.as_coeff_Mul()[1] == other.as_coeff_Mul()[1]  # noqa: E731 -- like its neighbours
+    for alike in (same, same_factors, lambda first, other: _symbols(first) == _symbols(other)):
         for term in list(old):
             match = next((other for other in new if alike(term, other)), None)
             if match is not None:

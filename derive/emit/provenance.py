@@ -15,7 +15,7 @@ PROVENANCE = "Emitted by wetdoublet from its derivation. Do not edit: change der
 
 def digest(*parts: object) -> str:
     """SHA-256 of the mathematics of a module (srepr, not source text)."""
-    text = "\n".join(sp.srepr(part) if isinstance(part, sp.Basic) else str(part) for part in parts)
+    text = "\n".join(sp.srepr(item) if isinstance(item, sp.Basic) else str(item) for item in parts)
     return hashlib.sha256(text.encode()).hexdigest()
 
 
@@ -29,7 +29,7 @@ def law_digest(law: Law) -> str:
     parts: list[object] = [law.slot, law.name]
     for function in law.functions:
         parts += [function.name, *function.arguments, function.result]
-        parts += [part for pair in function.definitions for part in pair]
+        parts += [term for pair in function.definitions for term in pair]
     return digest(*parts)
 
 
@@ -37,9 +37,9 @@ def law_digest(law: Law) -> str:
 def model_digest(model: Model) -> str:
     """Digest of a structure's mathematics."""
     parts: list[object] = [model.structure.name, *model.states, *model.groups, *model.slots]
-    parts += [part for pair in model.definitions for part in pair]
+    parts += [term for pair in model.definitions for term in pair]
     for function in model.functions:
-        parts += [function.name, *(part for pair in function.outputs for part in pair)]
+        parts += [function.name, *(term for pair in function.outputs for term in pair)]
     return digest(*parts)
 
 
@@ -63,9 +63,9 @@ def describe(model: Model, additions: Own) -> str:
         title += ", a film whose rim follows the bridge's volume"
     if shape.reduced:
         title += ", spin eliminated through the conserved angular momentum"
-    known = {name: (quantity.unit, quantity.meaning) for name, quantity in VOCABULARY.items()} | dict(additions)
+    meanings = {name: (quantity.unit, quantity.meaning) for name, quantity in VOCABULARY.items()} | dict(additions)
     states, groups = (
-        [f"- {symbol.name} [{known[symbol.name][0]}]: {known[symbol.name][1]}" for symbol in symbols]
+        [f"- {symbol.name} [{meanings[symbol.name][0]}]: {meanings[symbol.name][1]}" for symbol in symbols]
         for symbols in (model.states, model.groups)
     )
     slots = f"Law slots: {', '.join(model.slots)}."

@@ -54,7 +54,7 @@ def package(
         laws.append({
             "slot": law.slot, "name": law.name, "file": path, "digest": law_digest(law), "meaning": law.meaning,
             "features": features(law), "source": law.source,
-            "references": {use: [asdict(each) for each in publications] for use, publications in of_law(law).items()},
+            "references": {use: [asdict(entry) for entry in publications] for use, publications in of_law(law).items()},
             "bibtex": model.declarations.laws[law.slot, law.name].bibtex,
         })  # fmt: skip
     changed = {key.split(".")[0] for key in model.extra}
@@ -69,7 +69,7 @@ def package(
     definitions |= model.gaps
     scaling = ""
     if definitions:
-        scaling = digest(*(part for pair in definitions.items() for part in pair))
+        scaling = digest(*(term for pair in definitions.items() for term in pair))
         files["scaling.py"] = groups_module(definitions, names, scaling, _DOC)
     file = Path(origin).name or f"{model.name}.py"
     own = PROVENANCE.partition(" from ")[0] + f" from {file}. Do not edit: change {file} and run `wetdoublet generate`."
@@ -78,7 +78,7 @@ def package(
         "kind": "wetdoublet model", "format": FORMAT, "name": model.name, "meaning": model.meaning, "origin": origin,
         "library": library, "laws": laws, **({"table": table} if table else {}),
         **({"events": [_event(event) for event in model.events]} if model.events else {}),
-        **({"criteria": [_criterion(known) for known in model.criteria]} if model.criteria else {}),
+        **({"criteria": [_criterion(criterion) for criterion in model.criteria]} if model.criteria else {}),
         **({"terms": _terms(model.terms)} if model.terms else {}),
         "structures": digests, "scaling": scaling,
         "extra": {key: [symbol.name for symbol in extra] for key, extra in model.extra.items()},
@@ -94,13 +94,13 @@ def own_names(model: UserModel) -> Own:
     """(unit, meaning) of the vocabulary and of the model's declarations, by name."""
     return {
         **{name: (quantity.unit, quantity.meaning) for name, quantity in VOCABULARY.items()},
-        **{one.name: (one.unit, one.meaning) for one in model.declarations.quantities.values()},
+        **{quantity.name: (quantity.unit, quantity.meaning) for quantity in model.declarations.quantities.values()},
         **{
             g.symbol.name: ("1", f"{g.quantity.meaning}, over {g.over}")
             for g in model.groups
             if g.definition != g.symbol
         },
-        **{known.group.name: ("1", f"{known.meaning}, over x0") for known in model.criteria},
+        **{criterion.group.name: ("1", f"{criterion.meaning}, over x0") for criterion in model.criteria},
         **{e.mark.name: ("1", f"1 before the event {e.proposed.word}, 0 after it") for e in model.events},
     }
 
@@ -112,13 +112,13 @@ def _event(event: OwnEvent) -> dict[str, object]:
         **asdict(event.proposed.row),
         **{name: getattr(event, name) for name in ("takes", "harmless", "rotates", "turns", "spins")},
         "mark": event.mark.name, "meaning": event.proposed.meaning, "source": event.proposed.source,
-        "reach": asdict(reach) if reach.known else None,
+        "reach": asdict(reach) if reach.is_known else None,
     }  # fmt: skip
 
 
-def _criterion(known: Criterion) -> dict[str, str]:
-    texts = {"meaning": known.meaning, "source": known.source}
-    return {"word": known.word, "group": known.group.name, **texts}
+def _criterion(criterion: Criterion) -> dict[str, str]:
+    texts = {"meaning": criterion.meaning, "source": criterion.source}
+    return {"word": criterion.word, "group": criterion.group.name, **texts}
 
 
 def _terms(terms: Terms) -> dict[str, object]:
@@ -128,9 +128,9 @@ def _terms(terms: Terms) -> dict[str, object]:
 
 
 def _quantity(model: UserModel, name: str) -> dict[str, object]:
-    one = model.declarations.quantities[name]
+    item = model.declarations.quantities[name]
     group = next(group for group in model.groups if group.quantity.name == name)
     return {
-        "name": name, "symbol": one.latex, "unit": one.unit, "default": one.default, "bounds": one.bounds.to_json(),
-        "meaning": one.meaning, "group": group.symbol.name, "over": str(group.over),
+        "name": name, "symbol": item.latex, "unit": item.unit, "default": item.default, "bounds": item.bounds.to_json(),
+        "meaning": item.meaning, "group": group.symbol.name, "over": str(group.over),
     }  # fmt: skip

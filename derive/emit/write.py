@@ -127,7 +127,7 @@ def homes(models: Iterable[Model]) -> dict[str, str]:
     """Text of every Python function of several structures -> name of the first one, which defines it."""
     first: dict[str, str] = {}
     for model in models:
-        for function in (each for each in model.functions if not each.certificate):
+        for function in (candidate for candidate in model.functions if not candidate.certificate):
             first.setdefault("\n".join(function_lines(model, function.name, Printer())), model.structure.name)
     return first
 

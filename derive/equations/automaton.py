@@ -86,7 +86,7 @@ CRITERIA = (
     Criterion("rough", "rough_gap", "roughness", "the gap is down to the roughness",
               "rebounded by contact at the surface roughness", symbol="x_b", removed_by=("roughness", 0.0)),
 )  # fmt: skip
-CONTACTS = tuple(each for each in CRITERIA if each.contact)
+CONTACTS = tuple(criterion for criterion in CRITERIA if criterion.contact)
 
 
 @dataclass(frozen=True)
@@ -102,7 +102,7 @@ class Word:
 
 
 WORDS = (
-    *(Word(each.word, f"rebound: {each.meaning}") for each in CRITERIA),
+    *(Word(criterion.word, f"rebound: {criterion.meaning}") for criterion in CRITERIA),
     Word("turned", "the normal velocity rises through zero, no rebound criterion met"),
     Word("fell back", "the normal velocity falls through zero"),
     Word("film edge", "the gap passes x0"),
@@ -206,8 +206,8 @@ EVENTS = (
           series=("normal_velocity",), follows="motion", dips=True, chosen_by="motion"),
     Event("glass", ("glass",), (_MOVING, _CLOSING), ("glass",), ("rebound",),
           series=("glass_clearance",), dips=True, scale="glass_number"),
-    Event("contact", tuple(each.word for each in CONTACTS), (_MOVING, _CLOSING),
-          tuple(each.word for each in CONTACTS), ("gap = target", "rebound"),
+    Event("contact", tuple(criterion.word for criterion in CONTACTS), (_MOVING, _CLOSING),
+          tuple(criterion.word for criterion in CONTACTS), ("gap = target", "rebound"),
           series=("gap",), target="contact", bound="monotonic", chosen_by="larger gap"),
     Event("rupture", ("rupture",), (_MOVING, _OPENING, ("film", 0)), ("rupture",), ("gap = target", "separate"),
           series=("gap",), target="rupture", direction=-1, bound="monotonic"),
@@ -249,7 +249,7 @@ class Rule:
 
 RULES = (
     Rule("entry", "a phase starts closing and not resting, and a rebound criterion already holds",
-         "a rebound by the first of these criteria, in their order", tuple(each.word for each in CRITERIA)),
+         "a rebound by the first of these criteria, in their order", tuple(criterion.word for criterion in CRITERIA)),
     Rule("parted", "a rebound at a gap not below the rupture gap",
          "the collision ends: separated. Without a bridge this is a criterion that holds at initial contact",
          ("rupture",), (("is_parted", "the gap is not below the rupture gap", "gap >= rupture_gap"),)),

@@ -12,7 +12,7 @@ from . import friction, terms
 from .automaton import CONTACTS, EVENTS, Event
 from .intermediates import inward_force
 
-CONTACT_GAPS = {each.word: q.VOCABULARY[each.limit].symbol for each in CONTACTS}
+CONTACT_GAPS = {criterion.word: q.VOCABULARY[criterion.limit].symbol for criterion in CONTACTS}
 contact_gap = sp.Max(*CONTACT_GAPS.values())  # gap at which the solids meet
 
 
@@ -62,7 +62,7 @@ def _function(event: Event, name: str, structure: Structure) -> sp.Expr:
     target = CONTACT_GAPS.get(name) or (
         _TARGETS[event.target](structure) if event.target in _TARGETS else q.VOCABULARY[event.target].symbol
     )
-    margins = (sp.expand(event.direction * (SERIES[each](structure) - target)) for each in event.series)
+    margins = (sp.expand(event.direction * (SERIES[series](structure) - target)) for series in event.series)
     return sp.Min(*margins)  # of several, the first to vanish is the event; a product would be positive beyond both
 
 

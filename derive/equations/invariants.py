@@ -176,9 +176,9 @@ def conserved_momentum(
         NoInvariantError: it is not; the message gives the invariants found and dL/dt.
     """
     result = invariants(system, laws)
-    if momentum := next((each for each in result if each.is_angular_momentum), None):
+    if momentum := next((invariant for invariant in result if invariant.is_angular_momentum), None):
         return momentum
-    conserved = "; ".join(each.describe() for each in result) or "nothing linear in the momenta"
+    conserved = "; ".join(invariant.describe() for invariant in result) or "nothing linear in the momenta"
     chosen = ", ".join(f"{slot} {law.name}" for slot, law in (laws or {}).items()) or "any law"
     raise NoInvariantError(
         f"no spin can be eliminated: angular momentum is not conserved ({chosen}), conserved is {conserved}"
@@ -194,10 +194,10 @@ def conserved_components(system: OpenSystem) -> tuple[Invariant, ...]:
         NoInvariantError: one of them is not.
     """
     result = invariants(open_rates(system), coordinates=(*_COORDINATES, *normal), degree=0)
-    each = [[one for one in result if one.coefficients[0][0] == momentum] for momentum in orbital_momenta]
-    if any(len(components) != 1 for components in each):
-        raise NoInvariantError(f"angular momentum is not conserved in space: {[one.describe() for one in result]}")
-    return tuple(components[0] for components in each)
+    matches = [[form for form in result if form.coefficients[0][0] == momentum] for momentum in orbital_momenta]
+    if any(len(components) != 1 for components in matches):
+        raise NoInvariantError(f"angular momentum is not conserved in space: {[form.describe() for form in result]}")
+    return tuple(components[0] for components in matches)
 
 
 def _conditions(
@@ -205,26 +205,26 @@ def _conditions(
 ) -> sp.Matrix:
     """Matrix whose product with the vector of unknown coefficients gives all coefficients of dI/dt."""
     values: dict[sp.Expr, sp.Symbol] = {}
-    known = {quantity.symbol for quantity in VOCABULARY.values()} | groups
-    plain = {state: _rational(rate, known - set(rates), values) for state, rate in rates.items()}
+    givens = {quantity.symbol for quantity in VOCABULARY.values()} | groups
+    plain = {state: _rational(rate, givens - set(rates), values) for state, rate in rates.items()}
     unknown = sp.symbols(f"c:{len(ansatz)}", cls=sp.Dummy)
     change = sp.Integer(0)
     for factor, (momentum, power) in zip(unknown, ansatz, strict=True):
         change += factor * (power.diff(gap) * plain.get(gap, sp.Integer(0)) * momentum + power * plain[momentum])
     top, _ = sp.fraction(sp.together(change))
-    equations = sp.Poly(sp.expand(top), *rates, *values.values(), *_flags(change, {*rates, *unknown, *known})).coeffs()
+    equations = sp.Poly(sp.expand(top), *rates, *values.values(), *_flags(change, {*rates, *unknown, *givens})).coeffs()
     return sp.linear_eq_to_matrix(list(dict.fromkeys(equations)), list(unknown))[0]
 
 
-def _flags(change: sp.Expr, known: set[sp.Basic]) -> list[sp.Basic]:
+def _flags(change: sp.Expr, givens: set[sp.Basic]) -> list[sp.Basic]:
     """Symbols that are not known (open forces, flags of film and shear): dI/dt must vanish for all their values."""
-    return sorted((s for s in change.free_symbols - known if not isinstance(s, sp.Dummy)), key=str)
+    return sorted((s for s in change.free_symbols - givens if not isinstance(s, sp.Dummy)), key=str)
 
 
 def _rational(expression: sp.Expr, constants: set[sp.Basic], values: dict[sp.Expr, sp.Symbol]) -> sp.Expr:
     """The expression with a symbol for every subexpression that is not rational in states and groups."""
     if isinstance(expression, (sp.Add, sp.Mul)):
-        return expression.func(*(_rational(part, constants, values) for part in expression.args))
+        return expression.func(*(_rational(argument, constants, values) for argument in expression.args))
     if isinstance(expression, sp.Pow) and expression.exp.is_Integer:
         return _rational(expression.base, constants, values) ** expression.exp
     if expression.is_Symbol or expression.free_symbols <= constants:
@@ -242,7 +242,7 @@ def quadratic_invariants(
         among: the states of the forms.
         relation: a polynomial that vanishes along every trajectory, monic in the square of its last symbol.
     """
-    forms = [one * other for one, other in combinations_with_replacement(among, 2)]
+    forms = [variable * other for variable, other in combinations_with_replacement(among, 2)]
     unknown = sp.symbols(f"c:{len(forms)}", cls=sp.Dummy)
     change = sp.Integer(0)
     for factor, form in zip(unknown, forms, strict=True):

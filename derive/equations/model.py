@@ -36,10 +36,10 @@ class Model:
     functions: tuple[ModelFunction, ...]
 
     def __contains__(self, name: str) -> bool:
-        return any(each.name == name for each in self.functions)
+        return any(function.name == name for function in self.functions)
 
     def __getitem__(self, name: str) -> ModelFunction:
-        return next(each for each in self.functions if each.name == name)
+        return next(function for function in self.functions if function.name == name)
 
     def expanded(self, expression: sp.Expr, keep: Collection[str] = ()) -> sp.Expr:
         """`expression` with every named intermediate substituted, except those whose names are in `keep`."""
@@ -67,8 +67,8 @@ def without_partner_spin(model: Model) -> Model:
             (spin,) = sp.solve(sp.Eq(value, MOMENTUM), q.partner_spin)
             definitions[-1:] = [(MOMENTUM, value.subs(first, simultaneous=True)), (q.partner_spin, spin)]
     functions = tuple(
-        replace(each, outputs=tuple(one for one in each.outputs if one[0] != q.partner_spin.name))
-        for each in model.functions
+        replace(function, outputs=tuple(output for output in function.outputs if output[0] != q.partner_spin.name))
+        for function in model.functions
     )
     return replace(model, states=model.states[:-1], definitions=tuple(definitions), functions=functions)
 
@@ -79,21 +79,21 @@ def _without_names(_definitions: tuple[Definition, ...]) -> dict[sp.Basic, sp.Ex
     return {}
 
 
-def _expanded(expression: sp.Expr, definitions: Mapping[sp.Basic, sp.Expr], known: dict[sp.Basic, sp.Expr]) -> sp.Expr:
-    """The expression with every intermediate substituted; those that it needs are added to `known`."""
-    for symbol in (expression.free_symbols & definitions.keys()) - known.keys():
-        known[symbol] = _expanded(sp.sympify(definitions[symbol]), definitions, known)
-    return expression.xreplace(known)
+def _expanded(expression: sp.Expr, definitions: Mapping[sp.Basic, sp.Expr], values: dict[sp.Basic, sp.Expr]) -> sp.Expr:
+    """The expression with every intermediate substituted; those that it needs are added to `values`."""
+    for symbol in (expression.free_symbols & definitions.keys()) - values.keys():
+        values[symbol] = _expanded(sp.sympify(definitions[symbol]), definitions, values)
+    return expression.xreplace(values)
 
 
 @cache
 def derive(structure: Structure) -> Model:
     """The nondimensional model of `structure`; ValueError if an equation uses a group that is not among GROUPS."""
     states = _states(structure)
-    each = functions(structure, states)
+    members = functions(structure, states)
     definitions = _definitions(structure)
-    used = needed([expression for function in each for _, expression in function.outputs], definitions)[1]
-    further = {symbol for function in each for symbol in function.further}
+    used = needed([expression for function in members for _, expression in function.outputs], definitions)[1]
+    further = {symbol for function in members for symbol in function.further}
     own = structure.terms.groups if structure.terms is not None else ()
     unlisted = used - {*states, *GROUPS, *own, FILM, SHEAR, *further, *(symbol for symbol, _ in definitions)}
     if unlisted:
@@ -105,7 +105,7 @@ def derive(structure: Structure) -> Model:
         groups=tuple(group for group in (*GROUPS, *own) if group in used),
         slots=_slots(structure),
         definitions=tuple((symbol, expression) for symbol, expression in definitions if symbol in used),
-        functions=each,
+        functions=members,
     )
 
 

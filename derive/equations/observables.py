@@ -95,20 +95,20 @@ def angular_momentum(structure: Structure) -> sp.Expr | None:
         return rotation(structure).momentum
     whole = angular_momentum_invariant()
     first = start(structure)
-    parts = [whole.coeff(each) * first[each] for each in (q.orbital_momentum, q.spin)]
+    parts = [whole.coeff(momentum) * first[momentum] for momentum in (q.orbital_momentum, q.spin)]
     return relative_change(MOMENTUM, parts)
 
 
 def outputs(structure: Structure) -> dict[str, sp.Expr]:
     """Results for a separated doublet: restitutions, and rates over Omega."""
-    shown: dict[str, sp.Expr] = {"restitution": q.normal_velocity}
+    results: dict[str, sp.Expr] = {"restitution": q.normal_velocity}
     if structure.partner:
-        return shown | dict(rotation(structure).outputs)
+        return results | dict(rotation(structure).outputs)
     if structure.oblique:
-        shown["tangential_restitution"] = DISTANCE * ORBITAL_RATE / ((4 + q.aspect) * q.initial_turning)
-        shown["final_rotation_rate"] = ORBITAL_RATE
-        shown["final_spin"] = q.spin
-    return shown
+        results["tangential_restitution"] = DISTANCE * ORBITAL_RATE / ((4 + q.aspect) * q.initial_turning)
+        results["final_rotation_rate"] = ORBITAL_RATE
+        results["final_spin"] = q.spin
+    return results
 
 
 def surface_slip(structure: Structure) -> sp.Expr:

@@ -54,8 +54,8 @@ class Answer:
 @cache
 def equal_spheres() -> Answer:
     """Two equal spheres with one spin, the force at `arm` from the centres: the pair of ratio 1."""
-    answer, one = unequal_spheres(), dict.fromkeys((q.radius_ratio, q.mass_ratio), 1)
-    equal = {**one, bodies.CENTRES: EQUAL, LEVER: arm / q.R, q.partner_spin_rate: q.xi}
+    answer, ratios = unequal_spheres(), dict.fromkeys((q.radius_ratio, q.mass_ratio), 1)
+    equal = {**ratios, bodies.CENTRES: EQUAL, LEVER: arm / q.R, q.partner_spin_rate: q.xi}
     rates = {rate: sp.expand(answer.rates[rate].subs(equal)) for rate in (q.omega, q.xi)}
     return Answer(sp.expand(answer.slip.subs(equal)), rates)
 
@@ -63,8 +63,8 @@ def equal_spheres() -> Answer:
 @cache
 def unequal_spheres() -> Answer:
     """Two spheres with two spins, the force at `LEVER` times the radius from either centre."""
-    motion, (one, other) = bodies.equations_of_motion(), bodies.radii()
-    at_contact = {bodies.T_1: LEVER * one * bodies.F_t, bodies.T_2: LEVER * other * bodies.F_t}
+    motion, (radius, other) = bodies.equations_of_motion(), bodies.radii()
+    at_contact = {bodies.T_1: LEVER * radius * bodies.F_t, bodies.T_2: LEVER * other * bodies.F_t}
     coordinates = {"beta": q.omega, "alpha_1": q.xi, "alpha_2": q.partner_spin_rate}
 
     def per_force(expression: sp.Expr) -> sp.Expr:
@@ -78,7 +78,7 @@ def unequal_spheres() -> Answer:
 def beside_wall() -> Answer:
     """A sphere beside a wall: the limit of the pair, in which the force acts on the sphere's surface."""
     radius = wall.limit(bodies.radii()[0])
-    _, along, spun = (each.subs(bodies.T_1, radius * bodies.F_t).diff(bodies.F_t) for each in wall.accelerations())
+    _, along, spun = (rate.subs(bodies.T_1, radius * bodies.F_t).diff(bodies.F_t) for rate in wall.accelerations())
     inertia = wall.limit(bodies.inertias()[0])
     return Answer(-q.m * along * q.slide_rate - inertia * spun * q.xi, {q.slide_rate: along, q.xi: spun})
 
@@ -105,8 +105,8 @@ def _equal() -> Rubbing:
 @cache
 def _pair() -> Rubbing:
     def scaled(expression: sp.Expr) -> sp.Expr:
-        one, other = bodies.radii()
-        named = expression.subs({one: q.a * pair.RADIUS, other: q.a * pair.PARTNER_RADIUS})
+        radius, other = bodies.radii()
+        named = expression.subs({radius: q.a * pair.RADIUS, other: q.a * pair.PARTNER_RADIUS})
         return pair.scaled(named).subs(q.orbital_momentum, ORBITAL_RATE * DISTANCE**2)
 
     spins = {q.xi: q.spin, q.partner_spin_rate: q.partner_spin}

@@ -72,7 +72,7 @@ class Law:
         return f"{self.slot}_{self.name.replace('-', '_')}"
 
     def __getitem__(self, function: str) -> LawFunction:
-        return next(each for each in self.functions if each.name == function)
+        return next(member for member in self.functions if member.name == function)
 
 
 def slot_call(slot: str, function: str, *arguments: sp.Expr) -> sp.Expr:
@@ -94,7 +94,7 @@ def fill(expression: sp.Expr, laws: Mapping[str, Law]) -> sp.Expr:
     """The expression with every slot call replaced by the chosen law's expression, inner calls first."""
     while calls := slot_calls(expression):
         replaced = {}
-        for node in (node for node in calls if not any(slot_calls(part) for part in node.args)):  # the innermost
+        for node in (node for node in calls if not any(slot_calls(operand) for operand in node.args)):  # the innermost
             slot, function = node.func.__name__.split(".")
             replaced[node] = laws[slot][function](*node.args)
         expression = expression.xreplace(replaced)

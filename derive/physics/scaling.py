@@ -27,8 +27,8 @@ def rupture_distance() -> sp.Expr:
 
 def elastic_compliance() -> sp.Expr:
     """theta_e = 2 (1 - nu^2)/(pi E) of two equal spheres (1/Pa): the sum of (1 - nu_i^2)/(pi E_i)."""
-    one = (1 - q.nu**2) / (sp.pi * q.E)
-    return one + one
+    compliance = (1 - q.nu**2) / (sp.pi * q.E)
+    return compliance + compliance
 
 
 def elastic_length() -> sp.Expr:
@@ -111,7 +111,7 @@ def impact_groups(partner: str = "") -> dict[sp.Symbol, sp.Expr]:
     rates = first_rates(scale)
     if partner != "pair":
         del rates[q.initial_partner_spin]
-    return {q.obliquity: sp.Max(sp.tan(q.theta0), *(lever * sp.Abs(each) / q.v0 for lever, each in spins)), **rates}
+    return {q.obliquity: sp.Max(sp.tan(q.theta0), *(lever * sp.Abs(rate) / q.v0 for lever, rate in spins)), **rates}
 
 
 def _vector_groups() -> dict[sp.Symbol, sp.Expr]:
@@ -120,11 +120,11 @@ def _vector_groups() -> dict[sp.Symbol, sp.Expr]:
 
     levers = (centres() * q.a, *radii())
     rates = (q.impact_turnings, q.impact_spins, q.impact_partner_spins)
-    speeds = sp.Add(*(lever**2 * each**2 for lever, vector in zip(levers, rates, strict=True) for each in vector))
+    speeds = sp.Add(*(lever**2 * rate**2 for lever, vector in zip(levers, rates, strict=True) for rate in vector))
     unit = scale_definitions()[q.rate_scale_pair]
     groups = (q.initial_turnings, q.initial_spins, q.initial_partner_spins)
-    each = zip(chain(*groups), chain(*rates), strict=True)
-    return {q.obliquity: sp.sqrt(speeds) / q.v0, **{group: rate / unit for group, rate in each}}
+    pairs = zip(chain(*groups), chain(*rates), strict=True)
+    return {q.obliquity: sp.sqrt(speeds) / q.v0, **{group: rate / unit for group, rate in pairs}}
 
 
 def first_rates(scale: sp.Expr) -> dict[sp.Symbol, sp.Expr]:

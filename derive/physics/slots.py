@@ -90,8 +90,8 @@ MIDGAP = {"arm": Law("arm", "midgap", "", "", (LawFunction("lever", (distance,),
 def places() -> dict[str, Place]:
     """Every function of every slot, by `slot.function`; scales and SI arguments are taken from the force laws."""
     scaled = _scaled()
-    known = {f"{place.slot}.{place.function}": place for place in _FUNCTIONS}
-    return {key: replace(place, **scaled.get(key, {})) for key, place in known.items()}
+    entries = {f"{place.slot}.{place.function}": place for place in _FUNCTIONS}
+    return {key: replace(place, **scaled.get(key, {})) for key, place in entries.items()}
 
 
 def place_of(slot: str, function: str, spread: bool = False) -> Place:

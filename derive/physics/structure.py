@@ -61,9 +61,9 @@ class Structure:
     def has(self, *features: str) -> bool:
         """True if the structure has these features: a field, or a partner; "not" in front: has it not."""
         return all(
-            (self.partner == name or bool(getattr(self, name, False))) != each.startswith("not ")
-            for each in features
-            for name in [each.removeprefix("not ")]
+            (self.partner == name or bool(getattr(self, name, False))) != feature.startswith("not ")
+            for feature in features
+            for name in [feature.removeprefix("not ")]
         )
 
 
@@ -78,7 +78,7 @@ def structures() -> tuple[Structure, ...]:
     return (*full, *reduced)
 
 
-def known() -> tuple[Structure, ...]:
+def all_structures() -> tuple[Structure, ...]:
     """Every structure that a scene can request: another partner, another attraction, a spreading film, friction."""
     others = [Structure(True, bridge, False, partner=partner) for partner in _PARTNERS for bridge in _EITHER]
     space = [Structure(True, bridge, False, reduced, partner="space") for bridge in _EITHER for reduced in _EITHER]
@@ -97,7 +97,7 @@ def committed() -> tuple[Structure, ...]:
     Structures that combine more than one of strings, another attraction and a spreading film are left out, and those
     with friction or in space.
     """
-    plain = (s for s in known() if not s.friction and s.partner != "space")
+    plain = (s for s in all_structures() if not s.friction and s.partner != "space")
     return tuple(s for s in plain if s.strings + s.attraction + s.spread < 2)
 
 

@@ -90,15 +90,15 @@ _PUBLICATION = 'authors as ("Family, Initials", ...), the year as a whole number
 def published(source: Source, remark: str = "") -> tuple[Any, tuple[Reference, ...]]:
     """A source in words, and its publications."""
     named = source if isinstance(source, tuple) else (source,)
-    publications = tuple(each for each in named if isinstance(each, Reference))
+    publications = tuple(item for item in named if isinstance(item, Reference))
     if publications != named:
         return source + remark if isinstance(source, str) else source, ()  # what is no text is refused as one
-    for one in publications:
-        texts = [one.key, one.title, one.journal, one.abbreviated, one.volume, one.pages, one.doi]
-        authors = one.authors if isinstance(one.authors, tuple) and one.authors else (None,)
-        if not all(isinstance(part, str) for part in (*texts, *authors)) or not isinstance(one.year, int):
-            raise ModelFileError("source", one, _PUBLICATION, "has a part of another kind")
-    return "; ".join(each.short for each in publications) + remark, publications
+    for work in publications:
+        texts = [work.key, work.title, work.journal, work.abbreviated, work.volume, work.pages, work.doi]
+        authors = work.authors if isinstance(work.authors, tuple) and work.authors else (None,)
+        if not all(isinstance(text, str) for text in (*texts, *authors)) or not isinstance(work.year, int):
+            raise ModelFileError("source", work, _PUBLICATION, "has a part of another kind")
+    return "; ".join(item.short for item in publications) + remark, publications
 
 
 @dataclass(frozen=True)
@@ -215,39 +215,39 @@ def quantity(
     Raises:
         ModelFileError: names the wrong argument and what is accepted.
     """
-    there = _declarations()
+    model = _declarations()
     group = group or f"{name}_number"
-    numbers = {one.name: one.symbol for one in there.quantities.values() if one.dimension == ONE}
+    numbers = {item.name: item.symbol for item in model.quantities.values() if item.dimension == ONE}
     try:
         dimension, limits = dimension_of_unit(unit, numbers), Bounds.read(bounds)
     except UnitError as error:
         raise ModelFileError(f"{name}.unit", unit, 'coherent SI, as "Pa", "N/m", "kg m^2/s", "1"', str(error)) from None
     except BoundsError:
         raise ModelFileError(f"{name}.bounds", bounds, '"> 0", ">= 0", "0 to 1", "> 0 and <= 5"') from None
-    _check_name("quantity", name, there, in_functions=dimension == ONE)
-    _check_name(f"{name}.group", group, there)
+    _check_name("quantity", name, model, in_functions=dimension == ONE)
+    _check_name(f"{name}.group", group, model)
     if over is not None and not isinstance(over, sp.Expr):
         raise ModelFileError(f"{name}.over", over, "an expression of the vocabulary, as mu*v0/x0")
     sign = {"positive": True} if limits.positive else {"nonnegative": True} if limits.not_negative else {"real": True}
     symbol = sp.Symbol(name, **sign)
     upright = rf"\mathrm{{{name.replace('_', ' ')}}}".replace(" ", r"\ ")
     printed, meaning = latex or upright, meaning or name.replace("_", " ")
-    there.quantities[name] = Declared(symbol, printed, unit, dimension, default, limits, meaning, over, group)
+    model.quantities[name] = Declared(symbol, printed, unit, dimension, default, limits, meaning, over, group)
     return symbol
 
 
 def let(name: str, expression: object, latex: str = "") -> sp.Symbol:
     """Name a part of an expression; the name is kept in print, and in emitted code unless it means something there."""
-    there = _declarations()
-    means = {} if there.library else taken()
+    model = _declarations()
+    means = {} if model.library else taken()
     written = f"{name}_" if isinstance(name, str) and name in means.keys() - VOCABULARY.keys() else name
-    _check_name("let", written, there)
+    _check_name("let", written, model)
     value = _expression(name, expression)
-    claimed = value.xreplace({part: sp.Dummy(positive=True) for part in there.positive})
-    sign = next((known for known in ("positive", "nonnegative") if getattr(claimed, f"is_{known}")), "real")
+    claimed = value.xreplace({claim: sp.Dummy(positive=True) for claim in model.positive})
+    sign = next((kind for kind in ("positive", "nonnegative") if getattr(claimed, f"is_{kind}")), "real")
     symbol = sp.Symbol(written, **{sign: True})
     upright = rf"\mathrm{{{name}}}".replace("_", r"\_")
-    there.intermediates[written] = Intermediate(symbol, value, latex or upright)
+    model.intermediates[written] = Intermediate(symbol, value, latex or upright)
     return symbol
 
 
@@ -256,9 +256,9 @@ def positive(expression: object) -> sp.Expr:
 
     It is dimensionless, in the arguments of the slot.
     """
-    there = _declarations()
-    there.positive.append(_expression("positive", expression))
-    return there.positive[-1]
+    model = _declarations()
+    model.positive.append(_expression("positive", expression))
+    return model.positive[-1]
 
 
 def law(
@@ -294,19 +294,19 @@ def law(
     Raises:
         ModelFileError: names the wrong argument and what is accepted.
     """
-    there, label = _declarations(), f"law {slot} {name}"
+    model, label = _declarations(), f"law {slot} {name}"
     if slot not in SLOTS:
         raise ModelFileError("law", slot, "a slot: " + ", ".join(SLOTS), "is not a slot")
     if not isinstance(name, str) or not _LAW_NAME.fullmatch(name):
         raise ModelFileError(f"law {slot}", name, "a name of small letters, digits and single dashes")
-    if name in there.taken.get(slot, ()):
+    if name in model.taken.get(slot, ()):
         raise ModelFileError(f"law {slot}", name, "a name of your own", "is a law of the library")
-    if (slot, name) in there.laws:
+    if (slot, name) in model.laws:
         raise ModelFileError(f"law {slot}", name, "each name once", "is declared twice")
-    known = {place.function: place for place in places().values() if place.slot == slot}
-    for foreign in functions.keys() - known.keys():
-        raise ModelFileError(label, foreign, "the functions " + ", ".join(known), "is no function of this slot")
-    for missing in (function for function, place in known.items() if place.required and function not in functions):
+    by_name = {place.function: place for place in places().values() if place.slot == slot}
+    for foreign in functions.keys() - by_name.keys():
+        raise ModelFileError(label, foreign, "the functions " + ", ".join(by_name), "is no function of this slot")
+    for missing in (function for function, place in by_name.items() if place.required and function not in functions):
         raise ModelFileError(f"{label}.{missing}", None, f"{missing} = an expression", "is missing")
     for option, value in (("falls", falls), ("spread", spread)):
         if not isinstance(value, bool):
@@ -317,10 +317,10 @@ def law(
         )
     if spread and slot != "film":
         raise ModelFileError(f"{label}.spread", spread, "no such argument", "is of a film")
-    formulas = {f: _formula(f"{label}.{f}", functions[f]) for f in known if f in functions}
+    formulas = {f: _formula(f"{label}.{f}", functions[f]) for f in by_name if f in functions}
     if "suction" in formulas and formulas["suction"].expression != 0:
-        left = str(formulas["suction"].expression)
-        raise ModelFileError(f"{label}.suction", left, "0, or no suction", "is not what cavitation leaves")
+        suction = str(formulas["suction"].expression)
+        raise ModelFileError(f"{label}.suction", suction, "0, or no suction", "is not what cavitation leaves")
     origin, references = published(source, str(remark))
     _check_texts(label, source=origin, remark=remark, bibtex=bibtex, meaning=meaning)
     if bibtex and not _BIBTEX.fullmatch(bibtex):
@@ -335,22 +335,22 @@ def law(
             raise ModelFileError(f"{label}.validity", ends, "(least, largest), a number each, or None")
     valid = tuple((name, validity[name]) for name in RANGES if validity and name in validity)
     declared = Law(slot, name, meaning, origin, (), valid, references, spread)
-    there.laws[slot, name] = Proposed(declared, formulas, tuple(accept), bibtex, falls)
+    model.laws[slot, name] = Proposed(declared, formulas, tuple(accept), bibtex, falls)
 
 
 def _is_range(ends: object) -> bool:
     """Whether these are two ends, finite numbers or None, of which the first is below the second."""
     if not isinstance(ends, tuple | list) or len(ends) != 2:
         return False
-    known = [sp.sympify(end) for end in ends if end is not None]
-    return all(end.is_number and end.is_finite for end in known) and (len(known) < 2 or bool(known[0] < known[1]))
+    bounds = [sp.sympify(end) for end in ends if end is not None]
+    return all(end.is_number and end.is_finite for end in bounds) and (len(bounds) < 2 or bool(bounds[0] < bounds[1]))
 
 
 def _formula(label: str, value: object) -> Formula:
     """A function of a law as it is declared, its expression and its texts judged."""
-    known = value if isinstance(value, Formula) else Formula(value)
-    _check_texts(label, doc=known.doc, source=published(known.source, known.remark)[0])
-    return replace(known, expression=_expression(label, known.expression))
+    formula = value if isinstance(value, Formula) else Formula(value)
+    _check_texts(label, doc=formula.doc, source=published(formula.source, formula.remark)[0])
+    return replace(formula, expression=_expression(label, formula.expression))
 
 
 def event(
@@ -382,16 +382,16 @@ def event(
     Raises:
         ModelFileError: names the wrong argument and what is accepted.
     """
-    there, label = _declarations(), f"event {name}"
+    model, label = _declarations(), f"event {name}"
     name = name.replace(" ", "_") if isinstance(name, str) else name
-    _check_name("event", name, there)
+    _check_name("event", name, model)
     if name in own_events.TAKEN_NAMES:
         raise ModelFileError("event", name, "a name of your own", "is an event of the library")
-    _check_name(f"{label}, mark", own_events.MARK + name, there)
+    _check_name(f"{label}, mark", own_events.MARK + name, model)
     reported = word or name.replace("_", " ")
     if not isinstance(reported, str) or not own_events.WORD.fullmatch(reported):
         raise ModelFileError(f"{label}.word", reported, "small letters, digits and single spaces")
-    words = own_events.TAKEN_WORDS.union(known.word for known in there.events.values())
+    words = own_events.TAKEN_WORDS.union(other.word for other in model.events.values())
     if reported in words:
         raise ModelFileError(f"{label}.word", reported, f"any word but {', '.join(sorted(words))}", "exists already")
     if where not in own_events.PLACES:
@@ -402,8 +402,8 @@ def event(
         accepted = '"opening", "opening inside the film" or "opening beyond the film" with ends="separated"'
         raise ModelFileError(f"{label}.where", where, accepted, "may be on approach, where nothing separates")
     _check_texts(label, meaning=meaning, source=source)
-    tested = _of_event(f"{label}.guard", guard, there)
-    if not unfolded(tested, there).free_symbols & set(own_events.MOVING):
+    tested = _of_event(f"{label}.guard", guard, model)
+    if not unfolded(tested, model).free_symbols & set(own_events.MOVING):
         raise ModelFileError(f"{label}.guard", guard, "an expression of x, u, omega, xi, beta or t", "never changes")
     if jump is not None and not isinstance(jump, Mapping):
         raise ModelFileError(f"{label}.jump", jump, "a table of u, omega or xi, as {u: u/2}")
@@ -414,8 +414,8 @@ def event(
             raise ModelFileError(f"{label}.jump", "x", "u, omega, xi", problem)
         if target not in own_events.JUMPS:
             raise ModelFileError(f"{label}.jump", target, "u, omega, xi", "is no velocity of the particles")
-        new = _of_event(f"{label}.jump", value, there, own_events.JUMPS[target])
-        still = sp.simplify(unfolded(new, there).subs({omega: 0, xi: 0}))
+        new = _of_event(f"{label}.jump", value, model, own_events.JUMPS[target])
+        still = sp.simplify(unfolded(new, model).subs({omega: 0, xi: 0}))
         if target != u and still != 0:
             accepted = "a jump that vanishes with omega and xi, as omega/2"
             raise ModelFileError(
@@ -425,9 +425,9 @@ def event(
     if ends == "stick" and after:
         raise ModelFileError(f"{label}.jump", jump, 'no jump beside ends = "stick"', "would not be seen")
     mark = sp.Symbol(own_events.MARK + name, nonnegative=True)
-    released = _of_event(f"{label}.releases", releases, there, ENERGY)
+    released = _of_event(f"{label}.releases", releases, model, ENERGY)
     meaning, source = meaning or f"{reported}, a user's event", source or "no source given"
-    there.events[name] = own_events.Proposed(
+    model.events[name] = own_events.Proposed(
         name, reported, mark, tested, where, tuple(after), ends, released, meaning, source
     )
     return mark
@@ -445,22 +445,22 @@ def criterion(name: str, *, gap: object, meaning: str = "", source: str = "") ->
     Raises:
         ModelFileError: names what is wrong, and what is accepted.
     """
-    there, label = _declarations(), f"criterion {name}"
+    model, label = _declarations(), f"criterion {name}"
     name = name.replace(" ", "_") if isinstance(name, str) else name
-    _check_name("criterion", name, there)
+    _check_name("criterion", name, model)
     group = f"{name}_gap"
-    _check_name(f"{label}.group", group, there)
+    _check_name(f"{label}.group", group, model)
     if name in own_events.TAKEN_NAMES or name.replace("_", " ") in own_events.TAKEN_WORDS:
         raise ModelFileError("criterion", name, "a name of your own", "is a word of the library")
     _check_texts(label, meaning=meaning, source=source)
-    value = unfolded(_of_event(f"{label}.gap", gap, there, LENGTH), there)
-    marks = {known.mark for known in there.events.values()}
+    value = unfolded(_of_event(f"{label}.gap", gap, model, LENGTH), model)
+    marks = {other.mark for other in model.events.values()}
     if moving := sorted(str(s) for s in value.free_symbols & {*own_events.MOVING, *marks}):
         accepted = "a length of quantities and v0, which stays as it is during a collision"
         raise ModelFileError(f"{label}.gap", ", ".join(moving), accepted, "varies along a trajectory")
     meaning = meaning or f"the {name.replace('_', ' ')}"
     symbol = sp.Symbol(group, nonnegative=True)
-    there.criteria[name] = Criterion(name, value, symbol, meaning, source or "no source given")
+    model.criteria[name] = Criterion(name, value, symbol, meaning, source or "no source given")
 
 
 def energy(expression: object) -> None:
@@ -472,16 +472,16 @@ def energy(expression: object) -> None:
     Raises:
         ModelFileError: names what is wrong, and what is accepted.
     """
-    there = _declarations()
-    value = _of_term("energy", expression, there, ENERGY)
-    whole, squares = unfolded(value, there), {rate: rate**2 for rate in VELOCITIES.values()}
+    model = _declarations()
+    value = _of_term("energy", expression, model, ENERGY)
+    whole, squares = unfolded(value, model), {rate: rate**2 for rate in VELOCITIES.values()}
     inertia = {rate: sp.simplify(whole.diff(rate, 2)) for rate in squares}
     kinetic = sp.Add(*(inertia[rate] * square / 2 for rate, square in squares.items()))
-    left = sp.simplify(whole - whole.subs(dict.fromkeys(squares, 0)) - kinetic)
-    if left != 0 or any(part.free_symbols & squares.keys() for part in inertia.values()):
+    rest = sp.simplify(whole - whole.subs(dict.fromkeys(squares, 0)) - kinetic)
+    if rest != 0 or any(factor.free_symbols & squares.keys() for factor in inertia.values()):
         accepted = "a potential of x and beta, and squares of u, omega and xi, as added*u**2/2"
         raise ModelFileError("energy", str(value), accepted, "is neither a potential nor a kinetic energy")
-    there.energies.append(value)
+    model.energies.append(value)
 
 
 def force_on(coordinate: str, expression: object) -> None:
@@ -493,17 +493,17 @@ def force_on(coordinate: str, expression: object) -> None:
     Raises:
         ModelFileError: names what is wrong, and what is accepted.
     """
-    there, label = _declarations(), f"force_on {coordinate}"
+    model, label = _declarations(), f"force_on {coordinate}"
     if coordinate not in VELOCITIES:
         raise ModelFileError("force_on", coordinate, ", ".join(VELOCITIES), "is no coordinate")
-    value = _of_term(label, expression, there, FORCE if coordinate == "gap" else ENERGY)
-    there.forces.append((coordinate, value))
+    value = _of_term(label, expression, model, FORCE if coordinate == "gap" else ENERGY)
+    model.forces.append((coordinate, value))
 
 
-def _of_term(label: str, value: object, there: Declarations, wanted: Dimension) -> sp.Expr:
+def _of_term(label: str, value: object, model: Declarations, wanted: Dimension) -> sp.Expr:
     """The expression of a term: of the motion, but not of the time or of events, and smooth along a trajectory."""
-    result = _of_event(label, value, there, wanted)
-    whole, marks = unfolded(result, there), {known.mark for known in there.events.values()}
+    result = _of_event(label, value, model, wanted)
+    whole, marks = unfolded(result, model), {other.mark for other in model.events.values()}
     for symbol in sorted(whole.free_symbols & {time, *marks}, key=str):
         problem = "is in a term: resting contact would not end with it"
         raise ModelFileError(label, str(symbol), "an expression of x, u, omega, xi, beta and quantities", problem)
@@ -513,12 +513,12 @@ def _of_term(label: str, value: object, there: Declarations, wanted: Dimension) 
     return result
 
 
-def _of_event(label: str, value: object, there: Declarations, wanted: Dimension | None = None) -> sp.Expr:
+def _of_event(label: str, value: object, model: Declarations, wanted: Dimension | None = None) -> sp.Expr:
     """An expression of an event or a term, its symbols and its dimension judged."""
     result = _expression(label, value)
-    whole = unfolded(result, there)
-    dimensions = {one.symbol: one.dimension for one in there.quantities.values()}
-    dimensions |= {known.mark: ONE for known in there.events.values()}
+    whole = unfolded(result, model)
+    dimensions = {item.symbol: item.dimension for item in model.quantities.values()}
+    dimensions |= {other.mark: ONE for other in model.events.values()}
     for symbol in sorted(whole.free_symbols, key=str):
         if symbol not in dimensions and not own_events.may_use(symbol):
             raise ModelFileError(
@@ -536,10 +536,10 @@ def _of_event(label: str, value: object, there: Declarations, wanted: Dimension 
     return result
 
 
-def unfolded(expression: sp.Expr, there: Declarations) -> sp.Expr:
+def unfolded(expression: sp.Expr, model: Declarations) -> sp.Expr:
     """The expression with every `let` substituted."""
-    for part in reversed(there.intermediates.values()):
-        expression = expression.xreplace({part.symbol: part.expression})
+    for definition in reversed(model.intermediates.values()):
+        expression = expression.xreplace({definition.symbol: definition.expression})
     return expression
 
 
@@ -549,16 +549,16 @@ def _check_texts(label: str, **texts: object) -> None:
             raise ModelFileError(f"{label}.{what}", text, "text")
 
 
-def _check_name(what: str, name: object, there: Declarations, in_functions: bool = True) -> None:
+def _check_name(what: str, name: object, model: Declarations, in_functions: bool = True) -> None:
     """ModelFileError for a name that is declared already, or means something where it is written."""
     if not isinstance(name, str) or not _NAME.fullmatch(name):
         raise ModelFileError(what, name, "a name of small letters, digits and underscores")
-    declared = {*there.quantities, *there.intermediates, *(known.group for known in there.quantities.values())}
-    declared |= {word for known in there.events for word in (known, own_events.MARK + known)}
-    declared |= {word for known in there.criteria for word in (known, f"{known}_gap")}
+    declared = {*model.quantities, *model.intermediates, *(other.group for other in model.quantities.values())}
+    declared |= {word for other in model.events for word in (other, own_events.MARK + other)}
+    declared |= {word for other in model.criteria for word in (other, f"{other}_gap")}
     of_library = VOCABULARY.get(name)
     local = what == "let" and of_library is not None and not own_events.may_use(of_library.symbol)  # in no law
-    meaning = "" if local or there.library else taken().get(name, "")
+    meaning = "" if local or model.library else taken().get(name, "")
     if name in declared or (meaning and (in_functions or meaning != EMITTED)):
         problem = "is taken already" + (f": it is {meaning}" if meaning else "")
         raise ModelFileError(what, name, "a name that is not taken", problem)
@@ -575,9 +575,9 @@ def _expression(label: str, value: object) -> sp.Expr:
     return result.xreplace({number: sp.Rational(str(float(number))) for number in result.atoms(sp.Float)})
 
 
-def latex_names(there: Declarations, groups: Mapping[str, str]) -> dict[str, str]:
+def latex_names(model: Declarations, groups: Mapping[str, str]) -> dict[str, str]:
     """LaTeX of every name that a model adds to the vocabulary."""
-    names = {one.name: one.latex for one in there.quantities.values()}
-    names |= {one.symbol.name: one.latex for one in there.intermediates.values()}
-    names |= {one.mark.name: rf"1_{{\mathrm{{{one.word}}}}}".replace(" ", r"\ ") for one in there.events.values()}
+    names = {item.name: item.latex for item in model.quantities.values()}
+    names |= {item.symbol.name: item.latex for item in model.intermediates.values()}
+    names |= {item.mark.name: rf"1_{{\mathrm{{{item.word}}}}}".replace(" ", r"\ ") for item in model.events.values()}
     return names | dict(groups)

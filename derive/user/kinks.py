@@ -52,18 +52,18 @@ def freed(expression: sp.Expr) -> sp.Expr:
 
     def front(node: sp.Basic) -> sp.Basic:
         marks = sp.symbols(f"part:{len(node.args)}", cls=sp.Dummy, positive=True)
-        whole = sp.factor(sp.Add(*(mark * part for mark, part in zip(marks, node.args, strict=True))))
-        factors = [part for part in sp.Mul.make_args(whole) if part.is_positive and not part.has(*marks)]
-        return sp.Mul(*factors) * node.func(*(sp.expand(part / sp.Mul(*factors)) for part in node.args))
+        whole = sp.factor(sp.Add(*(mark * term for mark, term in zip(marks, node.args, strict=True))))
+        factors = [factor for factor in sp.Mul.make_args(whole) if factor.is_positive and not factor.has(*marks)]
+        return sp.Mul(*factors) * node.func(*(sp.expand(term / sp.Mul(*factors)) for term in node.args))
 
     def compared(node: Relational) -> sp.Basic:
         factors = sp.Mul.make_args(sp.factor(node.lhs - node.rhs))
-        return node.func(sp.Mul(*(-1 if part.is_negative else part for part in factors if not part.is_positive)), 0)
+        return node.func(sp.Mul(*(-1 if term.is_negative else term for term in factors if not term.is_positive)), 0)
 
     def powered(node: sp.Pow) -> sp.Basic:
         parts, exponent = sp.Mul.make_args(sp.factor_terms(node.base)), node.exp
-        whole = sp.Mul(*(part for part in parts if not part.is_positive))
-        return sp.Mul(*(part**exponent for part in parts if part.is_positive)) * whole**exponent
+        whole = sp.Mul(*(factor for factor in parts if not factor.is_positive))
+        return sp.Mul(*(factor**exponent for factor in parts if factor.is_positive)) * whole**exponent
 
     result = expression.replace(lambda node: isinstance(node, sp.Pow) and not node.exp.is_Integer, powered)
     result = result.replace(lambda node: isinstance(node, (sp.Abs, sp.Max, sp.Min)), front)  # the inner ones first
@@ -131,19 +131,19 @@ class _Smoothing:
     def _side(self, inner: sp.Expr) -> sp.Expr:
         """1 where an expression is positive and -1 where it is negative."""
         factors = sp.Mul.make_args(sp.factor_terms(inner))
-        known = sp.Mul(*(sp.sign(factor) for factor in factors if factor.is_positive or factor.is_negative))
+        sign = sp.Mul(*(sp.sign(factor) for factor in factors if factor.is_positive or factor.is_negative))
         rest = sp.Mul(*(factor for factor in factors if not (factor.is_positive or factor.is_negative)))
         if rest == 1 or rest.is_nonnegative:
-            return known
+            return sign
         if -rest in self._sides:
-            known, rest = -known, -rest
+            sign, rest = -sign, -rest
         if rest not in self._sides:
             kink, side = self._named("kink", rest), sp.Symbol(f"side_{len(self._sides) + 1}", real=True)
             self.definitions.append((side, kink / sp.sqrt(kink**2 + _SQUARE)))
             self._sides[rest] = side
             if self._moves(rest):
                 self.kinks.append((kink, side))
-        return known * self._sides[rest]
+        return sign * self._sides[rest]
 
     def _named(self, what: str, value: sp.Expr) -> sp.Expr:
         """A part with a name, which no expansion takes apart: differences keep their digits."""
@@ -210,11 +210,11 @@ class _Smoothing:
             return sp.Integer(isinstance(condition, sp.Ne))
         if isinstance(condition, Relational):
             return self._step(self(condition.gts - condition.lts))
-        parts = [self._holds(part) for part in condition.args] if isinstance(condition, BooleanFunction) else []
+        parts = [self._holds(term) for term in condition.args] if isinstance(condition, BooleanFunction) else []
         if isinstance(condition, sp.And):
             return sp.Mul(*parts)
         if isinstance(condition, sp.Or):
-            return 1 - sp.Mul(*(1 - part for part in parts))
+            return 1 - sp.Mul(*(1 - term for term in parts))
         if isinstance(condition, sp.Not):
             return 1 - parts[0]
         raise KinkError(f"the condition {condition} is no comparison; accepted: <, <=, >, >=, &, |, ~")

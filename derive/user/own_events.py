@@ -28,7 +28,7 @@ ACCEPTED = "x, u, omega, xi, beta, t, r, quantities of a scene and of the model 
 MOVING = (q.x, q.u, q.omega, q.xi, q.beta, q.t)  # a guard depends on one of them at least
 JUMPS: dict[sp.Symbol, Dimension] = {q.u: SPEED, q.omega: RATE, q.xi: RATE}
 WORD = re.compile(r"[a-z][a-z0-9]*( [a-z0-9]+)*")
-TAKEN_WORDS = {each.word for each in WORDS}
+TAKEN_WORDS = {row.word for row in WORDS}
 TAKEN_NAMES = {name for row in EVENTS for name in (row.name, *row.functions)}
 Form = tuple[sp.Expr, dict[sp.Symbol, sp.Expr], sp.Expr]
 """Guard, state after the jump as far as it jumps, and release of an event in a structure."""
@@ -91,7 +91,7 @@ class Reach:
     closing: int | None
 
     @property
-    def known(self) -> bool:
+    def is_known(self) -> bool:
         return self.alone and self.by_gap is not None
 
 
@@ -163,8 +163,8 @@ class OwnEvent:
             return 1 if value.is_nonnegative else -1 if value.is_nonpositive else None
 
         def along(direction: int) -> tuple[int | None, int | None]:
-            one = guard.xreplace({q.normal_velocity: direction * speed, q.gap: closer})
-            return sign(one.diff(closer)), sign(one.diff(speed))
+            form = guard.xreplace({q.normal_velocity: direction * speed, q.gap: closer})
+            return sign(form.diff(closer)), sign(form.diff(speed))
 
         (first, opening), (second, closing) = along(OPENING), along(CLOSING)
         watched = MOTIONS[self.proposed.where.partition(" ")[0]]
@@ -173,7 +173,7 @@ class OwnEvent:
             return Reach(False, None, None, None)
         return Reach(not moving & guard.free_symbols, by_gap, opening, closing)
 
-    def there(self, structure: Structure) -> bool:
+    def fits(self, structure: Structure) -> bool:
         """Whether a structure can have the event."""
         if not structure.oblique:
             return not self.turns
@@ -200,14 +200,14 @@ class OwnEvent:
 
 def extended(model: Model, events: tuple[OwnEvent, ...]) -> Model:
     """A structure's model with the states, guards and jumps of declared events, without the proofs they void."""
-    present = [each for each in events if each.there(model.structure)]
+    present = [event for event in events if event.fits(model.structure)]
     if not present:
         return model
-    marks = tuple(each.mark for each in present)
+    marks = tuple(event.mark for event in present)
     forms = {}
-    for each in present:
-        guard, jump, released = each.in_structure(model.structure)
-        forms[each.name] = rounded(guard), {state: rounded(value) for state, value in jump.items()}, rounded(released)
+    for event in present:
+        guard, jump, released = event.in_structure(model.structure)
+        forms[event.name] = rounded(guard), {state: rounded(value) for state, value in jump.items()}, rounded(released)
     guards, watched = _in_order(present, forms), groups_of(events, model.structure)
     clocks = {q.angle_turned: model["turning_rate"][q.beta.name]} if q.angle_turned in watched else {}
     clocks |= {q.time_passed: sp.Integer(1)} if q.time_passed in watched else {}
@@ -227,13 +227,13 @@ def extended(model: Model, events: tuple[OwnEvent, ...]) -> Model:
             outputs += tuple(guards.items())
         functions.append(replace(function, outputs=outputs))
     states = (*model.states, *rates)
-    for each in present:
-        _, jump, released = forms[each.name]
-        after = {state: jump.get(state, state) for state in states} | {each.mark: sp.Integer(0)}
-        doc = f"State just after the event {each.name}: {each.proposed.meaning}."
-        functions.append(ModelFunction(f"jump_{each.name}", doc, tuple((state.name, after[state]) for state in states)))
-        doc = f"Stored energy over m v0^2 that the event {each.name} may give to the motion."
-        functions.append(ModelFunction(f"release_{each.name}", doc, (("released", released),)))
+    for item in present:
+        _, jump, released = forms[item.name]
+        after = {state: jump.get(state, state) for state in states} | {item.mark: sp.Integer(0)}
+        doc = f"State just after the event {item.name}: {item.proposed.meaning}."
+        functions.append(ModelFunction(f"jump_{item.name}", doc, tuple((state.name, after[state]) for state in states)))
+        doc = f"Stored energy over m v0^2 that the event {item.name} may give to the motion."
+        functions.append(ModelFunction(f"release_{item.name}", doc, (("released", released),)))
     return replace(model, states=states, functions=tuple(functions))
 
 
@@ -242,7 +242,7 @@ def _in_order(events: Sequence[OwnEvent], forms: Mapping[str, Form]) -> dict[str
 
     If the earlier jump leaves the guard and the direction as they are, the later event follows at once.
     """
-    guards = {each.name: forms[each.name][0] for each in events}
+    guards = {item.name: forms[item.name][0] for item in events}
     for place, event in enumerate(events):
         guard = forms[event.name][0]
         for first in reversed(events[:place]):
@@ -259,9 +259,9 @@ def _in_order(events: Sequence[OwnEvent], forms: Mapping[str, Form]) -> dict[str
 
 def groups_of(events: tuple[OwnEvent, ...], structure: Structure) -> set[sp.Basic]:
     """Symbols that the events bring into a structure."""
-    forms = (each.in_structure(structure) for each in events if each.there(structure))
+    forms = (event.in_structure(structure) for event in events if event.fits(structure))
     return {
-        s for guard, jump, released in forms for part in (guard, released, *jump.values()) for s in part.free_symbols
+        s for guard, jump, released in forms for value in (guard, released, *jump.values()) for s in value.free_symbols
     }
 
 

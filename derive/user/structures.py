@@ -81,7 +81,7 @@ class UserModel:
     @property
     def gaps(self) -> dict[sp.Symbol, sp.Expr]:
         """The gap of each criterion over x0, and that of solid contact by roughness or by any of them: groups in SI."""
-        own = {known.group: known.gap / x0 for known in self.criteria}
+        own = {criterion.group: criterion.gap / x0 for criterion in self.criteria}
         return own | {rough_gap: sp.Max(group_definitions()[rough_gap], *own.values())} if own else {}
 
     @property
@@ -125,9 +125,9 @@ class UserModel:
             s for key, extra in self.extra.items() if key.split(".")[0] in model.slots for s in extra
         }
         reached |= own_events.groups_of(self.events, model.structure)
-        known = {*model.groups, *reached}
-        groups = [group for group in GROUPS if group in known]
-        groups += [group.symbol for group in self.groups if group.symbol in known]
+        symbols = {*model.groups, *reached}
+        groups = [group for group in GROUPS if group in symbols]
+        groups += [group.symbol for group in self.groups if group.symbol in symbols]
         wider = replace(model, groups=tuple(groups), functions=functions, definitions=definitions)
         return own_events.extended(wider, self.events)
 
@@ -143,7 +143,7 @@ def express(name: str, meaning: str, declared: Declarations) -> UserModel:
     for proposed in declared.laws.values():
         functions = tuple(_function(name, proposed, declared, groups) for name in proposed.functions)
         laws.append(replace(proposed.law, functions=functions))
-    marks = (one.mark for one in declared.events.values())
+    marks = (event.mark for event in declared.events.values())
     extra = _extra(laws, (normal_velocity, *marks, *GROUPS, *(group.symbol for group in groups.values())))
     laws = [_widened(law, extra) for law in laws]
     still = {*GROUPS, *(group.symbol for group in groups.values())}
@@ -151,15 +151,15 @@ def express(name: str, meaning: str, declared: Declarations) -> UserModel:
     laws = [replace(law, functions=tuple(smooth(f, still, declared.positive) for f in law.functions)) for law in laws]
     terms = _terms(declared, groups)
     called = {symbol for symbols in extra.values() for symbol in symbols}
-    events = tuple(_event(one, declared, groups, called) for one in declared.events.values())
-    touched = set().union(*(known.gap.free_symbols for known in declared.criteria.values()))
-    used = called.union(*(one.symbols for one in events), terms.symbols if terms else ())
+    events = tuple(_event(event, declared, groups, called) for event in declared.events.values())
+    touched = set().union(*(criterion.gap.free_symbols for criterion in declared.criteria.values()))
+    used = called.union(*(event.symbols for event in events), terms.symbols if terms else ())
     used |= {group.symbol for group in groups.values() if group.quantity.symbol in touched}
-    kept = tuple(group for group in groups.values() if group.symbol in used)
-    unused = [one.name for one in declared.quantities.values() if one.name not in {g.quantity.name for g in kept}]
+    present = tuple(group for group in groups.values() if group.symbol in used)
+    unused = [item.name for item in declared.quantities.values() if item.name not in {g.quantity.name for g in present}]
     if unused:
         raise ScalingError(f"{', '.join(unused)}: declared, but no law, term, event or criterion depends on it")
-    return UserModel(name, meaning, declared, tuple(laws), written, kept, extra, events, terms)
+    return UserModel(name, meaning, declared, tuple(laws), written, present, extra, events, terms)
 
 
 def _terms(declared: Declarations, groups: Mapping[str, Group]) -> Terms | None:
@@ -169,29 +169,29 @@ def _terms(declared: Declarations, groups: Mapping[str, Group]) -> Terms | None:
     quantities = _as_groups(groups)
 
     def put(*parts: sp.Expr) -> sp.Expr:
-        return sp.sympify(sp.Add(*(unfolded(part, declared) for part in parts))).xreplace(quantities)
+        return sp.sympify(sp.Add(*(unfolded(term, declared) for term in parts))).xreplace(quantities)
 
     energy = put(*declared.energies)
     potential = energy.subs(dict.fromkeys(VELOCITIES.values(), 0))
-    forces = {on: put(*(part for name, part in declared.forces if name == on)) for on in VELOCITIES}
+    forces = {on: put(*(force for name, force in declared.forces if name == on)) for on in VELOCITIES}
     acting = tuple((on, force) for on, force in forces.items() if force != 0)
     return Terms(sp.expand(energy - potential), potential, acting, tuple(group.symbol for group in groups.values()))
 
 
 def _event(
-    one: own_events.Proposed, declared: Declarations, groups: Mapping[str, Group], called: set[sp.Symbol]
+    event: own_events.Proposed, declared: Declarations, groups: Mapping[str, Group], called: set[sp.Symbol]
 ) -> OwnEvent:
     """A declared event with its quantities as groups."""
     quantities = _as_groups(groups)
     of: dict[sp.Basic, Dimension] = {**DIMENSIONS, **{q.symbol: q.dimension for q in declared.quantities.values()}}
-    of |= {known.mark: ONE for known in declared.events.values()}
+    of |= {other.mark: ONE for other in declared.events.values()}
 
     def scaled(expression: sp.Expr, over: sp.Expr) -> sp.Expr:
         return sp.sympify(unfolded(expression, declared).xreplace(quantities) / over)
 
-    scale = own_events.scale_of(dimension_of(unfolded(one.guard, declared), of) or ONE)
-    jump = tuple((target, scaled(value, v0 if target == u else rate_scale)) for target, value in one.jump)
-    return OwnEvent(one, scaled(one.guard, scale), jump, scaled(one.releases, m * v0**2), one.mark in called)
+    scale = own_events.scale_of(dimension_of(unfolded(event.guard, declared), of) or ONE)
+    jump = tuple((target, scaled(value, v0 if target == u else rate_scale)) for target, value in event.jump)
+    return OwnEvent(event, scaled(event.guard, scale), jump, scaled(event.releases, m * v0**2), event.mark in called)
 
 
 def _as_groups(groups: Mapping[str, Group]) -> dict[sp.Symbol, sp.Expr]:
@@ -218,38 +218,38 @@ def _widened(law: Law, extra: Mapping[str, tuple[sp.Symbol, ...]]) -> Law:
 def _groups(declared: Declarations) -> dict[str, Group]:
     """The group of each quantity, by the quantity's name."""
     result = {}
-    for one in declared.quantities.values():
-        if one.dimension == ONE:
-            result[one.name] = Group(one.symbol, one, sp.Integer(1))
+    for item in declared.quantities.values():
+        if item.dimension == ONE:
+            result[item.name] = Group(item.symbol, item, sp.Integer(1))
             continue
-        over = one.over if one.over is not None else _scale(one, declared)
-        dimension = dimension_of(
-            over, DIMENSIONS | {each.symbol: each.dimension for each in declared.quantities.values()}
-        )
-        if dimension != one.dimension:
-            raise DimensionError(f"{one.name}.over: {over} has dimension {dimension}, {one.name} has {one.dimension}")
-        signs = [key for key in ("positive", "nonnegative", "real") if one.symbol.assumptions0.get(key)]
-        result[one.name] = Group(sp.Symbol(one.group, **dict.fromkeys(signs, True)), one, over)
+        over = item.over if item.over is not None else _scale(item, declared)
+        of = DIMENSIONS | {other.symbol: other.dimension for other in declared.quantities.values()}
+        dimension = dimension_of(over, of)
+        if dimension != item.dimension:
+            problem = f"{over} has dimension {dimension}, {item.name} has {item.dimension}"
+            raise DimensionError(f"{item.name}.over: {problem}")
+        signs = [key for key in ("positive", "nonnegative", "real") if item.symbol.assumptions0.get(key)]
+        result[item.name] = Group(sp.Symbol(item.group, **dict.fromkeys(signs, True)), item, over)
     return result
 
 
-def _scale(one: Declared, declared: Declarations) -> sp.Expr:
-    """A monomial of a scene's quantities with the dimension of `one`; those of the related scale are preferred."""
+def _scale(quantity: Declared, declared: Declarations) -> sp.Expr:
+    """A monomial of a scene's quantities with the dimension of `quantity`; those of the related scale are preferred."""
     functions = [
-        (formula.expression, place_of(known.law.slot, name, known.law.spread).scale)
-        for known in declared.laws.values()
-        for name, formula in known.functions.items()
+        (formula.expression, place_of(proposal.law.slot, name, proposal.law.spread).scale)
+        for proposal in declared.laws.values()
+        for name, formula in proposal.functions.items()
     ]
-    functions += [(each, sp.Integer(1)) for event in declared.events.values() for each in event.expressions]
-    functions += [(known.gap, sp.Integer(1)) for known in declared.criteria.values()]
-    functions += [(each, sp.Integer(1)) for each in (*declared.energies, *(force for _, force in declared.forces))]
+    functions += [(value, sp.Integer(1)) for event in declared.events.values() for value in event.expressions]
+    functions += [(criterion.gap, sp.Integer(1)) for criterion in declared.criteria.values()]
+    functions += [(value, sp.Integer(1)) for value in (*declared.energies, *(force for _, force in declared.forces))]
     near: list[sp.Symbol] = []
     for expression, scale in functions:
         full = unfolded(expression, declared)
-        if one.symbol in full.free_symbols:
+        if quantity.symbol in full.free_symbols:
             near += _by_vocabulary(scale.free_symbols) + _by_vocabulary(full.free_symbols)
     candidates = [s for s in dict.fromkeys([*near, *_ALWAYS]) if s.name not in _MOVING and any(DIMENSIONS[s].exponents)]
-    target = sp.Matrix(one.dimension.exponents)
+    target = sp.Matrix(quantity.dimension.exponents)
     for count in (1, 2, 3):
         for chosen in combinations(candidates, count):
             matrix = dimension_matrix(chosen)
@@ -257,7 +257,7 @@ def _scale(one: Declared, declared: Declarations) -> sp.Expr:
                 continue  # dependent, or too few
             powers = (matrix.T * matrix).inv() * matrix.T * target
             return sp.prod([s**power for s, power in zip(chosen, powers, strict=True)])
-    raise ScalingError(f"{one.name}: no monomial of {', '.join(s.name for s in candidates)} has its dimension")
+    raise ScalingError(f"{quantity.name}: no monomial of {', '.join(s.name for s in candidates)} has its dimension")
 
 
 def _by_vocabulary(symbols: Iterable[sp.Symbol]) -> list[sp.Symbol]:
@@ -270,21 +270,21 @@ def _function(name: str, proposed: Proposed, declared: Declarations, groups: Map
     label, place = f"law {law.slot} {law.name}, {name}", place_of(law.slot, name, law.spread)
     expression = formula.expression
     of: dict[sp.Basic, Dimension] = {**DIMENSIONS, **dict.fromkeys(place.arguments, ONE)}
-    of |= {one.symbol: one.dimension for one in declared.quantities.values()}
-    marks = tuple(one.mark for one in declared.events.values())
+    of |= {quantity.symbol: quantity.dimension for quantity in declared.quantities.values()}
+    marks = tuple(event.mark for event in declared.events.values())
     of |= dict.fromkeys(marks, ONE)
     parts: list[Definition] = []
     inline: dict[sp.Basic, sp.Basic] = {}
     try:
         reached = _reached(expression, declared)
-        for part in (each for each in declared.intermediates.values() if each.symbol in reached):
-            dimension = dimension_of(part.expression, of) or ONE
-            of[part.symbol] = dimension
-            value = part.expression.xreplace(inline)
+        for step in (item for item in declared.intermediates.values() if item.symbol in reached):
+            dimension = dimension_of(step.expression, of) or ONE
+            of[step.symbol] = dimension
+            value = step.expression.xreplace(inline)
             if dimension == ONE:
-                parts.append((part.symbol, _settled(label, place, value, groups)))
+                parts.append((step.symbol, _settled(label, place, value, groups)))
             else:
-                inline[part.symbol] = value
+                inline[step.symbol] = value
         total = dimension_of(expression, of)
     except DimensionError as error:
         raise DimensionError(f"{label}: {error}") from None
@@ -313,9 +313,9 @@ def _function(name: str, proposed: Proposed, declared: Declarations, groups: Map
 
 def _reached(expression: sp.Expr, declared: Declarations) -> set[sp.Basic]:
     reached = set(expression.free_symbols)
-    for part in reversed(declared.intermediates.values()):
-        if part.symbol in reached:
-            reached |= part.expression.free_symbols
+    for item in reversed(declared.intermediates.values()):
+        if item.symbol in reached:
+            reached |= item.expression.free_symbols
     return reached
 
 
@@ -329,8 +329,8 @@ def _settled(label: str, place: Place, expression: sp.Expr, groups: Mapping[str,
             if moving in at.free_symbols and moving in expression.free_symbols:
                 expression = expression.subs(moving, sp.solve(sp.Eq(at, argument), moving)[0])
     expression = expression.subs(u, v0 * normal_velocity).subs(quantities, simultaneous=True)
-    kept = {s: s for s in place.arguments}
-    rules = {s: value for s, value in to_groups().items() if s not in kept and s.name not in _MOVED}
+    arguments = {s: s for s in place.arguments}
+    rules = {s: value for s, value in to_groups().items() if s not in arguments and s.name not in _MOVED}
     for _ in range(3):
         expression = expression.subs(rules, simultaneous=True)
     expression = freed(expression)

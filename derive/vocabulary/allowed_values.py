@@ -35,8 +35,8 @@ class Bounds:
             result = cls(f"from {span[1]} to {span[2]}", float(span[1]), float(span[2]))
         else:
             result = cls(words)
-            for part in words.split(" and "):
-                side = _SIDE.fullmatch(part.strip())
+            for clause in words.split(" and "):
+                side = _SIDE.fullmatch(clause.strip())
                 if side is None:
                     raise BoundsError(text)
                 value, is_open = float(side[2]), len(side[1]) == 1

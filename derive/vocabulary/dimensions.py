@@ -91,12 +91,12 @@ def dimension_of(
             return _common(node, node.args)
         if isinstance(node, sp.Mul):
             parts = [walk(factor) for factor in node.args]
-            known = [part for part in parts if part is not None]
-            return prod(known, start=ONE) if len(known) == len(parts) else None
+            dimensions = [dimension for dimension in parts if dimension is not None]
+            return prod(dimensions, start=ONE) if len(dimensions) == len(parts) else None
         if isinstance(node, sp.Pow):
             return _power(node)
         if isinstance(node, sp.Derivative):
-            top, below = walk(node.expr), [(walk(each) or ONE, int(count)) for each, count in node.variable_count]
+            top, below = walk(node.expr), [(walk(symbol) or ONE, int(count)) for symbol, count in node.variable_count]
             return top and prod((bottom**-count for bottom, count in below), start=top)
         if isinstance(node, sp.Abs):
             return walk(node.args[0])
@@ -117,12 +117,12 @@ def dimension_of(
         raise DimensionError(f"no dimension is known for {node} (a {type(node).__name__})")
 
     def _common(whole: sp.Basic, terms: list[sp.Basic] | tuple[sp.Basic, ...]) -> Dimension | None:
-        known = [(term, dimension) for term in terms if (dimension := walk(term)) is not None]
-        for term, dimension in known[1:]:
-            if dimension != known[0][1]:
-                beside = f"{known[0][0]} of dimension {known[0][1]}"
+        pairs = [(term, dimension) for term in terms if (dimension := walk(term)) is not None]
+        for term, dimension in pairs[1:]:
+            if dimension != pairs[0][1]:
+                beside = f"{pairs[0][0]} of dimension {pairs[0][1]}"
                 raise DimensionError(f"term {term} has dimension {dimension} beside {beside} in {whole}")
-        return known[0][1] if known else None
+        return pairs[0][1] if pairs else None
 
     def _power(node: sp.Pow) -> Dimension | None:
         base = walk(node.base)
@@ -177,8 +177,8 @@ def dimension_of_unit(text: str, numbers: Mapping[str, sp.Symbol] = MappingProxy
     if not isinstance(text, str) or not text.strip():
         raise UnitError("is not a unit")
     result = ONE
-    for place, part in enumerate(text.replace("**", "^").replace("*", " ").split("/")):
-        factors = part.split()
+    for place, group in enumerate(text.replace("**", "^").replace("*", " ").split("/")):
+        factors = group.split()
         if not factors or (place and len(factors) > 1):
             raise UnitError('is not a unit (one factor behind each "/")')
         for factor in factors:

@@ -31,14 +31,14 @@ Plain numbers are SI and radians. Text carries its unit: `"75 deg"`.
 
 def pages() -> dict[str, str]:
     """The list of groups, and a page each."""
-    found = {}
+    texts = {}
     for title, names in GROUPS.items():
         directives = "\n\n".join(_directive("wetdoublet", name) for name in names)
-        found[f"reference/api/{title.partition(' ')[0].lower()}.md"] = _page(title, directives)
+        texts[f"reference/api/{title.partition(' ')[0].lower()}.md"] = _page(title, directives)
     writers = "\n\n".join(_directive("wetdoublet.derive.user", name) for name in ("quantity", "let", "law", "event"))
-    found["reference/api/models.md"] = _page("For model files", writers)
-    listed = "\n".join(Path(name).stem for name in found)
-    return found | {"reference/api/index.md": f"{INDEX}\n```{{toctree}}\n{listed}\n```\n"}
+    texts["reference/api/models.md"] = _page("For model files", writers)
+    listed = "\n".join(Path(name).stem for name in texts)
+    return texts | {"reference/api/index.md": f"{INDEX}\n```{{toctree}}\n{listed}\n```\n"}
 
 
 def _page(title: str, directives: str) -> str:

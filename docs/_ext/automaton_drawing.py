@@ -102,7 +102,7 @@ def _target(event: Event, source: Mode | str) -> Mode | str:
 def _label(box: Mode | str) -> str:
     if isinstance(box, str):
         return box
-    names = {(each.name, value): name for each in automaton.COMPONENTS for value, name in each.values}
+    names = {(component.name, value): name for component in automaton.COMPONENTS for value, name in component.values}
     state = dict(box)
     if state["resting"]:
         return "resting contact"

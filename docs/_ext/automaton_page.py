@@ -28,45 +28,45 @@ def page() -> str:
     lines = [_INTRODUCTION, "", "## Modes", ""]
     lines += _table(
         ("component", "values", "meaning"),
-        [(each.name, ", ".join(name for _, name in each.values), each.meaning) for each in automaton.COMPONENTS],
+        [(field.name, ", ".join(name for _, name in field.values), field.meaning) for field in automaton.COMPONENTS],
     )
     lines += ["", _VOID, "", "## Events", ""]
     lines += _table(
         ("event", "guard", "watched while", "reported as", "effect"),
         [
-            (f"`{each.name}`", _guard(each), watched(each), _either(each.words), "; ".join(each.actions))
-            for each in automaton.EVENTS
+            (f"`{event.name}`", _guard(event), watched(event), _either(event.words), "; ".join(event.actions))
+            for event in automaton.EVENTS
         ],
     )
     lines += ["", _REPORTED, "", "The actions of the effects:", ""]
-    lines += _table(("action", "meaning"), [(each.name, each.meaning) for each in automaton.ACTIONS])
+    lines += _table(("action", "meaning"), [(action.name, action.meaning) for action in automaton.ACTIONS])
     lines += ["", "## Words", ""]
     lines += _table(("reported as", "number", "meaning"),
-                    [(f"`{each.word}`", str(k), each.meaning) for k, each in enumerate(automaton.WORDS)])  # fmt: skip
+                    [(f"`{word.word}`", str(k), word.meaning) for k, word in enumerate(automaton.WORDS)])  # fmt: skip
     lines += ["", "## Rules", "", "Decisions that are not taken at a zero of an event function:", ""]
     lines += _table(
         ("rule", "if", "then", "reported as"),
         [
             (
-                each.name,
-                "; ".join([each.condition, *(f"`{test}`" for *_, test in each.tests)]),
-                each.effect,
-                _either(each.words),
+                rule.name,
+                "; ".join([rule.condition, *(f"`{test}`" for *_, test in rule.tests)]),
+                rule.effect,
+                _either(rule.words),
             )
-            for each in automaton.RULES
+            for rule in automaton.RULES
         ],
     )
     lines += ["", "A collision also ends where a [certificate](../explanation/certificates.md) excludes separation;"]
     lines += ["the stick is then `certified`."]
     lines += ["", "## Outcomes", ""]
-    outcomes = [(f"`{each.word}`", str(k), each.condition) for k, each in enumerate(automaton.OUTCOMES)]
+    outcomes = [(f"`{outcome.word}`", str(k), outcome.condition) for k, outcome in enumerate(automaton.OUTCOMES)]
     lines += _table(("outcome", "number", "condition"), outcomes)
     lines += ["", "## Status returned by the kernel", ""]
     lines += _table(
         ("status", "number", "meaning", "outcome valid"),
         [
-            (f"`{each.name}`", str(k), each.meaning, "yes" if each.answers else "no")
-            for k, each in enumerate(automaton.STATUSES)
+            (f"`{status.name}`", str(k), status.meaning, "yes" if status.answers else "no")
+            for k, status in enumerate(automaton.STATUSES)
         ],
     )
     lines += ["", "## Constants", ""]

@@ -21,12 +21,12 @@ class WrittenPictures:
         from sphinx_gallery.scrapers import figure_rst
 
         folder = Path(block_vars["src_file"]).parent
-        shown = []
+        targets = []
         for picture in sorted(folder.glob("*.png"), key=lambda path: path.stat().st_mtime):
             target = next(block_vars["image_path_iterator"])
             shutil.move(picture, target)
-            shown.append(target)
+            targets.append(target)
         for pattern in LEFT_BEHIND:
             for path in folder.glob(pattern):
                 path.unlink()
-        return figure_rst(shown, gallery_conf["src_dir"])
+        return figure_rst(targets, gallery_conf["src_dir"])

@@ -49,10 +49,10 @@ def pages() -> dict[str, str]:
         for law in LAWS[name].values():
             lines += [f"[`{law.name}`]({name}.md#{law.name})", f": {law.meaning}", ""]
     lines += ["```{toctree}", ":hidden:", "", *SLOTS, "```", ""]
-    found = {"reference/laws/index.md": "\n".join(lines)}
+    texts = {"reference/laws/index.md": "\n".join(lines)}
     longest = max(len(LAWS[name]) for name in SLOTS)  # one theory has a law of every slot
     theories = [theory({name: [*LAWS[name]][k % len(LAWS[name])] for name in SLOTS}) for k in range(longest)]
-    return found | {f"reference/laws/{name}.md": "\n".join(_page(name, slot, theories)) for name, slot in SLOTS.items()}
+    return texts | {f"reference/laws/{name}.md": "\n".join(_page(name, slot, theories)) for name, slot in SLOTS.items()}
 
 
 def _chosen(slot: Slot) -> str:

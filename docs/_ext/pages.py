@@ -32,7 +32,7 @@ def write(_app: Any = None, _config: Any = None) -> None:
 
 def required_arguments(_app: Any, context: Any, lines: list[str]) -> None:
     """Say of a command's arguments which are required: click is told of none, so that wrong options are named first."""
-    names = iter(each.human_readable_name for each in context.command.params if each.param_type_name == "argument")
+    names = iter(param.human_readable_name for param in context.command.params if param.param_type_name == "argument")
     for k, line in enumerate(lines):
         if line.strip().startswith("Optional argument") and not next(names).startswith("["):
             lines[k] = line.replace("Optional", "Required")

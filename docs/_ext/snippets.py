@@ -63,10 +63,10 @@ def pages() -> list[Path]:
 
 def blocks(page: Path) -> list[tuple[str, str]]:
     """Language and text of every block of code to be run."""
-    found = re.findall(
+    matches = re.findall(
         r"^```(python|console|sh)\n(.*?)^```", page.read_text(encoding="utf-8"), re.DOTALL | re.MULTILINE
     )
-    return [(language, text) for language, text in found if "from wetdoublet.derive.user import" not in text]
+    return [(language, text) for language, text in matches if "from wetdoublet.derive.user import" not in text]
 
 
 def commands(text: str, language: str) -> list[str]:

@@ -25,8 +25,8 @@ def steel_spheres() -> str:
     """24 impacts of steel spheres on strings, as the CSV file that `fit` reads."""
     scene, random = Scene.load("pendulum").with_entries(TRUTH), np.random.default_rng(2012)
     grid = np.meshgrid(STOKES / Scene.load("pendulum").stokes_per_speed, np.radians(DEGREES))
-    speed, angle = (each.ravel().round(4) for each in grid)
-    found = collide_many(
+    speed, angle = (column.ravel().round(4) for column in grid)
+    data = collide_many(
         scene,
         speed=speed * (1 + SPEED_SD * random.standard_normal(speed.size)),
         angle=np.abs(angle + ANGLE_SD * random.standard_normal(speed.size)),
@@ -39,8 +39,8 @@ def steel_spheres() -> str:
     writer.writerow(
         ["speed [m/s]", "speed_sd [%]", "angle [deg]", "angle_sd [deg]", "outcome", "restitution", "restitution_sd"]
     )
-    for k, code in enumerate(found.outcome.values.tolist()):
-        seen = ["", ""] if code == 0 else [f"{max(float(found.restitution[k]) + noise[k], 0):.3f}", f"{RESTITUTION_SD}"]
+    for k, code in enumerate(data.outcome.values.tolist()):
+        seen = ["", ""] if code == 0 else [f"{max(float(data.restitution[k]) + noise[k], 0):.3f}", f"{RESTITUTION_SD}"]
         row = [f"{speed[k]:.4f}", f"{100 * SPEED_SD:g}", f"{math.degrees(angle[k]):.0f}", "1", words[code]]
         writer.writerow(row + seen)
     return file.getvalue()
@@ -60,5 +60,5 @@ def flow_curve() -> str:
 FILES = {"synthetic-steel-spheres.csv": steel_spheres, "synthetic-flow-curve.csv": flow_curve}
 
 if __name__ == "__main__":
-    for name, made in FILES.items():
-        (HERE / name).write_text(made(), encoding="utf-8")
+    for name, content in FILES.items():
+        (HERE / name).write_text(content(), encoding="utf-8")

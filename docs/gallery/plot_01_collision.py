@@ -7,9 +7,9 @@ Two granules meet at 75 degrees. They stick, turn as a doublet, and separate fas
 
 from wetdoublet import collide
 
-one = collide("granulation", stokes=0.02, angle="75 deg", trajectory=True)
-print(one.outcome, "e_n =", round(one.restitution, 3))
-for event in one.events:
+collision = collide("granulation", stokes=0.02, angle="75 deg", trajectory=True)
+print(collision.outcome, "e_n =", round(collision.restitution, 3))
+for event in collision.events:
     print(f"{1e6 * event.time:8.2f} us  {event.kind}")
 
-one.plot("collision.png")
+collision.plot("collision.png")

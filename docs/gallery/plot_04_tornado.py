@@ -7,9 +7,9 @@ By how many per cent does the restitution change when a property changes by one 
 
 from wetdoublet import sensitivities
 
-found = sensitivities("granulation", of=["restitution", "contact_time"])
-strongest = max(found.elasticity["restitution"].items(), key=lambda item: abs(item[1] or 0))
+gradients = sensitivities("granulation", of=["restitution", "contact_time"])
+strongest = max(gradients.elasticity["restitution"].items(), key=lambda item: abs(item[1] or 0))
 print("strongest on e_n:", *strongest)
 
-figure = found.plot()
+figure = gradients.plot()
 figure.savefig("tornado.png", dpi=120)

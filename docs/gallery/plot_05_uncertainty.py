@@ -10,13 +10,13 @@ import numpy as np
 from wetdoublet import band
 
 uncertain = {"liquid.viscosity": "5 %", "impact.angle": "1 deg"}
-found = band("granulation", uncertain, "impact.stokes", np.geomspace(0.015, 0.1, 30))
-stokes, e_n = found["impact.stokes"], found.restitution
+data = band("granulation", uncertain, "impact.stokes", np.geomspace(0.015, 0.1, 30))
+stokes, e_n = data["impact.stokes"], data.restitution
 
 figure, axes = plt.subplots(layout="constrained")
-axes.fill_between(stokes, found.low, found.high, color="#bcd3e6", label="95 % of a sample")
+axes.fill_between(stokes, data.low, data.high, color="#bcd3e6", label="95 % of a sample")
 for sign in (-2, 2):
-    axes.plot(stokes, e_n + sign * found.first_order, "--", color="#c1554a", label="first order" if sign > 0 else None)
+    axes.plot(stokes, e_n + sign * data.first_order, "--", color="#c1554a", label="first order" if sign > 0 else None)
 axes.plot(stokes, e_n, color="#222222", label="$e_n$")
 axes.set(xscale="log", xlabel="Stokes number", ylabel="normal restitution", ylim=(-0.05, 1.1))
 axes.legend(frameon=False, loc="upper left")

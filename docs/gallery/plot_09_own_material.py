@@ -15,8 +15,8 @@ angles = np.radians(np.linspace(0, 75, 11))
 figure, axes = plt.subplots(layout="constrained")
 for viscosity in ("7 mPa s", "40 mPa s", "100 mPa s"):
     solution = scene.with_entries({"liquid.viscosity": viscosity})
-    found = wd.boundary(solution, angle=angles)
-    highest = [found.speed_at(changes[0].stokes, angle) for angle, changes in zip(angles, found.changes)]
+    lines = wd.boundary(solution, angle=angles)
+    highest = [lines.speed_at(changes[0].stokes, angle) for angle, changes in zip(angles, lines.changes)]
     axes.plot(np.degrees(angles), highest, "o-", ms=4, label=viscosity)
 axes.set(xlabel="impact angle (deg)", ylabel="relative speed up to which they stick (m/s)", ylim=(0, None))
 axes.legend(title="viscosity", frameon=False)

@@ -25,5 +25,5 @@ for k, (axes, spin) in enumerate(zip(panels, spins, strict=True)):
     axes.pcolormesh(degrees, stokes, outcome.transpose("stokes", "angle"), cmap=shades, vmin=0, vmax=2)
     axes.set(yscale="log", xlabel="impact angle (deg)", title=f"spin {spin:g} rad/s")
 panels[0].set_ylabel("Stokes number")
-figure.legend([Patch(color=each) for each in colours.values()], list(colours), loc="outside upper center", ncols=3)
+figure.legend([Patch(color=colour) for colour in colours.values()], list(colours), loc="outside upper center", ncols=3)
 figure.savefig("spin.png", dpi=120)

@@ -9,6 +9,6 @@ left after ten halvings is undecided and black: a sliver along the boundaries, w
 import numpy as np
 from wetdoublet import prove_map
 
-found = prove_map("granulation", stokes=np.geomspace(0.08, 0.13, 3), angle=np.radians([31, 36]), depth=10)
-print(found)
-found.plot("proved_map.png")
+proved = prove_map("granulation", stokes=np.geomspace(0.08, 0.13, 3), angle=np.radians([31, 36]), depth=10)
+print(proved)
+proved.plot("proved_map.png")

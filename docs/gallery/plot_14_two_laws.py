@@ -20,14 +20,14 @@ fits = {
     law: fit(scene.with_entries({"bridge.law": law}), data, "liquid.viscosity", starts=0)
     for law in ("mikami", "constant")
 }
-for law, found in fits.items():
-    print(f"{law}: log-likelihood {found.log_likelihood:.1f}, {found.estimates['liquid.viscosity'].value:.3f} Pa s")
+for law, result in fits.items():
+    print(f"{law}: log-likelihood {result.log_likelihood:.1f}, {result.estimates['liquid.viscosity'].value:.3f} Pa s")
 
 figure, axes = plt.subplots(layout="constrained")
-for law, found in fits.items():
+for law, result in fits.items():
     many = np.geomspace(0.5, 6.0, 200)
-    curve = collide_many(found.scene, speed=many, angle=angle[-1]).restitution
-    axes.plot(many, curve, label=f"{law}, $\\ln L$ = {found.log_likelihood:.1f}")
+    curve = collide_many(result.scene, speed=many, angle=angle[-1]).restitution
+    axes.plot(many, curve, label=f"{law}, $\\ln L$ = {result.log_likelihood:.1f}")
 axes.errorbar(speed[4:], data["restitution"][4:], sigma[4:], fmt="k.", label="data at 75 deg")
 axes.set(xlabel="normal speed (m/s)", ylabel="normal restitution")
 axes.legend(frameon=False)

@@ -26,8 +26,8 @@ axes["a"].legend(frameon=False)
 
 separate, bounce = (change.stokes for change in wd.boundary(scene, angle=angle).changes[0])
 above = np.geomspace(1e-6, 10, 100)
-found = wd.collide_many(scene, stokes=separate * (1 + above), angle=angle, of=["contact_time"])
-axes["b"].loglog(above, 1e3 * found.contact_time)
+data = wd.collide_many(scene, stokes=separate * (1 + above), angle=angle, of=["contact_time"])
+axes["b"].loglog(above, 1e3 * data.contact_time)
 axes["b"].axvline(bounce / separate - 1, color="0.5", linestyle=":")
 axes["b"].annotate("bounces", (2.5, 0.006), ha="right")
 axes["b"].set(xlabel="St/St* - 1", ylabel="contact time (ms)", title="2: separation takes its time")
@@ -35,18 +35,18 @@ axes["b"].set(xlabel="St/St* - 1", ylabel="contact time (ms)", title="2: separat
 stokes = np.sort(
     np.concatenate([np.geomspace(0.01, 0.5, 300), *(at * (1 + np.array([-1e-6, 1e-6])) for at in (separate, bounce))])
 )
-found = wd.collide_many(scene, stokes=stokes, angle=angle)
+data = wd.collide_many(scene, stokes=stokes, angle=angle)
 for outcome, label in enumerate(("stick", "stick-rotate-separate", "bounce")):
-    axes["c"].semilogx(stokes, found.restitution.where(found.outcome == outcome), label=label)
+    axes["c"].semilogx(stokes, data.restitution.where(data.outcome == outcome), label=label)
 axes["c"].set(xlabel="Stokes number", ylabel="e_n", title="5: e_n jumps twice, 60 deg")
 axes["c"].legend(frameon=False)
 
 for spin in (0.0, -2e4):
     spinning = scene.with_entries({"impact.spin": spin})
     stokes = np.geomspace(0.006, 0.3, 300)
-    found = wd.collide_many(spinning, stokes=stokes, angle=angle, of=["tangential_restitution"])
-    axes["d"].semilogx(stokes, found.tangential_restitution, label=f"spin {spin:g} rad/s")
-    low, high = stokes[found.outcome == 0][[0, -1]]
+    data = wd.collide_many(spinning, stokes=stokes, angle=angle, of=["tangential_restitution"])
+    axes["d"].semilogx(stokes, data.tangential_restitution, label=f"spin {spin:g} rad/s")
+    low, high = stokes[data.outcome == 0][[0, -1]]
     axes["d"].axvspan(low, high, color=axes["d"].lines[-1].get_color(), alpha=0.15)
 axes["d"].set(xlabel="Stokes number", ylabel="e_t", title="6: backspin: faster can stick (shaded)", ylim=(-4, 2))
 axes["d"].legend(frameon=False, loc="lower right")

@@ -75,9 +75,9 @@ def draw_cooling(rows: np.ndarray, path: Path) -> None:
     )  # rows between which some 300 collisions lie
     total = np.diff(count[marks])
     middle = np.sqrt(milliseconds[marks[1:]] * np.maximum(milliseconds[marks[:-1]], milliseconds[1]))
-    for name, said in (("stick", "stick"), ("rotate", "stick, rotate, separate"), ("bounce", "bounce")):
+    for name, words in (("stick", "stick"), ("rotate", "stick, rotate, separate"), ("bounce", "bounce")):
         ink, style = (INK["doublet"], ":") if name == "stick" else (INK[name], "-")
-        below.semilogx(middle, np.diff(rows[name][marks]) / total, style, label=f"collisions: {said}", color=ink)
+        below.semilogx(middle, np.diff(rows[name][marks]) / total, style, label=f"collisions: {words}", color=ink)
     below.set_ylim(0, 1)
     below.set_xlabel("time (ms)")
     below.set_ylabel("share")

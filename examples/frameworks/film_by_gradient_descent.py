@@ -24,8 +24,8 @@ def calibrate(steps: int) -> tuple[np.ndarray, list[float]]:
     law = wetdoublet.jax.law("granulation", undifferentiable="zero")  # a stick's restitution, 0, counts in the loss
 
     def restitution(logarithms: jax.Array) -> jax.Array:
-        found: jax.Array = law(speed, angle, dict(zip(NAMES, jnp.exp(logarithms))))
-        return found
+        result: jax.Array = law(speed, angle, dict(zip(NAMES, jnp.exp(logarithms))))
+        return result
 
     measured = restitution(jnp.log(TRUTH)) + random.normal(0.0, 1e-3, 40)
     step = jax.jit(jax.value_and_grad(lambda x: ((restitution(x) - measured) ** 2).mean()))
@@ -41,7 +41,7 @@ def calibrate(steps: int) -> tuple[np.ndarray, list[float]]:
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--steps", type=int, default=300)
-    found, losses = calibrate(parser.parse_args().steps)
+    estimates, losses = calibrate(parser.parse_args().steps)
     print(f"mean square error of e_n: {losses[0]:.2e} at first, {losses[-1]:.2e} at last")
-    for name, value, true in zip(NAMES, found, TRUTH):
+    for name, value, true in zip(NAMES, estimates, TRUTH):
         print(f"{name}: {value:.4g} (truth {true:.4g})")

@@ -54,13 +54,13 @@ def collide(law: str, parameters: dict[str, Any], pair: Pair, end: float, longes
     inertia = 0.4 * 2 * pair.mass * radius**2  # of one sphere
     begin = [start, -pair.speed, pair.tangential / (2 * radius + start), 0.0, *chosen.added]
     scale = np.array([start, pair.speed, pair.speed / radius, pair.speed / radius, *(1.0 for _ in chosen.added)])
-    found = solve_ivp(
+    solution = solve_ivp(
         motion, (0, longest), begin, "Radau", events=apart, rtol=1e-8, atol=1e-10 * scale, max_step=longest / 50
     )
-    if not found.success:
-        raise SystemExit(f"{law} as differential equations: {found.message}")
-    x, u, omega = (float(each) for each in found.y[:3, -1])
-    return (u, (2 * radius + x) * omega) if found.t_events[0].size else None
+    if not solution.success:
+        raise SystemExit(f"{law} as differential equations: {solution.message}")
+    x, u, omega = (float(number) for number in solution.y[:3, -1])
+    return (u, (2 * radius + x) * omega) if solution.t_events[0].size else None
 
 
 def yade_lubrication(p: dict[str, Any], mass: float) -> Law:  # noqa: ARG001 -- as the other

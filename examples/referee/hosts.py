@@ -55,12 +55,12 @@ def run(host: str, job: dict[str, Any]) -> dict[str, Any]:
         result = path.with_suffix(".out.json")
         if not result.is_file():
             raise SystemExit(f"{host} failed:\n{(done.stderr or done.stdout)[-2000:]}")
-        found: dict[str, Any] = json.loads(result.read_text())
-        return found
+        answer: dict[str, Any] = json.loads(result.read_text())
+        return answer
 
 
 def _environment(python: str) -> dict[str, str]:
     """The environment with the libraries of that Python: MPI of the wheel `mpich` lies there."""
     beside = str(Path(python).parent.parent / "lib")
-    known = os.environ.get("LD_LIBRARY_PATH")
-    return {**os.environ, "LD_LIBRARY_PATH": beside + (os.pathsep + known if known else "")}
+    inherited = os.environ.get("LD_LIBRARY_PATH")
+    return {**os.environ, "LD_LIBRARY_PATH": beside + (os.pathsep + inherited if inherited else "")}

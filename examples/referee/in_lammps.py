@@ -77,7 +77,7 @@ run {int(job["longest"] / dt) + 1}
     smallest = min(host.extract_fix("gaps", 0, 1, i) for i in range(count))
     order = np.argsort(host.numpy.extract_atom("id")[:2])
     x, v, spin = (host.numpy.extract_atom(name)[:2][order] for name in ("x", "v", "omega"))
-    found = {
+    state = {
         "position": (x[1] - x[0]).tolist(),
         "velocity": (v[1] - v[0]).tolist(),
         "spin": float(spin[0][2]),
@@ -89,15 +89,15 @@ run {int(job["longest"] / dt) + 1}
     }
     version = host.version()
     host.close()
-    return version, found
+    return version, state
 
 
 def main() -> None:
     """Run the job."""
     path = Path(os.environ["REFEREE_JOB"])
     job = json.loads(path.read_text())
-    found = [collide(job, *each) for each in job["collisions"]]
-    answer = {"version": f"LAMMPS {found[0][0]}", "found": [each for _, each in found]}
+    answers = [collide(job, *impact) for impact in job["collisions"]]
+    answer = {"version": f"LAMMPS {answers[0][0]}", "found": [state for _, state in answers]}
     path.with_suffix(".out.json").write_text(json.dumps(answer))
 
 

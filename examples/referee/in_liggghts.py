@@ -48,8 +48,8 @@ def records(path: Path) -> Iterator[tuple[list[float], list[float], float, float
     """(position, velocity, spins) of the pair, record by record."""
     lines = path.read_text().splitlines()
     for start in range(0, len(lines), 11):  # nine lines of head, two of atoms
-        one, two = sorted([float(word) for word in line.split()] for line in lines[start + 9 : start + 11])
-        yield [b - a for a, b in zip(one[1:4], two[1:4])], [b - a for a, b in zip(one[4:7], two[4:7])], one[7], two[7]
+        low, top = sorted([float(word) for word in line.split()] for line in lines[start + 9 : start + 11])
+        yield [b - a for a, b in zip(low[1:4], top[1:4])], [b - a for a, b in zip(low[4:7], top[4:7])], low[7], top[7]
 
 
 def collide(job: dict[str, Any], speed: float, tangential: float, dt: float) -> tuple[str, dict[str, Any]]:
@@ -106,8 +106,8 @@ def main() -> None:
     """Run the job."""
     path = Path(os.environ["REFEREE_JOB"])
     job = json.loads(path.read_text())
-    found = [collide(job, *each) for each in job["collisions"]]
-    answer = {"version": found[0][0], "found": [each for _, each in found]}
+    answers = [collide(job, *impact) for impact in job["collisions"]]
+    answer = {"version": answers[0][0], "found": [state for _, state in answers]}
     path.with_suffix(".out.json").write_text(json.dumps(answer))
 
 

@@ -68,12 +68,12 @@ def collide(job: dict[str, Any], speed: float, tangential: float, dt: float) -> 
         NewtonIntegrator(damping=0),
     ]
     world.dt = dt
-    one, two = world.bodies[0].state, world.bodies[1].state
+    first, two = world.bodies[0].state, world.bodies[1].state
     touched = False
     smallest = job["start"]
     while True:
         world.step()
-        apart = two.pos - one.pos
+        apart = two.pos - first.pos
         gap = apart.norm() - 2 * law["radius"]
         if gap < smallest:
             smallest = gap
@@ -82,11 +82,11 @@ def collide(job: dict[str, Any], speed: float, tangential: float, dt: float) -> 
             touched = bool(getattr(world.interactions[0, 1].phys, "contact", False))
         if gap > job["end"] or world.time > job["longest"]:
             break
-    moving = two.vel - one.vel
+    moving = two.vel - first.vel
     return {
         "position": list(apart),
         "velocity": list(moving),
-        "spin": one.angVel[2],
+        "spin": first.angVel[2],
         "partner_spin": two.angVel[2],
         "time": world.time,
         "smallest_gap": smallest,
@@ -100,8 +100,8 @@ def main() -> None:
 
     path = Path(os.environ["REFEREE_JOB"])
     job = json.loads(path.read_text())
-    found = [collide(job, *each) for each in job["collisions"]]
-    answer = {"version": f"YADE {config.version}", "found": found}
+    states = [collide(job, *impact) for impact in job["collisions"]]
+    answer = {"version": f"YADE {config.version}", "found": states}
     path.with_suffix(".out.json").write_text(json.dumps(answer))
 
 

@@ -62,8 +62,8 @@ def rebound(ratio: float, most: float) -> float:
         return float(y[0]) if t > 1e-3 else 1.0
 
     apart.terminal = True  # type: ignore[attr-defined]  # as scipy asks
-    found = solve_ivp(motion, (0, 40), [0.0, 1.0], events=apart, rtol=1e-6, atol=1e-9)
-    return float(-found.y[1, -1]) if found.t_events[0].size else 0.0
+    solution = solve_ivp(motion, (0, 40), [0.0, 1.0], events=apart, rtol=1e-6, atol=1e-9)
+    return float(-solution.y[1, -1]) if solution.t_events[0].size else 0.0
 
 
 FORMS = {"exponential": exponential, "linear": linear, "liggghts": liggghts}
@@ -92,25 +92,25 @@ def fit(
     """
     law = FORMS[form]
     angles = np.atleast_1d(angles)
-    St, turned = (each.ravel() for each in np.meshgrid(np.geomspace(*stokes, count), angles))
+    St, turned = (axis.ravel() for axis in np.meshgrid(np.geomspace(*stokes, count), angles))
     ours = collide_many(scene, stokes=St, angle=turned).restitution.values
 
     def best(log_critical: float) -> tuple[float, float]:
         ratio = math.exp(log_critical) / St
         if law is liggghts:  # not linear in e_max
-            found = minimize_scalar(
+            optimum = minimize_scalar(
                 lambda e: np.sum((liggghts(ratio, e) - ours) ** 2), bounds=(0.3, 1), method="bounded"
             )
-            return float(found.fun), float(found.x)
+            return float(optimum.fun), float(optimum.x)
         shape = law(ratio, 1.0)
         most = min(1.0, float(shape @ ours / max(shape @ shape, 1e-300)))
         return float(np.sum((most * shape - ours) ** 2)), most
 
     tried = np.linspace(math.log(stokes[0] / 10), math.log(stokes[1]), 40 if law is liggghts else 200)
-    start = int(np.argmin([best(each)[0] for each in tried]))
+    start = int(np.argmin([best(guess)[0] for guess in tried]))
     bounds = (tried[max(start - 1, 0)], tried[min(start + 1, len(tried) - 1)])
-    found = minimize_scalar(lambda log: best(log)[0], bounds=bounds, method="bounded", options={"xatol": 1e-6})
-    critical, most = math.exp(found.x), best(found.x)[1]
+    optimum = minimize_scalar(lambda log: best(log)[0], bounds=bounds, method="bounded", options={"xatol": 1e-6})
+    critical, most = math.exp(optimum.x), best(optimum.x)[1]
 
     rng = np.random.default_rng(17)
     St = np.exp(rng.uniform(math.log(stokes[0]), math.log(stokes[1]), attack))
@@ -127,10 +127,10 @@ def main() -> None:
     parser.add_argument("scene", help="a scene file or a preset")
     parser.add_argument("--stokes", default="0.05:2", help="first:last")
     parser.add_argument("--angle", default="0", help="in degrees: one, or several with commas, fitted together")
-    said = parser.parse_args()
-    scene = Scene.load(said.scene)
-    first, last = (float(each) for each in said.stokes.split(":"))
-    angles = np.radians([float(each) for each in said.angle.split(",")])
+    args = parser.parse_args()
+    scene = Scene.load(args.scene)
+    first, last = (float(end) for end in args.stokes.split(":"))
+    angles = np.radians([float(degrees) for degrees in args.angle.split(",")])
     print("| form | CriticalStokes | MaximumRestitution | rms error | largest error | at St | at angle |")
     print("|---|---|---|---|---|---|---|")
     for form in FORMS:

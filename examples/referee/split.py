@@ -96,20 +96,20 @@ def referee(
         radius = 2 * scene.reduced_radius
         compared = max(words.end, scene.rupture_gap)
         impact = Impact(speed, speed * math.tan(angle) * (1 + film / (2 * radius)), radius, compared)
-        ours = [_ours(each, i, impact) for each in chain]
-        times = [float(each["contact_time"][i]) for each in chain]
+        ours = [_ours(link, i, impact) for link in chain]
+        times = [float(link["contact_time"][i]) for link in chain]
         longest = max(20 * film / speed, *(3 * t for t in times if t > 0), 0.0)
-        collisions = [[impact.speed, impact.tangential, dt / part] for part in PARTS]
+        collisions = [[impact.speed, impact.tangential, dt / divisor] for divisor in PARTS]
         job = {"law": law, "parameters": words.parameters, "start": film, "end": words.end, "longest": longest}
         answer = hosts.run(host, job | {"collisions": collisions})
         version = answer["version"]
-        coarse, finer, finest = (_host(each, words, impact) for each in answer["found"])
+        coarse, finer, finest = (_host(state, words, impact) for state in answer["found"])
         limit = _limit(law, job, scene.reduced_mass, impact) if exactly else _extrapolated(finer, finest)
         row: dict[str, Any] = {"stokes": St, "angle_deg": math.degrees(angle), "speed": speed}
         row |= {"outcome_ours": ours[0].outcome, "outcome_host": coarse.outcome, "outcome_finest": finest.outcome}
         for name in ("e_n", "e_t"):
-            mine = [getattr(each, name) for each in ours]
-            at_dt, smallest, last = (getattr(each, name) for each in (coarse, finest, limit))
+            mine = [getattr(result, name) for result in ours]
+            at_dt, smallest, last = (getattr(result, name) for result in (coarse, finest, limit))
             row |= {f"{name}_ours": mine[0], f"{name}_host": at_dt, f"{name}_limit": last}
             row |= {f"{name}: left at dt/4": smallest - last, f"{name}: time step": at_dt - last}
             row |= {f"{name}: {term}": b - a for term, a, b in zip(terms[1:-1], mine, mine[1:])}
@@ -125,43 +125,43 @@ def _chain(
     done, now = [], scene
     for name, change in [("the scene", {}), *changes]:
         now = translate.changed(now, change) if change else now
-        found = collide_many(now, speed=speeds, angle=angles, of=OF)
-        failed = [reason for reason in found["reason"].values if reason]
+        data = collide_many(now, speed=speeds, angle=angles, of=OF)
+        failed = [reason for reason in data["reason"].values if reason]
         if failed:
             raise SystemExit(f"{name}: {failed[0]}")
-        done.append({"end": now.rupture_gap, **{key: found[key].values for key in OF}})
+        done.append({"end": now.rupture_gap, **{key: data[key].values for key in OF}})
     return done
 
 
-def _ours(found: dict[str, Any], i: int, impact: Impact) -> Result:
-    outcome = int(found["outcome"][i])
+def _ours(columns: dict[str, Any], i: int, impact: Impact) -> Result:
+    outcome = int(columns["outcome"][i])
     if outcome == 0:
         return STUCK
-    u = float(found["restitution"][i]) * impact.speed
-    w = float(found["tangential_restitution"][i]) * impact.tangential if impact.tangential else 0.0
-    return Result(OUTCOMES[outcome], *impact.restitutions(u, w, found["end"]))
+    u = float(columns["restitution"][i]) * impact.speed
+    w = float(columns["tangential_restitution"][i]) * impact.tangential if impact.tangential else 0.0
+    return Result(OUTCOMES[outcome], *impact.restitutions(u, w, columns["end"]))
 
 
-def _host(found: dict[str, Any], words: translate.Translation, impact: Impact) -> Result:
+def _host(state: dict[str, Any], words: translate.Translation, impact: Impact) -> Result:
     """Of the host's last state; a pair that has not separated in time counts as stuck."""
-    apart, moving = np.array(found["position"]), np.array(found["velocity"])
+    apart, moving = np.array(state["position"]), np.array(state["velocity"])
     if not (np.isfinite(apart).all() and np.isfinite(moving).all()):
         return Result("not a number", math.nan, math.nan)
     r = float(np.linalg.norm(apart))
     if r - 2 * impact.radius < words.end:
         return STUCK
     u, w = float(apart @ moving) / r, float(apart[0] * moving[1] - apart[1] * moving[0]) / r
-    outcome = OUTCOMES[2] if found["touched"] else OUTCOMES[1] if words.at_distance else "no contact"
+    outcome = OUTCOMES[2] if state["touched"] else OUTCOMES[1] if words.at_distance else "no contact"
     return Result(outcome, *impact.restitutions(u, w, r - 2 * impact.radius))
 
 
 def _limit(law: str, job: dict[str, Any], mass: float, impact: Impact) -> Result:
     """Of the host's law as differential equations."""
     pair = exact.Pair(impact.radius, mass, impact.speed, impact.tangential)
-    found = exact.collide(law, job["parameters"], pair, job["end"], job["longest"])
-    if found is None:
+    answer = exact.collide(law, job["parameters"], pair, job["end"], job["longest"])
+    if answer is None:
         return STUCK
-    return Result("", *impact.restitutions(*found, job["end"]))
+    return Result("", *impact.restitutions(*answer, job["end"]))
 
 
 def _extrapolated(finer: Result, finest: Result) -> Result:

@@ -307,8 +307,8 @@ def viscoelastic_damping(scene: Scene, common: dict[str, Any], speed: float) -> 
             return float(y[0]) if t > 0.1 else 1.0
 
         apart.terminal = True  # type: ignore[attr-defined]  # as scipy asks
-        found = solve_ivp(motion, (0, 200), [0.0, 1.0], events=apart, rtol=1e-9, atol=1e-12)
-        return float(-found.y[1, -1])
+        solution = solve_ivp(motion, (0, 200), [0.0, 1.0], events=apart, rtol=1e-9, atol=1e-12)
+        return float(-solution.y[1, -1])
 
     strength: float = brentq(lambda s: restitution(s) - target, 0.0, 30.0, xtol=1e-10)
     return strength * speed / float(depth * math.sqrt(scene.reduced_radius * depth))
@@ -318,7 +318,7 @@ def _solid(scene: Scene) -> tuple[dict[str, Any], list[str]]:
     """Spheres and their elasticity, and what had to be assumed."""
     check(scene)
     radius, mass = 2 * scene.reduced_radius, 2 * scene.reduced_mass
-    found: dict[str, Any] = {
+    sphere: dict[str, Any] = {
         "radius": radius,
         "density": mass / (4 / 3 * math.pi * radius**3),
         "friction": math.atan(scene.particles.friction or 0.0),
@@ -326,8 +326,8 @@ def _solid(scene: Scene) -> tuple[dict[str, Any], list[str]]:
         "poisson_ratio": scene.particles.poisson_ratio,
     }
     if scene.particles.youngs_modulus is not None:
-        return found, []
-    return found | GLASS, ["no elastic constants in the scene: 70 GPa and 0.2 of glass"]
+        return sphere, []
+    return sphere | GLASS, ["no elastic constants in the scene: 70 GPa and 0.2 of glass"]
 
 
 def _modulus(common: dict[str, Any]) -> float:

@@ -40,11 +40,11 @@ def main(host: Host, script: str) -> int:
     for stokes in STOKES:
         for degrees in ANGLES:
             speed, angle = stokes / scene.stokes_per_speed, float(np.radians(degrees))
-            found = collide(scene, speed=speed, angle=angle)
+            result = collide(scene, speed=speed, angle=angle)
             film = float(scene.material["film_thickness"])
-            time = 10 * film / speed if found.contact_time is None else found.contact_time
+            time = 10 * film / speed if result.contact_time is None else result.contact_time
             collisions.append([speed, angle, time / STEPS])
-            expected.append(found)
+            expected.append(result)
     with tempfile.TemporaryDirectory() as folder:
         exported(scene, Path(folder))
         job = Path(folder) / "job.json"
@@ -56,9 +56,9 @@ def main(host: Host, script: str) -> int:
         rows = json.loads(job.with_suffix(".out").read_text())
     words = ("stick", "stick-rotate-separate", "bounce")
     print(f"{'St':>6} {'angle':>6}  {'law':24} {'host':24} difference of e_n")
-    apart = [abs(one.restitution - row["restitution"]) for one, row in zip(expected, rows, strict=True)]
+    apart = [abs(collision.restitution - row["restitution"]) for collision, row in zip(expected, rows, strict=True)]
     places = [(stokes, degrees) for stokes in STOKES for degrees in ANGLES]
-    for (stokes, degrees), one, row, off in zip(places, expected, rows, apart, strict=True):
-        print(f"{stokes:6g} {degrees:6g}  {one.outcome:24} {words[row['outcome']]:24} {off:.1e}")
+    for (stokes, degrees), collision, row, off in zip(places, expected, rows, apart, strict=True):
+        print(f"{stokes:6g} {degrees:6g}  {collision.outcome:24} {words[row['outcome']]:24} {off:.1e}")
     print(f"largest difference {max(apart):.1e}; momenta off by {max(row['off'] for row in rows):.0e} of their size")
-    return int(any(words[row["outcome"]] != one.outcome for row, one in zip(rows, expected, strict=True)))
+    return int(any(words[row["outcome"]] != collision.outcome for row, collision in zip(rows, expected, strict=True)))

@@ -41,16 +41,16 @@ class Spheres:
     def step(self, dt: float) -> None:
         """Kick every pair in turn, in the other order at every other step; then drift."""
         self.turn = -self.turn
-        motion, found = Motion(), Force()
+        motion, force = Motion(), Force()
         for (i, j), history in list(self.pairs.items())[:: self.turn]:
             motion.position[:], motion.velocity[:] = self.x[j] - self.x[i], self.v[j] - self.v[i]
             motion.spins[0][:], motion.spins[1][:] = self.spin[i], self.spin[j]
-            self.law.force(motion, dt, history, found)
-            kick = dt / self.mass * np.array(found.force)
+            self.law.force(motion, dt, history, force)
+            kick = dt / self.mass * np.array(force.force)
             self.v[i] -= kick
             self.v[j] += kick
-            for one, k in ((i, 0), (j, 1)):
-                self.spin[one] += dt / self.inertia * np.array(found.torques[k])
+            for ball, k in ((i, 0), (j, 1)):
+                self.spin[ball] += dt / self.inertia * np.array(force.torques[k])
         self.x += dt * self.v
 
     def sums(self) -> tuple[np.ndarray, np.ndarray, float]:
@@ -74,7 +74,7 @@ def cradle(law: Law, speed: float, target_gap: float, parts: int = 20) -> int:
     """The outcome of a head-on cradle, an index of WORDS; `target_gap`: of the target beforehand, over the film."""
     film, apart = law.material.film_thickness, 4 * law.material.reduced_radius
     places = [0.0, apart + 1.01 * film, 2 * apart + (1.01 + target_gap) * film]
-    spheres = Spheres(law, [[each, 0, 0] for each in places], [[speed, 0, 0], [0, 0, 0], [0, 0, 0]])
+    spheres = Spheres(law, [[place, 0, 0] for place in places], [[speed, 0, 0], [0, 0, 0], [0, 0, 0]])
     spheres.law.join(target_gap * film, speed, spheres.pairs[1, 2])
     dt = film / speed / parts
     for k in range(600 * parts):
@@ -139,20 +139,20 @@ def main() -> None:
         for place, (factor, gap) in enumerate(rows):
             law.material.viscosity = factor * usual
             size = 6 * np.pi * law.material.viscosity * law.material.reduced_radius**2 / law.material.reduced_mass
-            found = np.array([cradle(law, each * size, gap) for each in stokes])
+            results = np.array([cradle(law, number * size, gap) for number in stokes])
             value = law.material.viscosity if ax is axes[0] else gap
             for k, word in enumerate(WORDS):
-                here = found == k
+                here = results == k
                 ax.semilogx(
                     stokes[here], np.full(here.sum(), place), "s", color=COLOURS[k], label=word if place == 0 else ""
                 )
             changes = [
                 f"{WORDS[a]} to {WORDS[b]} at St {s:.2f}"
-                for a, b, s in zip(found, found[1:], stokes[1:], strict=False)
+                for a, b, s in zip(results, results[1:], stokes[1:], strict=False)
                 if a != b
             ]
             print(
-                f"{'viscosity' if ax is axes[0] else 'target gap'} {value:g}: {WORDS[found[0]]}; {'; '.join(changes)}"
+                f"{'viscosity' if ax is axes[0] else 'target gap'} {value:g}: {WORDS[results[0]]}; {'; '.join(changes)}"
             )
         ax.set_yticks(range(len(rows)), [f"{usual * f:g}" if ax is axes[0] else f"{g:g}" for f, g in rows])
         ax.set_xlabel("Stokes number of the striker")

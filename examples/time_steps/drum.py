@@ -91,7 +91,7 @@ def costs(plugin: Path, folder: Path) -> dict[str, list[float]]:
     turn, so that a busy machine matters little.
     """
     log, hosts = folder / "log", {}
-    found: dict[str, list[list[float]]] = {"wet": [], "granular": []}
+    spans: dict[str, list[list[float]]] = {"wet": [], "granular": []}
     touching = "compute near all contact/atom\ncompute touch all reduce sum c_near\nvariable touching equal 0.5*c_touch"
     for name, pairs, contacts in (("wet", WET, "c_wet[1]"), ("granular", DRY, "v_touching")):
         counted = "compute wet all pair wet/drum" if name == "wet" else touching
@@ -105,11 +105,11 @@ def costs(plugin: Path, folder: Path) -> dict[str, list[float]]:
             lines = [line.split() for line in log.read_text().splitlines()]
             spent *= next(float(line[-1]) for line in lines if line[:2] == ["Pair", "|"]) / 100
             number = np.mean([float(line[1]) for line in lines if len(line) == 2 and line[0].isdigit()])
-            found[name].append([spent, float(spent / number), float(number)])
-    return {name: np.median(rows, axis=0).tolist() for name, rows in found.items()}
+            spans[name].append([spent, float(spent / number), float(number)])
+    return {name: np.median(rows, axis=0).tolist() for name, rows in spans.items()}
 
 
-def draw(found: dict[str, Any], path: Path) -> None:
+def draw(record: dict[str, Any], path: Path) -> None:
     """The drum with the most and with the fewest agglomerates, by colours, and their number and size over time."""
     import matplotlib as mpl
 
@@ -119,9 +119,9 @@ def draw(found: dict[str, Any], path: Path) -> None:
 
     figure, axes = plt.subplots(1, 3, figsize=(13, 4.2), width_ratios=(1, 1, 1.3), constrained_layout=True)
     every = STEP * STEPS
-    counts = [np.count_nonzero(np.bincount(label) > 1) for label in found["label"]]
+    counts = [np.count_nonzero(np.bincount(label) > 1) for label in record["label"]]
     for axis, frame in zip(axes, (int(np.argmax(counts)), int(np.argmin(counts))), strict=False):
-        x, label = 1e3 * np.array(found["x"][frame]), np.array(found["label"][frame])
+        x, label = 1e3 * np.array(record["x"][frame]), np.array(record["label"][frame])
         largest = np.argsort(-np.bincount(label, minlength=COUNT), kind="stable")
         for i in np.argsort(-x[:, 1]):  # those behind first
             rank = int(np.flatnonzero(largest == label[i])[0])
@@ -130,7 +130,7 @@ def draw(found: dict[str, Any], path: Path) -> None:
             axis.add_patch(Circle((x[i, 0], x[i, 2]), 1e3 * RADIUS, facecolor=colour, edgecolor="black", linewidth=0.6))
         axis.add_patch(Circle((0, 0), 1e3 * DRUM, fill=False, linewidth=2))
         axis.set(xlim=(-8.5, 8.5), ylim=(-8.5, 8.5), aspect="equal", xlabel="mm", title=f"{(frame + 1) * every:.3f} s")
-    sizes = [np.bincount(np.bincount(label, minlength=COUNT), minlength=COUNT + 1) for label in found["label"]]
+    sizes = [np.bincount(np.bincount(label, minlength=COUNT), minlength=COUNT + 1) for label in record["label"]]
     times = every * np.arange(1, FRAMES + 1)
     axes[2].plot(times, [size[2:].sum() for size in sizes], label="agglomerates")
     axes[2].plot(times, [size[1] for size in sizes], label="single spheres")
@@ -145,22 +145,22 @@ def main() -> None:
     if "DRUM_FOLDER" in os.environ:
         folder = Path(os.environ["DRUM_FOLDER"])
         plugin = built(folder, "drum")
-        found = {**turned(plugin), "costs": costs(plugin, folder)}
-        (folder / "found.json").write_text(json.dumps(found))
+        record = {**turned(plugin), "costs": costs(plugin, folder)}
+        (folder / "found.json").write_text(json.dumps(record))
         return
     with tempfile.TemporaryDirectory() as name:
         scene = Path(__file__).with_name("drum.toml")
         command = [sys.executable, "-m", "wetdoublet", "export", str(scene), "--to", "c", "--out", name]
         subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
         subprocess.run([*shlex.split(sys.argv[1]), __file__], check=True, env={**os.environ, "DRUM_FOLDER": name})
-        found = json.loads((Path(name) / "found.json").read_text())
-    draw(found, Path(sys.argv[2] if len(sys.argv) > 2 else Path(__file__).parent) / "drum.png")
-    sizes = [np.bincount(label) for label in found["label"]]
-    print(f"{found['bounces']:.0f} bounces and {found['separations']:.0f} separations without a rebound")
+        record = json.loads((Path(name) / "found.json").read_text())
+    draw(record, Path(sys.argv[2] if len(sys.argv) > 2 else Path(__file__).parent) / "drum.png")
+    sizes = [np.bincount(label) for label in record["label"]]
+    print(f"{record['bounces']:.0f} bounces and {record['separations']:.0f} separations without a rebound")
     for k in range(0, FRAMES, FRAMES // 10):
         size = sizes[k]
         print(f"{(k + 1) * STEP * STEPS:.3f} s: {np.count_nonzero(size > 1)} agglomerates, the largest of {size.max()}")
-    for pairs, (step, contact, number) in found["costs"].items():
+    for pairs, (step, contact, number) in record["costs"].items():
         print(f"{pairs}: {step:.0f} ns a step, {contact:.0f} ns a contact at {number:.0f} contacts")
 
 

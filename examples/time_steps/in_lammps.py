@@ -30,7 +30,7 @@ class Forces:
         """Called after the first half kick and drift: positions of now, velocities of half a step before."""
         get, dt = self.host.numpy.extract_atom, self.host.extract_global("dt")
         v, spin, mass, radius = get("v")[:count].copy(), get("omega")[:count].copy(), get("rmass"), get("radius")
-        torque, motion, found = get("torque")[:count], Motion(), Force()
+        torque, motion, force = get("torque")[:count], Motion(), Force()
         if self.last is not None and self.last[0] == step:  # the set-up of another `run` asks for this step again
             f[:], torque[:] = self.last[1][tags - 1], torque + self.last[2][tags - 1]
             return
@@ -39,18 +39,18 @@ class Forces:
         reach = self.law.contact_distance()
         for i in range(count):
             for j in range(i):
-                one, other = sorted((i, j), key=lambda k: tags[k])
-                history = self.pairs.setdefault((int(tags[one]), int(tags[other])), History())
-                apart, moving = x[other] - x[one], v[other] - v[one]
+                first, other = sorted((i, j), key=lambda k: tags[k])
+                history = self.pairs.setdefault((int(tags[first]), int(tags[other])), History())
+                apart, moving = x[other] - x[first], v[other] - v[first]
                 if not history.joined and np.linalg.norm(apart) > reach + dt * np.linalg.norm(moving):
                     continue
                 motion.position[:], motion.velocity[:] = apart, moving
-                motion.spins[0][:], motion.spins[1][:] = spin[one], spin[other]
-                self.law.force(motion, dt, history, found)
-                if found.outcome >= 0:
-                    self.ended[int(tags[one]), int(tags[other])] = (step, found.outcome, found.restitution)
-                for k, sign, turning in ((one, -1.0, found.torques[0]), (other, 1.0, found.torques[1])):
-                    push, turn = sign * np.array(found.force), np.array(turning)
+                motion.spins[0][:], motion.spins[1][:] = spin[first], spin[other]
+                self.law.force(motion, dt, history, force)
+                if force.outcome >= 0:
+                    self.ended[int(tags[first]), int(tags[other])] = (step, force.outcome, force.restitution)
+                for k, sign, turning in ((first, -1.0, force.torques[0]), (other, 1.0, force.torques[1])):
+                    push, turn = sign * np.array(force.force), np.array(turning)
                     f[k] += push
                     torque[k] += turn
                     v[k] += dt / mass[k] * push

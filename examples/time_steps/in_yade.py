@@ -38,27 +38,27 @@ class Forces:
         if contacts["step"] != self.world.iter:
             raise ValueError(f"{path} is of step {self.world.iter}, its contacts are of step {contacts['step']}")
         rows = contacts["contacts"]
-        self.pairs = {(one, other): History.from_buffer_copy(bytes.fromhex(words)) for one, other, words in rows}
+        self.pairs = {(first, other): History.from_buffer_copy(bytes.fromhex(words)) for first, other, words in rows}
 
     def __call__(self) -> None:
         """Positions of now, velocities of half a step before, as YADE has them here."""
-        dt, motion, found, reach = self.world.dt, Motion(), Force(), self.law.contact_distance()
+        dt, motion, force, reach = self.world.dt, Motion(), Force(), self.law.contact_distance()
         states = {body.id: body.state for body in self.world.bodies}
         v = {k: np.array(state.vel) for k, state in states.items()}
         spin = {k: np.array(state.angVel) for k, state in states.items()}
         for other in sorted(states):
-            for one in range(other):
-                history = self.pairs.setdefault((one, other), History())
-                apart, moving = np.array(states[other].pos - states[one].pos), v[other] - v[one]
+            for first in range(other):
+                history = self.pairs.setdefault((first, other), History())
+                apart, moving = np.array(states[other].pos - states[first].pos), v[other] - v[first]
                 if not history.joined and np.linalg.norm(apart) > reach + dt * np.linalg.norm(moving):
                     continue
                 motion.position[:], motion.velocity[:] = apart, moving
-                motion.spins[0][:], motion.spins[1][:] = spin[one], spin[other]
-                self.law.force(motion, dt, history, found)
-                if found.outcome >= 0:
-                    self.ended[one, other] = (found.outcome, found.restitution)
-                for k, sign, turning in ((one, -1.0, found.torques[0]), (other, 1.0, found.torques[1])):
-                    push, turn = sign * np.array(found.force), np.array(turning)
+                motion.spins[0][:], motion.spins[1][:] = spin[first], spin[other]
+                self.law.force(motion, dt, history, force)
+                if force.outcome >= 0:
+                    self.ended[first, other] = (force.outcome, force.restitution)
+                for k, sign, turning in ((first, -1.0, force.torques[0]), (other, 1.0, force.torques[1])):
+                    push, turn = sign * np.array(force.force), np.array(turning)
                     self.world.forces.addF(k, tuple(push))
                     self.world.forces.addT(k, tuple(turn))
                     v[k] += dt / states[k].mass * push
@@ -90,9 +90,9 @@ def in_yade(job: dict[str, Any]) -> list[dict[str, Any]]:
         balls = [body.state for body in world.bodies]
 
         def sums(balls: Any = balls) -> np.ndarray:
-            momentum = sum(each.mass * np.array(each.vel) for each in balls)
-            turning = sum(each.inertia[0] * np.array(each.angVel) for each in balls)
-            turning = turning + sum(each.mass * np.cross(each.pos, each.vel) for each in balls)
+            momentum = sum(body.mass * np.array(body.vel) for body in balls)
+            turning = sum(body.inertia[0] * np.array(body.angVel) for body in balls)
+            turning = turning + sum(body.mass * np.cross(body.pos, body.vel) for body in balls)
             return np.concatenate([momentum, turning])
 
         first = sums()

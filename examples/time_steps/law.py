@@ -52,16 +52,16 @@ class Law:
         self.library = ctypes.CDLL(str(library))
         header = (folder / f"{self.name}.h").read_text().split("typedef struct {")[1].split("}")[0]
         names = [line.split()[1].rstrip(";") for line in header.splitlines() if line.strip().startswith("double")]
-        kind = type("Material", (ctypes.Structure,), {"_fields_": [(each, ctypes.c_double) for each in names]})
+        kind = type("Material", (ctypes.Structure,), {"_fields_": [(member, ctypes.c_double) for member in names]})
         self._call("default_material").restype = kind
         self.material = self._call("default_material")()
 
     def _call(self, name: str) -> Any:
         return getattr(self.library, f"{self.name}_{name}")
 
-    def force(self, motion: Motion, dt: float, history: History, found: Force) -> None:
+    def force(self, motion: Motion, dt: float, history: History, force: Force) -> None:
         """The force of a pair for a step."""
-        rest = ctypes.c_double(dt), ctypes.byref(history), ctypes.byref(found)
+        rest = ctypes.c_double(dt), ctypes.byref(history), ctypes.byref(force)
         if status := self._call("contact_force")(ctypes.byref(self.material), ctypes.byref(motion), *rest):
             raise RuntimeError(f"status {status}")
 

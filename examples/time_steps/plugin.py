@@ -43,7 +43,7 @@ def built(folder: Path, name: str) -> Path:
         "-shared",
         "-DLAMMPS_SMALLBIG",
         *defines,
-        *(f"-I{each}" for each in includes),
+        *(f"-I{include}" for include in includes),
     ]
     subprocess.run([*cxx, *flags, str(style), f"{name}.o", "-o", plugin.name], check=True, cwd=folder)
     return plugin

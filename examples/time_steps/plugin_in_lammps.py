@@ -32,7 +32,7 @@ thermo 20
 def two_spheres(law: Law, position: np.ndarray, velocity: np.ndarray) -> str:
     """Two spheres in a box, with a relative position and velocity."""
     radius, mass = 2 * law.material.reduced_radius, 2 * law.material.reduced_mass
-    words = [" ".join(map(repr, each.tolist())) for each in (position, -0.5 * velocity, 0.5 * velocity)]
+    words = [" ".join(map(repr, vector.tolist())) for vector in (position, -0.5 * velocity, 0.5 * velocity)]
     return f"""
 boundary f f f
 region all block {" ".join([f"{-50 * radius} {50 * radius}"] * 3)}

@@ -58,7 +58,7 @@ _TABLE = {
         TURNING, "gain of the energy of rotation over the kinetic energy of all collisions"
     ),
 }  # fmt: skip
-QUANTITIES = tuple(name for name, each in _TABLE.items() if each.column < SLOPES)
+QUANTITIES = tuple(name for name, quantity in _TABLE.items() if quantity.column < SLOPES)
 """What has derivatives, in this order."""
 _SIZES = {"radius": "radius (um)", "partner_radius": "partner (um)"}
 _AXES = {"radius": "radius of the first sphere", "partner_radius": "radius of the second sphere"}
@@ -71,7 +71,7 @@ def dataset(
     import xarray as xr
 
     dims, shape = tuple(axes), tuple(axis.size for axis in axes.values())
-    means = {name: _averaged(each, columns) for name, each in _TABLE.items()}
+    means = {name: _averaged(quantity, columns) for name, quantity in _TABLE.items()}
     variables: dict[str, Any] = {}
     for name, (value, error, *_) in means.items():
         variables[name] = dims, value.reshape(shape), {"units": "1", "long_name": _TABLE[name].meaning}
@@ -140,11 +140,11 @@ def table(data: xarray.Dataset) -> str:
     """The averages for a person: a line for each pair below names and units, and below them the derivatives (SI)."""
     sizes = {name: head for name, head in _SIZES.items() if name in data.dims}
     rate = data["collision_rate"].attrs["units"].replace("m s-1", "m/s").replace("m3 s-1", "m^3/s")
-    heads = {name: each.head for name, each in _TABLE.items() if each.head} | {"collision_rate": f"rate ({rate})"}
+    heads = {name: entry.head for name, entry in _TABLE.items() if entry.head} | {"collision_rate": f"rate ({rate})"}
     data = data.assign_coords({name: 1e6 * data[name] for name in sizes}).rename(sizes)
     blocks = [data[list(heads)].rename(heads)]
     blocks += [data["gradient"].to_dataset("parameter")] if "gradient" in data else []
-    texts = [_frame(each).to_string(index=False, na_rep="-", float_format="{:.5g}".format) for each in blocks]
+    texts = [_frame(block).to_string(index=False, na_rep="-", float_format="{:.5g}".format) for block in blocks]
     return "\n\n".join([f"{data.attrs['speeds']}, all impact angles", *texts]) + "\n"
 
 

@@ -59,22 +59,22 @@ def integrals(
     """
     (low, high), (below, above) = ends.T, np.broadcast_to(sharp, ends.shape).T
     allowed = tolerance / np.bincount(owner)[owner]
-    every, known, sums = np.arange(low.size), np.zeros(0), np.zeros((3, 0, 0))
+    every, even, sums = np.arange(low.size), np.zeros(0), np.zeros((3, 0, 0))
     for doubling in range(_DOUBLINGS):
         u, weight = _fejer(_FIRST << doubling)
-        where = [each[every, None] for each in (below & above, below, above)]
-        part = np.select(where, [u * u * (3 - 2 * u), u * u, u * (2 - u)], u)
+        where = [mask[every, None] for mask in (below & above, below, above)]
+        fraction = np.select(where, [u * u * (3 - 2 * u), u * u, u * (2 - u)], u)
         rate = np.select(where, [6 * u * (1 - u), 2 * u, 2 * (1 - u)], 1.0)
         length, new = (high - low)[every, None], slice(None, None, 2 if doubling else 1)
-        place = low[every, None] + length * part[:, new]
+        place = low[every, None] + length * fraction[:, new]
         columns = np.stack(function(np.repeat(every, place.shape[1]), place.ravel()))
         columns = columns.reshape(2, *place.shape, columns.shape[-1])
         if doubling:
-            columns, odd = np.empty((2, *part.shape, columns.shape[-1])), columns
-            columns[:, :, ::2], columns[:, :, 1::2] = odd, known
+            columns, odd = np.empty((2, *fraction.shape, columns.shape[-1])), columns
+            columns[:, :, ::2], columns[:, :, 1::2] = odd, even
         value, error = np.einsum("bknc,kn->bkc", columns, weight * rate * length)
         if not doubling:
-            sums, known = np.stack([value, np.full(value.shape, np.inf), error]), columns
+            sums, even = np.stack([value, np.full(value.shape, np.inf), error]), columns
             continue
         latest = np.stack([value, np.abs(value - sums[0, every]), error])
         # what changes by more again is noise: results' errors, which grow towards a square root at an end
@@ -82,7 +82,7 @@ def integrals(
         sums[:, every] = np.where(noisy, sums[:, every], latest)
         total = summed(owner, sums[1], count).max(axis=1)[owner]
         coarse = (~noisy & (sums[1] > allowed[:, None])[every]).any(axis=1) & (total > tolerance)[every]  # not if NaN
-        every, known = every[coarse], columns[:, coarse]
+        every, even = every[coarse], columns[:, coarse]
         if not every.size:
             break
     return summed(owner, sums[0], count), summed(owner, sums[1] + sums[2], count)
@@ -119,7 +119,7 @@ class Segments:
             np.where(first < 0, 0.0, width[first]),
         )  # fmt: skip
 
-    def part(self, which: np.ndarray) -> Segments:
+    def subset(self, which: np.ndarray) -> Segments:
         return Segments(*(values[which] for values in vars(self).values()))
 
     def hints(self, lines: int) -> np.ndarray:
@@ -167,7 +167,7 @@ def over_angles(
     for k in (STICKS, ROTATES, BOUNCES):
         mean[:, k] = np.bincount(parts.line, share * (outcome_of(parts.label) == k), pair.size)
     error += np.bincount(parts.line, np.sin(2 * parts.low) * parts.width, pair.size)[:, None]
-    wide = parts.part(parts.high - parts.low > WIDTH)
+    wide = parts.subset(parts.high - parts.low > WIDTH)
 
     def columns(which: np.ndarray, angle: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         line, weight = wide.line[which], np.sin(2 * angle)

@@ -27,7 +27,7 @@ def gradients(
         ComputationError: the kernel has no derivatives of this scene.
     """
     parts = segments(experiment, pair, speed, hints, _WIDTH)
-    wide = parts.part((parts.high - parts.low > WIDTH) & (outcome_of(parts.label) != 0))
+    wide = parts.subset((parts.high - parts.low > WIDTH) & (outcome_of(parts.label) != 0))
     entries = len(experiment.rows.names)
 
     def columns(which: np.ndarray, angle: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -37,15 +37,15 @@ def gradients(
         results = experiment.results(_RESULTS, row, speed[line] * np.cos(within), within)
         by_free = results.free * scales(experiment, row)
         by_free[0] *= (np.cos(within) / np.cos(angle))[:, None]
-        known = (results.outcome != UNDECIDED)[:, None]
-        steepest = np.abs(by_free * known).max(axis=1, initial=0.0)[:, None]
+        mask = (results.outcome != UNDECIDED)[:, None]
+        steepest = np.abs(by_free * mask).max(axis=1, initial=0.0)[:, None]
         weight = np.sin(2 * angle)[:, None]
-        return weight * np.hstack(by_free * known), weight * np.hstack(~known * steepest)
+        return weight * np.hstack(by_free * mask), weight * np.hstack(~mask * steepest)
 
     total, error = np.zeros((2, pair.size, SLOPES, entries))
     ends = np.column_stack([wide.low, wide.high])
     both = integrals(columns, wide.line, ends, True, tolerance, pair.size)
-    total[:, NORMAL:], error[:, NORMAL:] = (each.reshape(pair.size, -1, entries) for each in both)
+    total[:, NORMAL:], error[:, NORMAL:] = (block.reshape(pair.size, -1, entries) for block in both)
     _add_limits(experiment, pair, speed, parts, total, error)
     return total.reshape(pair.size, -1), error.reshape(pair.size, -1)
 
@@ -106,9 +106,9 @@ def _slopes(experiment: Experiment, lines: Lines, changes: Brackets) -> np.ndarr
     by_free = np.zeros((changes.size, len(experiment.rows.names)))
     differ = outcomes.before != outcomes.after
     if differ.any():
-        by_free[differ] = slopes(experiment, lines, outcomes.part(differ))
+        by_free[differ] = slopes(experiment, lines, outcomes.subset(differ))
     if not differ.all():  # bounces by other events, or none
-        by_free[~differ] = slopes_by_differences(experiment, lines, changes.part(~differ), labels=_labels)
+        by_free[~differ] = slopes_by_differences(experiment, lines, changes.subset(~differ), labels=_labels)
     return by_free
 
 

@@ -19,7 +19,7 @@ from ..errors import InputError
 from ..host.cores import usable_cores
 from ..host.progress import Progress
 from ..host.workers import in_workers
-from ..many.blocks import kept
+from ..many.blocks import checkpoint
 from ..many.impacts import fill, software
 from ..scene.scene import Scene
 from ..scene.schema import MEETING
@@ -94,7 +94,7 @@ class Request:
 def averages(request: Request, resume: Path | None, progress: Progress | None) -> Columns:
     """The columns of all pairs; arguments as of `collision_averages`."""
     matrix = _Matrix(request, progress or (lambda _done, _total: None))
-    with kept(resume, request.identity, matrix.columns, matrix.done, "pairs"):
+    with checkpoint(resume, request.identity, matrix.columns, matrix.done, "pairs"):
         return matrix.complete()
 
 
@@ -171,7 +171,7 @@ class _Matrix:
                 except InputError:
                     return False
                 mean[rest], error[rest] = value[first[rest]], of_nodes + apart
-                self.columns["rate"][rest] = [self.request.speeds.mean * target(each) for each in scenes]
+                self.columns["rate"][rest] = [self.request.speeds.mean * target(scene) for scene in scenes]
                 self.progress(int(np.count_nonzero(self.done)), int(np.count_nonzero(self.done)))
                 return True
         return False
@@ -222,6 +222,6 @@ def _block(request: Request, sizes: np.ndarray, finer: float) -> Columns:
         of_gradients = _OF_GRADIENTS * tolerance
         slopes = means(partial(gradients, experiment), experiment, rows.size, speeds, of_gradients, _SHARP_CUT)
         unit = scales(experiment, np.arange(rows.size))[:, None]
-        for name, each in zip(("gradient", "gradient_error"), slopes, strict=True):
-            columns[name][rows] = each.reshape(rows.size, SLOPES, -1) / unit
+        for name, slope in zip(("gradient", "gradient_error"), slopes, strict=True):
+            columns[name][rows] = slope.reshape(rows.size, SLOPES, -1) / unit
     return columns

@@ -92,4 +92,4 @@ class _Sequences:
         above = np.searchsorted(self._keys, pair * self._far + low)
         below = np.searchsorted(self._keys, pair * self._far + high, side="right") - 1
         last = self._keys.size - 1
-        return np.hstack([self._hints[np.clip(each, 0, last)] for each in (above, below)])
+        return np.hstack([self._hints[np.clip(index, 0, last)] for index in (above, below)])

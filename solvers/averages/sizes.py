@@ -32,7 +32,7 @@ def experiment_of(scenes: Sequence[Scene], names: tuple[str, ...], rtol: float) 
     """An experiment with a row for each scene, which have the same entries, and with the free entries `names`."""
     first = scenes[0]
     numbers = [name for name, value in first.si if not isinstance(value, str) and name not in MEETING]
-    values = {name: np.array([float(one.entries[name]) for one in scenes]) for name in numbers}
+    values = {name: np.array([float(scene.entries[name]) for scene in scenes]) for name in numbers}
     columns = {name: row for name, row in values.items() if name not in names and np.any(row != row[0])}
     free = np.array([values[name] for name in names]).reshape(len(names), len(scenes))
     alike = not columns and not np.any(free != free[:, :1])

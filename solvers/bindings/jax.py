@@ -68,7 +68,7 @@ def law(
             dtype = columns[0].dtype
             result = jax.ShapeDtypeStruct((*columns[0].shape, *tail), dtype)
             return jax.pure_callback(
-                lambda *each: function(np.stack([np.asarray(one, float) for one in each])).astype(dtype),
+                lambda *arrays: function(np.stack([np.asarray(array, float) for array in arrays])).astype(dtype),
                 result, *columns, vmap_method="broadcast_all",
             )  # fmt: skip
 
@@ -78,7 +78,7 @@ def law(
 
         def rule(columns: Sequence[Any], tangents: Sequence[Any]) -> tuple[Any, Any]:
             by = [k for k, tangent in enumerate(tangents) if not isinstance(tangent, SymbolicZero)]
-            slopes = on_host(lambda each: points.slopes(each, by), (len(names), len(by)), columns)
+            slopes = on_host(lambda array: points.slopes(array, by), (len(names), len(by)), columns)
             moved = sum(slopes[..., place] * tangents[k][..., None] for place, k in enumerate(by))
             return collide(*columns), moved
 
@@ -87,7 +87,7 @@ def law(
 
     def function(speed: Any, angle: Any, entries: Mapping[str, Any] | None = None) -> Any:
         ordered = dict(sorted((entries or {}).items()))
-        columns = jnp.broadcast_arrays(*(jnp.asarray(each, float) for each in (speed, angle, *ordered.values())))
+        columns = jnp.broadcast_arrays(*(jnp.asarray(column, float) for column in (speed, angle, *ordered.values())))
         answers = of_columns(tuple(ordered))(*columns)
         results = {name: answers[..., k] for k, name in enumerate(names)}
         if OUTCOME in results:

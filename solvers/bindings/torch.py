@@ -52,15 +52,15 @@ def law(
         ordered = dict(entries or {})
         points = pointwise(loaded, names, tuple(ordered), rtol, undifferentiable)
         columns = (speed, angle, *ordered.values())
-        tensors = [each for each in columns if isinstance(each, torch.Tensor)]
-        floating = [each for each in tensors if each.dtype.is_floating_point]
+        tensors = [column for column in columns if isinstance(column, torch.Tensor)]
+        floating = [tensor for tensor in tensors if tensor.dtype.is_floating_point]
         dtype = torch.float64
-        for k, each in enumerate(floating):
-            dtype = each.dtype if k == 0 else torch.promote_types(dtype, each.dtype)
+        for k, tensor in enumerate(floating):
+            dtype = tensor.dtype if k == 0 else torch.promote_types(dtype, tensor.dtype)
         device = tensors[0].device if tensors else None
-        made = [torch.as_tensor(each, dtype=dtype, device=device) for each in columns]
-        found = _Values.apply(points, None, *torch.broadcast_tensors(*made))
-        results = {name: found[..., k] for k, name in enumerate(names)}
+        inputs = [torch.as_tensor(column, dtype=dtype, device=device) for column in columns]
+        outputs = _Values.apply(points, None, *torch.broadcast_tensors(*inputs))
+        results = {name: outputs[..., k] for k, name in enumerate(names)}
         if OUTCOME in results:
             results[OUTCOME] = results[OUTCOME].detach().to(torch.int32)
         return results[names[0]] if isinstance(of, str) else results
@@ -78,8 +78,8 @@ class _OfColumns(torch.autograd.Function):  # type: ignore[misc] # torch is Any
     @classmethod
     def vmap(cls, info: Any, places: tuple[int | None, ...], points: Pointwise, by: Any, *columns: Any) -> Any:
         batched = [
-            each.expand(info.batch_size, *each.shape) if place is None else each.movedim(place, 0)
-            for each, place in zip(columns, places[2:], strict=True)
+            column.expand(info.batch_size, *column.shape) if place is None else column.movedim(place, 0)
+            for column, place in zip(columns, places[2:], strict=True)
         ]
         return cls.apply(points, by, *batched), 0
 
@@ -117,10 +117,10 @@ class _Values(_OfColumns):
     def backward(ctx: Any, gradient: Any) -> tuple[Any, ...]:
         by = tuple(k for k, needed in enumerate(ctx.needs_input_grad[2:]) if needed)
         slopes = _Slopes.apply(ctx.points, by, *ctx.saved_tensors)
-        found: list[Any] = [None] * len(ctx.needs_input_grad)
+        gradients: list[Any] = [None] * len(ctx.needs_input_grad)
         for place, k in enumerate(by):  # a result that the loss does not depend on may be without a derivative
-            found[k + 2] = torch.where(gradient == 0, 0.0, gradient * slopes[..., place]).sum(-1)
-        return tuple(found)
+            gradients[k + 2] = torch.where(gradient == 0, 0.0, gradient * slopes[..., place]).sum(-1)
+        return tuple(gradients)
 
     @staticmethod
     def jvp(ctx: Any, _: Any, __: Any, *tangents: Any) -> Any:
@@ -130,4 +130,4 @@ class _Values(_OfColumns):
 
 
 def _stacked(columns: Sequence[Any]) -> np.ndarray:
-    return np.stack([each.detach().cpu().double().numpy() for each in columns])
+    return np.stack([column.detach().cpu().double().numpy() for column in columns])

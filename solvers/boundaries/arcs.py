@@ -54,9 +54,9 @@ def _ascending(arc: Arc) -> Arc:
     """The points between the ends whose x is above that of the point before."""
     x = arc.points[:, 0]
     highest = np.maximum.accumulate(x)
-    kept = np.concatenate([[True], x[1:] > highest[:-1]]) & (x < x[-1])
-    kept[0] = kept[-1] = True
-    return Arc(arc.points[kept], arc.right, arc.left)
+    mask = np.concatenate([[True], x[1:] > highest[:-1]]) & (x < x[-1])
+    mask[0] = mask[-1] = True
+    return Arc(arc.points[mask], arc.right, arc.left)
 
 
 def _reversals_of_x(x: np.ndarray) -> list[int]:
@@ -107,13 +107,13 @@ def refined(plane: Plane, arcs: list[Arc], ascending: bool = False) -> list[Arc]
         chords = [(k, j) for k, arc in enumerate(arcs) for j in _coarse(arc.points)]
         if not chords:
             break
-        one = np.array([arcs[k].points[j] for k, j in chords])
+        start = np.array([arcs[k].points[j] for k, j in chords])
         other = np.array([arcs[k].points[j + 1] for k, j in chords])
-        way = other - one
+        way = other - start
         length = np.linalg.norm(way, axis=1)
         normal = np.column_stack([-way[:, 1], way[:, 0]]) / length[:, None]
         right, left = (np.array([getattr(arcs[k], side) for k, _ in chords]) for side in ("right", "left"))
-        places = crossings(plane.labels, 0.5 * (one + other), normal, length, right, left)
+        places = crossings(plane.labels, 0.5 * (start + other), normal, length, right, left)
         arcs = [_with(arc, k, chords, places, ascending) for k, arc in enumerate(arcs)]
     return arcs
 
@@ -149,5 +149,5 @@ def passes(points: np.ndarray, axis: int, value: float) -> Iterator[tuple[float,
     change = np.diff(along)
     low, high = np.minimum(along[:-1], along[1:]), np.maximum(along[:-1], along[1:])
     for k in np.flatnonzero((low <= value) & (value <= high) & (change != 0)).tolist():
-        part = (value - along[k]) / change[k]
-        yield float(other[k] + part * (other[k + 1] - other[k])), float(change[k])
+        fraction = (value - along[k]) / change[k]
+        yield float(other[k] + fraction * (other[k + 1] - other[k])), float(change[k])

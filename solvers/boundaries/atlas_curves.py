@@ -40,7 +40,7 @@ def curves_of(plane: Plane, lines: int, tell: Callable[[int, int], None]) -> Atl
     cells = Cells(plane.labels, columns, np.linspace(0, 1, LATTICE[1]))
     for at, line in zip(across, traced.changes, strict=True):
         column = float(columns[np.argmin(np.abs(columns - at))])
-        heights = plane.points(np.full(len(line), x[0]), np.array([one.stokes for one in line]))[:, 1]
+        heights = plane.points(np.full(len(line), x[0]), np.array([change.stokes for change in line]))[:, 1]
         cells.mark((column, 0.5 * (low + high)) for low, high in pairwise(heights.tolist()))
     return _settled(plane, cells, x, traced)
 
@@ -50,8 +50,8 @@ def _lines(plane: Plane, x: np.ndarray, tell: Callable[[int, int], None]) -> Tra
     if plane.over == ANGLE:
         return trace(plane.scene, x, plane.stokes, plane.rtol, lambda done: tell(done, x.size))
     whole = Traced([], [], 0, 0.0)
-    for one in x.tolist():
-        scene, angle = plane.scene_at(one)
+    for value in x.tolist():
+        scene, angle = plane.scene_at(value)
         whole.add(trace(scene, np.array([angle]), plane.stokes, plane.rtol))
         tell(len(whole.changes), x.size)
     return whole
@@ -67,13 +67,13 @@ def _settled(plane: Plane, cells: Cells, x: np.ndarray, traced: Traced) -> Atlas
     for attempt in range(_ROUNDS + 1):
         curves, meetings = cells.curves()
         pieces = [monotone(plane, arc) for arc in refined(plane, curves)]
-        arcs = refined(plane, [part for parts, _ in pieces for part in parts], ascending=True)
+        arcs = refined(plane, [arc for parts, _ in pieces for arc in parts], ascending=True)
         wrong = _wrong(arcs, slabs(arcs, column, middle), points, outcomes)
         if attempt == _ROUNDS or not wrong.size:
             break
         cells.divide_at([(x, y) for x, y in points[_some(wrong, points)].tolist()])
     unsettled = [
-        (one.place, "curves end here, where collisions are not decided") for one in meetings if not one.located
+        (end.place, "curves end here, where collisions are not decided") for end in meetings if not end.located
     ]
     unsettled += [
         (points[k], f"a collision here is a {OUTCOMES[outcomes[k]]}, which the curves do not say")
@@ -82,18 +82,18 @@ def _settled(plane: Plane, cells: Cells, x: np.ndarray, traced: Traced) -> Atlas
     unsettled += _against_lines(plane, arcs, x, traced)
     folds = [(FOLD, place) for _, folded in pieces for place in folded]
     parts, inner = stretches(plane, arcs)
-    places = [*named(plane, [one for one in meetings if one.located], parts), *folds, *inner]
+    places = [*named(plane, [meeting for meeting in meetings if meeting.located], parts), *folds, *inner]
     return _made(plane, parts, places, unsettled, x, traced, int(middle[middle.size // 2]))
 
 
 def _along(plane: Plane, at: np.ndarray, labels: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Where outcomes are known in the middle row of a lattice, and these; ComputationError where none is."""
     row = labels.shape[1] // 2
-    known = labels[:, row] >= 0
-    if not known.any():
+    mask = labels[:, row] >= 0
+    if not mask.any():
         stokes = float(plane.stokes_at(at[0, row]))
         raise ComputationError(f"no collision could be computed at St {stokes:.6g}", advice="try other Stokes numbers")
-    return at[known, row, 0], labels[known, row]
+    return at[mask, row, 0], labels[mask, row]
 
 
 def _wrong(arcs: list[Arc], regions: list[Slab], points: np.ndarray, outcomes: np.ndarray) -> np.ndarray:
@@ -122,16 +122,16 @@ def _against_lines(plane: Plane, arcs: list[Arc], x: np.ndarray, traced: Traced)
         crossed = [
             (y, OUTCOMES[arc.right], OUTCOMES[arc.left]) for arc in arcs for y, _ in passes(arc.points, 0, across)
         ]
-        changes = [(plane.points(np.array([at]), np.array([one.stokes]))[0], one) for one in line]
+        changes = [(plane.points(np.array([at]), np.array([change.stokes]))[0], change) for change in line]
         differences += [
-            (place, f"the line here changes from {one.before} to {one.after}, where no curve passes")
-            for place, one in changes
-            if not any(_is(one, place, passing) for passing in crossed)
+            (place, f"the line here changes from {change.before} to {change.after}, where no curve passes")
+            for place, change in changes
+            if not any(_is(change, place, passing) for passing in crossed)
         ]
         differences += [
             (np.array([across, passing[0]]), "a curve passes here, which the line does not show")
             for passing in crossed
-            if 0 < passing[0] < 1 and not any(_is(one, place, passing) for place, one in changes)
+            if 0 < passing[0] < 1 and not any(_is(change, place, passing) for place, change in changes)
         ]
     return differences
 
@@ -152,14 +152,14 @@ def _made(
 ) -> Atlas:
     curves = [
         Curve(
-            OUTCOMES[one.arc.right], OUTCOMES[one.arc.left], one.kind,
-            tuple(plane.shown(one.arc.points).tolist()), tuple(plane.stokes_at(one.arc.points).tolist()),
+            OUTCOMES[stretch.arc.right], OUTCOMES[stretch.arc.left], stretch.kind,
+            tuple(plane.values(stretch.arc.points).tolist()), tuple(plane.stokes_at(stretch.arc.points).tolist()),
         )
-        for one in parts
+        for stretch in parts
     ]  # fmt: skip
-    curves.sort(key=lambda one: (one.x[0], one.stokes[0], one.x[-1]))
-    points = [Point(name, float(plane.shown(place)), float(plane.stokes_at(place))) for name, place in places]
-    points.sort(key=lambda one: (one.x, one.stokes))
+    curves.sort(key=lambda curve: (curve.x[0], curve.stokes[0], curve.x[-1]))
+    points = [Point(name, float(plane.values(place)), float(plane.stokes_at(place))) for name, place in places]
+    points.sort(key=lambda point: (point.x, point.stokes))
     angles = x if plane.over == ANGLE else np.full(x.size, plane.scene.angle)
     return Atlas(
         angles=tuple(angles.tolist()),

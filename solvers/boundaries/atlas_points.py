@@ -52,10 +52,10 @@ def stretches(plane: Plane, arcs: Sequence[Arc]) -> tuple[list[Stretch], list[tu
         if not codes.size:
             codes = _filled(_codes(plane, arc, arc.points.mean(axis=0)[None]))
         codes = np.concatenate([codes[:1], codes, codes[-1:]])[: len(arc.points)]
-        for part, code in _cut(plane, arc, codes, points):
+        for piece, code in _cut(plane, arc, codes, points):
             kind = FREE if code <= 0 else REVERSED if code > 3 else GRAZE
             criterion = -1 if code <= 0 else (code - 1) % 3
-            result += _at_barriers(plane, Stretch(part, kind, criterion), points)
+            result += _at_barriers(plane, Stretch(piece, kind, criterion), points)
     return result, points
 
 
@@ -67,12 +67,12 @@ def _codes(plane: Plane, arc: Arc, at: np.ndarray) -> np.ndarray:
     labels, reversal = plane.seen(np.clip(at + aside, 0, 1))
     criterion = np.where(labels == 2, reversal, -2)
     codes: np.ndarray = 1 + np.maximum(criterion, 0)
-    known = criterion >= 0
+    mask = criterion >= 0
     if 0 in (arc.right, arc.left):
         before = plane.first_criterion(np.clip(at - aside, 0, 1))
         codes += 3 * (before >= 0)
-        known &= before > -2
-    return np.where(known, codes, _NONE)
+        mask &= before > -2
+    return np.where(mask, codes, _NONE)
 
 
 def _normals(arc: Arc, at: np.ndarray) -> np.ndarray:
@@ -85,11 +85,11 @@ def _normals(arc: Arc, at: np.ndarray) -> np.ndarray:
 
 def _filled(codes: np.ndarray) -> np.ndarray:
     """Codes with unknown ones replaced by the nearest known ones."""
-    known = np.flatnonzero(codes != _NONE)
-    if not known.size:
+    indices = np.flatnonzero(codes != _NONE)
+    if not indices.size:
         return np.zeros_like(codes)
-    nearest = np.abs(np.arange(codes.size)[:, None] - known).argmin(axis=1)
-    return np.asarray(codes[known[nearest]])
+    nearest = np.abs(np.arange(codes.size)[:, None] - indices).argmin(axis=1)
+    return np.asarray(codes[indices[nearest]])
 
 
 def _cut(plane: Plane, arc: Arc, codes: np.ndarray, points: list[tuple[str, np.ndarray]]) -> list[tuple[Arc, int]]:
@@ -101,34 +101,34 @@ def _cut(plane: Plane, arc: Arc, codes: np.ndarray, points: list[tuple[str, np.n
         parts.append((Arc(np.vstack([begin, arc.points[first + 1 : k + 1], place]), arc.right, arc.left), codes[k]))
         first, begin = k, place
     parts.append((Arc(np.vstack([begin, arc.points[first + 1 :]]), arc.right, arc.left), codes[-1]))
-    return [(part, int(code)) for part, code in parts]
+    return [(piece, int(code)) for piece, code in parts]
 
 
 def _located(plane: Plane, arc: Arc, k: int, before: int) -> np.ndarray:
     """Place between two points of a curve where the code ceases to be `before`."""
-    one, other = arc.points[k], arc.points[k + 1]
+    start, other = arc.points[k], arc.points[k + 1]
     for _ in range(_NARROWED):
-        places = _between(plane, arc, one, other, _PARTS)
+        places = _between(plane, arc, start, other, _PARTS)
         if not len(places):
             break
         codes = _codes(plane, arc, places)
         places, codes = places[codes != _NONE], codes[codes != _NONE]
         differs = np.flatnonzero(codes != before)
         j = int(differs[0]) if differs.size else len(places)
-        one, other = places[j - 1] if j else one, places[j] if j < len(places) else other
-        if np.linalg.norm(other - one) < _AT:
+        start, other = places[j - 1] if j else start, places[j] if j < len(places) else other
+        if np.linalg.norm(other - start) < _AT:
             break
-    middle = _between(plane, arc, one, other, 1)
-    return np.asarray(middle[0] if len(middle) else 0.5 * (one + other))
+    middle = _between(plane, arc, start, other, 1)
+    return np.asarray(middle[0] if len(middle) else 0.5 * (start + other))
 
 
-def _between(plane: Plane, arc: Arc, one: np.ndarray, other: np.ndarray, count: int) -> np.ndarray:
+def _between(plane: Plane, arc: Arc, start: np.ndarray, other: np.ndarray, count: int) -> np.ndarray:
     """Places on a curve between two of its points."""
-    way = other - one
+    way = other - start
     length = float(np.linalg.norm(way))
     if length < 1e-15:
         return np.zeros((0, 2))
-    centres = one + np.arange(1, count + 1)[:, None] / (count + 1) * way
+    centres = start + np.arange(1, count + 1)[:, None] / (count + 1) * way
     normal = np.array([-way[1], way[0]]) / length
     places = crossings(
         plane.labels, centres, np.tile(normal, (count, 1)), np.full(count, max(0.2 * length, 1e-9)),
@@ -146,17 +146,17 @@ def _at_barriers(plane: Plane, stretch: Stretch, points: list[tuple[str, np.ndar
     saddles = [_passes_saddle(plane, arc.points[k]) for k in inner]
     for (k, before), (last, after) in pairwise(zip(inner.tolist(), saddles, strict=True)):
         if before != after:
-            one, other = arc.points[k], arc.points[last]
-            while np.linalg.norm(other - one) > _AT:
-                x = 0.5 * (one[0] + other[0])
+            start, other = arc.points[k], arc.points[last]
+            while np.linalg.norm(other - start) > _AT:
+                x = 0.5 * (start[0] + other[0])
                 guess = np.array([[x, np.interp(x, arc.points[:, 0], arc.points[:, 1])]])
-                reach = np.array([max(1e-3 * abs(other[0] - one[0]), 1e-4)])
+                reach = np.array([max(1e-3 * abs(other[0] - start[0]), 1e-4)])
                 middle = crossings(plane.labels, guess, np.array([[0.0, 1.0]]), reach, np.array([arc.right]),
                                    np.array([arc.left]))[0]  # fmt: skip
                 if np.isnan(middle).any():
                     return [stretch]
-                one, other = (middle, other) if _passes_saddle(plane, middle) == before else (one, middle)
-            place = 0.5 * (one + other)
+                start, other = (middle, other) if _passes_saddle(plane, middle) == before else (start, middle)
+            place = 0.5 * (start + other)
             points.append((RIM, place))
             j = int(np.searchsorted(arc.points[:, 0], place[0]))
             below = Arc(np.vstack([arc.points[:j], place]), arc.right, arc.left)
@@ -181,11 +181,11 @@ def _passes_saddle(plane: Plane, place: np.ndarray) -> bool:
 def named(plane: Plane, meetings: Sequence[Meeting], parts: list[Stretch]) -> list[tuple[str, np.ndarray]]:
     """The points where curves meet, with their names."""
     points = []
-    for one in meetings:
-        triple = len(one.pairs) == 3 and len(frozenset().union(*one.pairs)) == 3
-        points.append((TRIPLE if triple else CROSSING, one.place))
-        if triple and plane.over == ANGLE and _reaches_head_on(parts, one.place):
-            points.append((CRITICAL, one.place))
+    for meeting in meetings:
+        triple = len(meeting.pairs) == 3 and len(frozenset().union(*meeting.pairs)) == 3
+        points.append((TRIPLE if triple else CROSSING, meeting.place))
+        if triple and plane.over == ANGLE and _reaches_head_on(parts, meeting.place):
+            points.append((CRITICAL, meeting.place))
     return points
 
 
@@ -194,7 +194,7 @@ def _reaches_head_on(parts: Sequence[Stretch], place: np.ndarray) -> bool:
 
     There it is the critical Stokes number of head-on collisions.
     """
-    arcs = [one.arc for one in parts if {one.arc.right, one.arc.left} == {0, 2}]
+    arcs = [stretch.arc for stretch in parts if {stretch.arc.right, stretch.arc.left} == {0, 2}]
     while True:
         ends = [
             (k, end)

@@ -63,8 +63,8 @@ def boundary(
     cores = min(usable_cores(), max(1, angles.size // _WORTH))
     parts = np.array_split(angles[order], cores)
     whole = Traced([], [], 0, 0.0)
-    for part in traces(loaded, parts, (low, high), rtol, tell):
-        whole.add(part)
+    for block in traces(loaded, parts, (low, high), rtol, tell):
+        whole.add(block)
         tell(len(whole.changes))
     back = np.argsort(order, kind="stable")
     return Boundaries(

@@ -125,17 +125,17 @@ class Cells:
     def _halves(self, rings: dict[Cell, Ring]) -> dict[Cell, list[np.ndarray]]:
         """A place half way along each curve through cells; NaN where none is seen there."""
         chords = [
-            (cell, ring[one][0].place, ring[other][0].place, _outward(*ring[other]))
-            for cell, ring in rings.items() for one, other in _joined(ring)[0]
+            (cell, ring[first][0].place, ring[other][0].place, _outward(*ring[other]))
+            for cell, ring in rings.items() for first, other in _joined(ring)[0]
         ]  # fmt: skip
         halves: dict[Cell, list[np.ndarray]] = {cell: [] for cell in rings}
         if not chords:
             return halves
-        one, other, sides = (np.array([chord[k] for chord in chords]) for k in (1, 2, 3))
-        way = other - one
+        start, other, sides = (np.array([chord[k] for chord in chords]) for k in (1, 2, 3))
+        way = other - start
         length = np.maximum(np.linalg.norm(way, axis=1), 1e-300)
         normal = np.column_stack([-way[:, 1], way[:, 0]]) / length[:, None]
-        places = crossings(self.labels, 0.5 * (one + other), normal, 0.5 * length, sides[:, 0], sides[:, 1])
+        places = crossings(self.labels, 0.5 * (start + other), normal, 0.5 * length, sides[:, 0], sides[:, 1])
         for (cell, *_), place in zip(chords, places, strict=True):
             halves[cell].append(place)
         return halves
@@ -169,13 +169,13 @@ class Cells:
     def _complete(self, sides: list[tuple[int, float, float, float]]) -> None:
         """Locate the changes on sides: parts of a line (axis along it, its coordinate) from one point to the next."""
         ends = [(_place(axis, line, low), _place(axis, line, high)) for axis, line, low, high in sides]
-        differ = [k for k, (one, other) in enumerate(ends) if self._label[one] != self._label[other]]
+        differ = [k for k, (start, other) in enumerate(ends) if self._label[start] != self._label[other]]
         self._changes.update((side, []) for side in sides)
         if not differ:
             return
         low, high = (np.array([ends[k][end] for k in differ]) for end in (0, 1))
-        known = [(self._label[ends[k][0]], self._label[ends[k][1]]) for k in differ]
-        for k, changes in zip(differ, changes_on(self.labels, low, high, known), strict=True):
+        pairs = [(self._label[ends[k][0]], self._label[ends[k][1]]) for k in differ]
+        for k, changes in zip(differ, changes_on(self.labels, low, high, pairs), strict=True):
             self._changes[sides[k]] = [Crossing((place[0], place[1]), *pair) for place, *pair in changes]
 
     def _divide(self, cells: list[tuple[Cell, list[float], list[float]]]) -> None:
@@ -192,10 +192,10 @@ class Cells:
                     sides |= dict.fromkeys(
                         (axis, line, *ends) for ends in self._sides(axis, line, points[0], points[-1])
                     )
-        known = self._points
+        table = self._points
         self._complete([
             side for side in sides if side not in self._changes
-            and bisect_left(known[side[:2]], side[3]) - bisect_left(known[side[:2]], side[2]) == 1
+            and bisect_left(table[side[:2]], side[3]) - bisect_left(table[side[:2]], side[2]) == 1
         ])  # fmt: skip
 
     def _sides(self, axis: int, line: float, low: float, high: float) -> Iterable[Place]:
@@ -204,7 +204,7 @@ class Cells:
 
     def _found(self) -> Iterable[tuple[int, float, float]]:
         """The sides with changes: axis, coordinate of the line, and a coordinate along it."""
-        return ((axis, line, 0.5 * (low + high)) for (axis, line, low, high), found in self._changes.items() if found)
+        return ((axis, line, 0.5 * (low + high)) for (axis, line, low, high), places in self._changes.items() if places)
 
     def _beside(self, side: tuple[int, float, float]) -> list[Cell]:
         """The undivided cells on either side of a part of a line."""
@@ -219,17 +219,17 @@ class Cells:
         k = min(max(int(np.searchsorted(rows, y)), 1), rows.size - 1)
         cell = (float(columns[j - 1]), float(rows[k - 1]), float(columns[j]), float(rows[k]))
         while cell in self.divided:
-            cell = next(one for one in self.divided[cell] if one[0] <= x <= one[2] and one[1] <= y <= one[3])
+            cell = next(box for box in self.divided[cell] if box[0] <= x <= box[2] and box[1] <= y <= box[3])
         return cell
 
     def _ring(self, cell: Cell) -> Ring:
         """Changes on the outline of a cell, counterclockwise."""
         x0, y0, x1, y1 = cell
         sides = ((0, y0, x0, x1), (1, x1, y0, y1), (0, y1, x0, x1), (1, x0, y0, y1))
-        return [(one, k) for k, side in enumerate(sides) for one in self._on(*side)[:: 1 if k < 2 else -1]]
+        return [(crossing, k) for k, side in enumerate(sides) for crossing in self._on(*side)[:: 1 if k < 2 else -1]]
 
     def _on(self, axis: int, line: float, low: float, high: float) -> list[Crossing]:
-        return [one for ends in self._sides(axis, line, low, high) for one in self._changes[axis, line, *ends]]
+        return [change for ends in self._sides(axis, line, low, high) for change in self._changes[axis, line, *ends]]
 
 
 def _place(axis: int, line: float, along: float) -> Place:
@@ -244,9 +244,9 @@ def _corners(across: list[float], up: list[float]) -> Iterable[tuple[Place, Plac
 def _joined(ring: Ring) -> tuple[list[tuple[int, int]], list[int]]:
     """Pairs of changes (indices of a ring) that a curve joins, and those that meet; unknown labels are left out."""
     alike: dict[frozenset[int], list[int]] = {}
-    for k, (one, _) in enumerate(ring):
-        if min(one.low, one.high) >= 0:
-            alike.setdefault(frozenset((one.low, one.high)), []).append(k)
+    for k, (crossing, _) in enumerate(ring):
+        if min(crossing.low, crossing.high) >= 0:
+            alike.setdefault(frozenset((crossing.low, crossing.high)), []).append(k)
     pairs: list[tuple[int, int]] = []
     meet: list[int] = []
     for places in alike.values():
@@ -277,12 +277,12 @@ def _is_small(cell: Cell) -> bool:
 
 
 def _is_unknown(ring: Ring) -> bool:
-    return any(min(one.low, one.high) < 0 for one, _ in ring)
+    return any(min(crossing.low, crossing.high) < 0 for crossing, _ in ring)
 
 
-def _outward(one: Crossing, side: int) -> tuple[int, int]:
+def _outward(crossing: Crossing, side: int) -> tuple[int, int]:
     """Labels to the right and left of a curve that leaves a cell through a change on its outline."""
-    return (one.low, one.high) if side < 2 else (one.high, one.low)
+    return (crossing.low, crossing.high) if side < 2 else (crossing.high, crossing.low)
 
 
 def _curves(cells: list[tuple[Cell, Ring, list[np.ndarray]]]) -> tuple[list[Arc], list[Meeting]]:
@@ -292,20 +292,20 @@ def _curves(cells: list[tuple[Cell, Ring, list[np.ndarray]]]) -> tuple[list[Arc]
     for cell, ring, halves in cells:
         pairs, meet = _joined(ring)
         for pair, half in zip(pairs, halves, strict=True):
-            for here, there in (pair, pair[::-1]):
+            for here, end in (pair, pair[::-1]):
                 through = [] if np.isnan(half).any() else [half]
-                links.setdefault(ring[here][0], []).append((ring[there][0], through, _outward(*ring[there])))
+                links.setdefault(ring[here][0], []).append((ring[end][0], through, _outward(*ring[end])))
         if not meet:
             continue
         changes = [ring[k][0] for k in meet]
-        alike = tuple(frozenset((one.low, one.high)) for one in changes)
-        place = np.mean([one.place for one in changes], axis=0)
+        alike = tuple(frozenset((crossing.low, crossing.high)) for crossing in changes)
+        place = np.mean([crossing.place for crossing in changes], axis=0)
         for k in meet:
             links.setdefault(ring[k][0], []).append((None, [place], _outward(*ring[k])[::-1]))
         meetings.append(Meeting(place, alike, _is_small(cell) and not _is_unknown(ring)))
     arcs: list[Arc] = []
     passed: set[Crossing] = set()
-    for start in sorted(links, key=lambda one: len(links[one])):  # ends first, so that what is left is closed
+    for start in sorted(links, key=lambda crossing: len(links[crossing])):  # ends first, so that what is left is closed
         if start in passed:
             continue
         ahead, closed = _way(links, start, links[start][0], passed)
@@ -327,26 +327,26 @@ def _way(
     here = start
     passed.add(start)
     while True:
-        there, through, _ = link
+        target, through, _ = link
         places += through
-        if there is None:
+        if target is None:
             return places, False
-        places.append(np.array(there.place))
-        further = [one for one in links[there] if one[0] is not here]
-        if there in passed or not further:
-            passed.add(there)
-            return places, there is start
-        passed.add(there)
-        here, link = there, further[0]
+        places.append(np.array(target.place))
+        further = [candidate for candidate in links[target] if candidate[0] is not here]
+        if target in passed or not further:
+            passed.add(target)
+            return places, target is start
+        passed.add(target)
+        here, link = target, further[0]
 
 
 def _clear(points: np.ndarray) -> np.ndarray:
     """Points of a curve without those too close to the one before, or to an end, for a direction."""
-    kept = [0]
+    indices = [0]
     for k in range(1, len(points)):
-        if np.linalg.norm(points[k] - points[kept[-1]]) > _BLUR:
-            kept.append(k)
+        if np.linalg.norm(points[k] - points[indices[-1]]) > _BLUR:
+            indices.append(k)
     last = len(points) - 1
-    while len(kept) > 1 and np.linalg.norm(points[kept[-1]] - points[last]) <= _BLUR:
-        kept.pop()
-    return np.asarray(points[[*kept, last]])
+    while len(indices) > 1 and np.linalg.norm(points[indices[-1]] - points[last]) <= _BLUR:
+        indices.pop()
+    return np.asarray(points[[*indices, last]])

@@ -14,7 +14,7 @@ from ..engines.settings import KERNEL_STEPS
 from ..errors import ComputationError
 from ..model.dimensionless import nondimensionalise
 from ..scene.contact import GAPS
-from .samples import SAMPLE_BUDGET, known
+from .samples import SAMPLE_BUDGET, answers
 from .scene_sampler import SceneSampler
 
 # Kinds of change: a criterion is just met; a doublet begins to escape without or with a rebound; other.
@@ -65,15 +65,15 @@ def changes_along(
     """
     if not angles:
         return []
-    samples = [known(line_samples) for line_samples in samples]
-    joined, line = np.concatenate(samples), np.repeat(np.arange(len(angles)), [part.size for part in samples])
+    samples = [answers(line_samples) for line_samples in samples]
+    joined, line = np.concatenate(samples), np.repeat(np.arange(len(angles)), [sample.size for sample in samples])
     brackets = _enclosed(angles, sampler, Brackets.between(line, joined["stokes"], joined["outcome"]))
-    results = [_attempt(_located, sampler, angle, brackets.part(brackets.line == k)) for k, angle in enumerate(angles)]
-    done = [k for k, result in enumerate(results) if not isinstance(result, ComputationError)]
-    agree = _confirmed(sampler, [(angles[k], results[k]) for k in done])
+    lines = [_attempt(_located, sampler, angle, brackets.subset(brackets.line == k)) for k, angle in enumerate(angles)]
+    done = [k for k, result in enumerate(lines) if not isinstance(result, ComputationError)]
+    agree = _confirmed(sampler, [(angles[k], lines[k]) for k in done])
     for k, agrees in zip(done, agree, strict=True):
-        results[k] = _attempt(_accepted, results[k], agrees, samples[k])
-    return results
+        lines[k] = _attempt(_accepted, lines[k], agrees, samples[k])
+    return lines
 
 
 def _attempt(step: Callable[..., Any], *arguments: Any) -> Any:
@@ -93,8 +93,8 @@ def _enclosed(angles: Sequence[float], sampler: SceneSampler, brackets: Brackets
     for budget in (SAMPLE_BUDGET, KERNEL_STEPS):
         wide = np.log(brackets.high / brackets.low) >= MERGED
         labels = partial(outcomes, budget)
-        narrow = enclose(labels, brackets.part(wide), _NARROW, at_once=_AT_ONCE, unknown=-1, logarithmic=True)
-        brackets = Brackets.joined([brackets.part(~wide), narrow])
+        narrow = enclose(labels, brackets.subset(wide), _NARROW, at_once=_AT_ONCE, unknown=-1, logarithmic=True)
+        brackets = Brackets.joined([brackets.subset(~wide), narrow])
     return brackets
 
 

@@ -71,4 +71,4 @@ def _curves(scene: Scene, angles: np.ndarray, values: np.ndarray, impact: str, r
     plane = check_plane(scene, ANGLE, span, window, rtol)
     plane.patience = _PATIENCE
     atlas = curves_of(plane, _LINES, lambda *_: None)
-    return [(np.array(one.x), np.array(one.stokes) / normal(np.array(one.x))) for one in atlas.curves]
+    return [(np.array(curve.x), np.array(curve.stokes) / normal(np.array(curve.x))) for curve in atlas.curves]

@@ -66,7 +66,7 @@ class Plane:
         across = points[..., 0]
         return np.where(across >= 1, high, low + across * (high - low))
 
-    def shown(self, points: np.ndarray) -> np.ndarray:
+    def values(self, points: np.ndarray) -> np.ndarray:
         """Values of the entry at points, for results: on the lower edge of the window, `edge`."""
         return np.where(points[..., 0] <= 0, self.edge, self.x(points))
 

@@ -58,10 +58,10 @@ def draw(scene: Scene, lines: Boundaries) -> Figure:
     factor = _frame(axes, scene, whole, low, high, single)
     regions = whole if not single else replace(whole, span=(0.0, 1.0))
     _fill(axes, regions, factor)
-    for one in regions.curves:
-        axes.plot(np.array(one.x) / factor, one.stokes, color=INK, linewidth=1.5, solid_capstyle="round", zorder=3)
+    for curve in regions.curves:
+        axes.plot(np.array(curve.x) / factor, curve.stokes, color=INK, linewidth=1.5, solid_capstyle="round", zorder=3)
     changes = zip(lines.angles, lines.changes, strict=True) if dots else ()
-    if pairs := [(math.degrees(at), one.stokes) for at, line in changes for one in line]:
+    if pairs := [(math.degrees(at), change.stokes) for at, line in changes for change in line]:
         axes.plot(*zip(*pairs), "o", color=INK, markersize=2.6, zorder=4, clip_on=False)
     handles: list[Any] = [patch(OUTCOMES[k]) for k in sorted({k for slab in regions.slabs() for k in slab.labels})]
     handles += _mark(axes, whole.points, factor, low, high)
@@ -79,7 +79,7 @@ def _filled(scene: Scene, lines: Boundaries) -> Atlas:
     if low < high:
         return _curves(scene, (low, high), lines.window, max(2, min(LINES, len(lines.angles))))
     changes = lines.changes[0]
-    curves = [Curve(one.before, one.after, one.kind, (0.0, 1.0), (one.stokes, one.stokes)) for one in changes]
+    curves = [Curve(edge.before, edge.after, edge.kind, (0.0, 1.0), (edge.stokes, edge.stokes)) for edge in changes]
     background = OUTCOMES[0]
     if not changes:
         background = _curves(scene, (max(low - 1e-6, 0.0), low + 1e-6), lines.window, 2).background
@@ -95,7 +95,7 @@ def _curves(scene: Scene, angles: tuple[float, float], window: tuple[float, floa
 
 def _shown(whole: Atlas) -> tuple[float, float]:
     """Range of Stokes numbers of the figure: the curves and a margin, within the window."""
-    stokes = [value for one in whole.curves for value in one.stokes]
+    stokes = [value for curve in whole.curves for value in curve.stokes]
     if not stokes:
         return whole.window
     return max(min(stokes) / _ROOM, whole.window[0]), min(max(stokes) * _ROOM, whole.window[1])
@@ -160,9 +160,9 @@ def _fill(axes: Axes, whole: Atlas, factor: float) -> None:
 def _mark(axes: Axes, points: Sequence[Point], factor: float, low: float, high: float) -> list[Any]:
     """Draw meeting points and their legend; names of one place are combined."""
     places: dict[tuple[float, float], list[str]] = {}
-    for one in points:
-        if low <= one.stokes <= high:
-            places.setdefault((one.x, one.stokes), []).append(one.kind)
+    for point in points:
+        if low <= point.stokes <= high:
+            places.setdefault((point.x, point.stokes), []).append(point.kind)
     handles: dict[str, Any] = {}
     for (x, stokes), kinds in places.items():
         style: Any = {

@@ -52,16 +52,16 @@ def slabs(arcs: Sequence[Arc], column: np.ndarray, labels: np.ndarray) -> list[S
 def labelled(parts: Sequence[Slab], points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Labels of the regions at points (n x 2), and vertical distances to the nearest curve of their slabs."""
     labels, distance = np.full(points.shape[0], UNKNOWN), np.full(points.shape[0], np.inf)
-    which = np.searchsorted([part.high for part in parts], points[:, 0]).clip(0, len(parts) - 1)
-    for k, part in enumerate(parts):
+    which = np.searchsorted([slab.high for slab in parts], points[:, 0]).clip(0, len(parts) - 1)
+    for k, slab in enumerate(parts):
         inside = np.flatnonzero(which == k)
         if not inside.size:
             continue
         x, y = points[inside, 0], points[inside, 1]
-        heights = np.array([np.interp(x, arc.points[:, 0], arc.points[:, 1]) for arc in part.arcs])
-        below = (heights < y).sum(axis=0) if part.arcs else np.zeros(inside.size, dtype=int)
-        labels[inside] = np.array(part.labels)[below]
-        if part.arcs:
+        heights = np.array([np.interp(x, arc.points[:, 0], arc.points[:, 1]) for arc in slab.arcs])
+        below = (heights < y).sum(axis=0) if slab.arcs else np.zeros(inside.size, dtype=int)
+        labels[inside] = np.array(slab.labels)[below]
+        if slab.arcs:
             distance[inside] = np.abs(heights - y).min(axis=0)
     return labels, distance
 
@@ -70,9 +70,9 @@ def apart(arcs: Sequence[Arc], points: np.ndarray) -> np.ndarray:
     """Distances in the window from points to the nearest curve."""
     distance = np.full(points.shape[0], np.inf)
     for arc in arcs:
-        one, way = arc.points[:-1], np.diff(arc.points, axis=0)
+        start, way = arc.points[:-1], np.diff(arc.points, axis=0)
         square = np.maximum((way**2).sum(axis=1), 1e-300)
         for k, point in enumerate(points):
-            part = np.clip(((point - one) * way).sum(axis=1) / square, 0, 1)
-            distance[k] = min(distance[k], float(np.min(np.linalg.norm(one + part[:, None] * way - point, axis=1))))
+            share = np.clip(((point - start) * way).sum(axis=1) / square, 0, 1)
+            distance[k] = min(distance[k], float(np.min(np.linalg.norm(start + share[:, None] * way - point, axis=1))))
     return distance

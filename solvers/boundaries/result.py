@@ -75,7 +75,7 @@ class Boundaries(Drawn):
     def to_dict(self) -> dict[str, Any]:
         """The JSON object of `wetdoublet boundary --json`."""
         lines = zip(self.angles, self.changes, strict=True)
-        changes = [[self.change_dict(one, angle) for one in line] for angle, line in lines]
+        changes = [[self.change_dict(change, angle) for change in line] for angle, line in lines]
         return {"angles": list(self.angles), "changes": changes} | self.origin(angles="rad")
 
     def change_dict(self, change: Change, angle: float) -> dict[str, Any]:
@@ -102,24 +102,24 @@ class Boundaries(Drawn):
 
     def origin(self, **units: str) -> dict[str, Any]:
         """Provenance for the JSON objects; `units` by key, in addition to those of changes."""
-        known = {} if self.scene is None else origin(self.scene)
+        source = {} if self.scene is None else origin(self.scene)
         always = {"stokes": "1", "centrifugal": "1", "speed": "m/s", "relative_speed": "m/s", "angle": "rad"}
-        return {"rtol": self.rtol, "searched": list(self.window), "units": {**units, **always}} | known
+        return {"rtol": self.rtol, "searched": list(self.window), "units": {**units, **always}} | source
 
     def __str__(self) -> str:
         lines = [f"angle (deg)   St              Ce          {self.speed_heading:<18} change"]
         for angle, changes in zip(self.angles, self.changes, strict=True):
-            for one in changes:
-                ce = "-" if one.centrifugal is None else f"{one.centrifugal:.6g}"
-                change = f"{self.speed_at(one.stokes, angle):<18.6g} {one.before} -> {one.after}"
-                lines.append(f"{math.degrees(angle):<13.6g} {one.stokes:<15.10g} {ce:<11} {change}")
+            for change in changes:
+                ce = "-" if change.centrifugal is None else f"{change.centrifugal:.6g}"
+                ends = f"{self.speed_at(change.stokes, angle):<18.6g} {change.before} -> {change.after}"
+                lines.append(f"{math.degrees(angle):<13.6g} {change.stokes:<15.10g} {ce:<11} {ends}")
             if not changes:
                 failure = next(
                     (reason for at, reason in self.failed if at == angle), f"no change for {self.range_text}"
                 )
                 lines.append(f"{math.degrees(angle):<13.6g} {failure}")
         points = sum(len(changes) for changes in self.changes)
-        merged = sum(one.merged for line in self.changes for one in line)
+        merged = sum(change.merged for line in self.changes for change in line)
         lines += [f"{merged} of the changes stand for several closer than {MERGED:g}"] if merged else []
         text = f"{points} change{'s' * (points != 1)} from " + (
             f"{self.collisions} collisions" if self.collisions else "proofs at initial contact, without a collision"
@@ -132,11 +132,11 @@ class Boundaries(Drawn):
         import xarray as xr
 
         most, over = max((len(line) for line in self.changes), default=0), ("line", "change")
-        stokes = _padded([[one.stokes for one in line] for line in self.changes], most)
+        stokes = _padded([[change.stokes for change in line] for line in self.changes], most)
         centrifugal = [
-            [np.nan if one.centrifugal is None else one.centrifugal for one in line] for line in self.changes
+            [np.nan if change.centrifugal is None else change.centrifugal for change in line] for line in self.changes
         ]
-        kind = [[*(one.kind for one in line), *[""] * (most - len(line))] for line in self.changes]
+        kind = [[*(change.kind for change in line), *[""] * (most - len(line))] for line in self.changes]
         variables: dict[str, Any] = {
             "stokes": (over, stokes, {"units": "1", "long_name": "Stokes number at which the outcome changes"}),
             "centrifugal": (over, _padded(centrifugal, most), {"units": "1", "long_name": "centrifugal number there"}),
@@ -145,7 +145,7 @@ class Boundaries(Drawn):
                         {"long_name": "why a line could not be traced"}),
         }  # fmt: skip
         for side, meaning in (("before", "outcome below"), ("after", "outcome above")):
-            rows = [[OUTCOMES.index(getattr(one, side)) for one in line] for line in self.changes]
+            rows = [[OUTCOMES.index(getattr(change, side)) for change in line] for line in self.changes]
             variables[side] = over, _padded(rows, most, NONE).astype(np.int8), outcome_attributes(meaning, "none")
         angle = "line", np.array(self.angles), {"units": "rad", "long_name": "impact angle"}
         attributes: dict[str, Any] = {"resolution": self.resolution, "collisions": self.collisions,
@@ -160,9 +160,9 @@ class Boundaries(Drawn):
         for angle, line, failure in zip(self.angles, self.changes, failures, strict=True):
             at = f"{math.degrees(angle):.6g}"
             rows += [
-                (at, f"{one.stokes:.8g}", "-" if one.centrifugal is None else f"{one.centrifugal:.6g}",
-                 f"{self.speed_at(one.stokes, angle):.6g}", f"{one.before} → {one.after}", one.kind)
-                for one in line
+                (at, f"{change.stokes:.8g}", "-" if change.centrifugal is None else f"{change.centrifugal:.6g}",
+                 f"{self.speed_at(change.stokes, angle):.6g}", f"{change.before} → {change.after}", change.kind)
+                for change in line
             ]  # fmt: skip
             rows += [] if line else [(at, failure or f"no change for {self.range_text}", "", "", "", "")]
         head = ("angle (deg)", "St", "Ce", self.speed_heading, "change", "kind")
@@ -260,8 +260,8 @@ class Atlas(Boundaries):
     def to_dict(self) -> dict[str, Any]:
         """The JSON object of `wetdoublet boundary --angle LO:HI --json`."""
         result = {
-            "curves": [one.to_dict() | self._speeds(one.x, one.stokes) for one in self.curves],
-            "points": [one.to_dict() | self._speeds(one.x, one.stokes) for one in self.points],
+            "curves": [curve.to_dict() | self._speeds(curve.x, curve.stokes) for curve in self.curves],
+            "points": [point.to_dict() | self._speeds(point.x, point.stokes) for point in self.points],
             "resolution": self.sought,
         }
         if self.unsettled:
@@ -318,8 +318,8 @@ class Atlas(Boundaries):
     def slabs(self) -> list[Slab]:
         """The window divided into slabs in x, with one outcome between neighbouring curves."""
         arcs = [
-            Arc(self.unit(one.x, one.stokes), OUTCOMES.index(one.before), OUTCOMES.index(one.after))
-            for one in self.curves
+            Arc(self.unit(curve.x, curve.stokes), OUTCOMES.index(curve.before), OUTCOMES.index(curve.after))
+            for curve in self.curves
         ]
         parts = slabs(arcs, np.array([0.5]), np.array([OUTCOMES.index(self.background)]))
         for order in (1, -1):  # beyond the last curve only the region goes on that no curve has closed
@@ -331,20 +331,20 @@ class Atlas(Boundaries):
 
     def __str__(self) -> str:
         angle = self.over == ANGLE
-        name, shown = ("angle (deg)", math.degrees) if angle else (self.over, float)
+        name, value = ("angle (deg)", math.degrees) if angle else (self.over, float)
         lines = [f"{'curve':<42} {'kind':<16} {name} and St, from ... to"]
-        for one in self.curves:
-            ends = " ... ".join(f"{shown(one.x[k]):.6g}, {one.stokes[k]:.6g}" for k in (0, -1))
-            lines.append(f"{one.before + ' -> ' + one.after:<42} {one.kind:<16} {ends}")
+        for curve in self.curves:
+            ends = " ... ".join(f"{value(curve.x[k]):.6g}, {curve.stokes[k]:.6g}" for k in (0, -1))
+            lines.append(f"{curve.before + ' -> ' + curve.after:<42} {curve.kind:<16} {ends}")
         lines += [] if self.curves else [f"none: {self.background} everywhere, for {self.range_text}"]
         if self.points:
             lines += ["", f"{'point':<24} {name:<18} St"]
-            lines += [f"{one.kind:<24} {shown(one.x):<18.10g} {one.stokes:.10g}" for one in self.points]
-        lines += [f"not settled at {shown(x):.6g}, St {stokes:.6g}: {why}" for x, stokes, why in self.unsettled]
+            lines += [f"{point.kind:<24} {value(point.x):<18.10g} {point.stokes:.10g}" for point in self.points]
+        lines += [f"not settled at {value(x):.6g}, St {stokes:.6g}: {why}" for x, stokes, why in self.unsettled]
         sought, spacing = self.sought, self.sought["line_spacing"]
         assert isinstance(spacing, float)
         text = (
-            f"{self.range_text}; from {len(self.at)} lines, {shown(spacing):.3g} {'deg' if angle else '(SI)'} apart, "
+            f"{self.range_text}; from {len(self.at)} lines, {value(spacing):.3g} {'deg' if angle else '(SI)'} apart, "
             f"sampled every {self.resolution:.2%} in St; "
             f"{self.collisions} collisions; straight lines between the points of a curve are within "
             f"{sought['chord_stokes']:.1e} of St, relative"
@@ -359,27 +359,27 @@ class Atlas(Boundaries):
             unit = self.scene.fields[self.over].unit or "1"
         x: dict[str, Any] = {"units": unit, "long_name": self.over}
         stokes = {"units": "1", "long_name": "Stokes number"}
-        most = max((len(one.x) for one in self.curves), default=0)
-        data["curve_x"] = ("curve", "vertex"), _padded([one.x for one in self.curves], most), x
-        data["curve_stokes"] = ("curve", "vertex"), _padded([one.stokes for one in self.curves], most), stokes
+        most = max((len(curve.x) for curve in self.curves), default=0)
+        data["curve_x"] = ("curve", "vertex"), _padded([curve.x for curve in self.curves], most), x
+        data["curve_stokes"] = ("curve", "vertex"), _padded([curve.stokes for curve in self.curves], most), stokes
         for side, meaning in (("before", "outcome below the curve"), ("after", "outcome above the curve")):
-            values = np.array([OUTCOMES.index(getattr(one, side)) for one in self.curves], dtype=np.int8)
+            values = np.array([OUTCOMES.index(getattr(curve, side)) for curve in self.curves], dtype=np.int8)
             data[f"curve_{side}"] = "curve", values, outcome_attributes(meaning, "none")
-        data["curve_kind"] = "curve", np.array([one.kind for one in self.curves], dtype=str)
-        data["point_kind"] = "point", np.array([one.kind for one in self.points], dtype=str)
-        data["point_x"] = "point", np.array([one.x for one in self.points], dtype=float), x
-        data["point_stokes"] = "point", np.array([one.stokes for one in self.points], dtype=float), stokes
+        data["curve_kind"] = "curve", np.array([curve.kind for curve in self.curves], dtype=str)
+        data["point_kind"] = "point", np.array([point.kind for point in self.points], dtype=str)
+        data["point_x"] = "point", np.array([point.x for point in self.points], dtype=float), x
+        data["point_stokes"] = "point", np.array([point.stokes for point in self.points], dtype=float), stokes
         more = {"over": self.over} | {f"sought_{name}": value for name, value in self.sought.items()}
         return data.assign_coords(x=("line", np.array(self.at), x)).assign_attrs(more)
 
     def _repr_html_(self) -> str:
         scale, x = (math.degrees(1.0), "angle (deg)") if self.over == ANGLE else (1.0, self.over)
         rows = [
-            (f"{one.before} → {one.after}", one.kind,
-             f"{scale * one.x[0]:.6g} ... {scale * one.x[-1]:.6g}", f"{one.stokes[0]:.6g} ... {one.stokes[-1]:.6g}")
-            for one in self.curves
+            (f"{line.before} → {line.after}", line.kind,
+             f"{scale * line.x[0]:.6g} ... {scale * line.x[-1]:.6g}", f"{line.stokes[0]:.6g} ... {line.stokes[-1]:.6g}")
+            for line in self.curves
         ]  # fmt: skip
-        rows += [("point", one.kind, f"{scale * one.x:.6g}", f"{one.stokes:.6g}") for one in self.points]
+        rows += [("point", point.kind, f"{scale * point.x:.6g}", f"{point.stokes:.6g}") for point in self.points]
         notes = [f"not settled at {scale * at:.6g}, St {stokes:.6g}: {why}" for at, stokes, why in self.unsettled]
         return view(f"{self._name}: atlas of boundaries", rows, ("curve", "kind", x, "St"), notes)
 

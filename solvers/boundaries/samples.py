@@ -48,8 +48,8 @@ def sampled(angles: np.ndarray, first: np.ndarray, sampler: Sampler) -> list[np.
         unsettled = list(more)  # a line without new samples needs none in later rounds either
         counts = [fresh.size for fresh in more.values()]
         seen = sampler(np.repeat(angles[unsettled], counts), np.concatenate(list(more.values())))
-        for k, part in zip(unsettled, np.split(seen, np.cumsum(counts)[:-1]), strict=True):
-            lines[k] = merged(lines[k], part)
+        for k, piece in zip(unsettled, np.split(seen, np.cumsum(counts)[:-1]), strict=True):
+            lines[k] = merged(lines[k], piece)
     return lines
 
 
@@ -67,7 +67,7 @@ def merged(line: np.ndarray, fresh: np.ndarray) -> np.ndarray:
     return both[np.argsort(both["stokes"], kind="stable")]
 
 
-def known(line: np.ndarray) -> np.ndarray:
+def answers(line: np.ndarray) -> np.ndarray:
     """The samples that did not fail."""
     return line[line["outcome"] >= 0]
 
@@ -75,7 +75,7 @@ def known(line: np.ndarray) -> np.ndarray:
 def _between(line: np.ndarray) -> np.ndarray:
     """Stokes numbers of the next samples of a line."""
     failed = np.cumsum(line["outcome"] < 0)[line["outcome"] >= 0]
-    line = known(line)
+    line = answers(line)
     if line.size < 2:
         return np.zeros(0)
     at = np.log(line["stokes"])

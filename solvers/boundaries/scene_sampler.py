@@ -131,7 +131,7 @@ class SceneSampler:
         every = Impacts(self.scene, stokes / self.scene.stokes_per_speed, angle, solids or {})
         answers, peaks = np.zeros(every.size, ANSWER), np.zeros(every.size)
         for oblique, which in every.by_kind():
-            impacts = every.part(which)
+            impacts = every.subset(which)
             ran = run_recorded(
                 impacts, oblique, self.rtol, trajectory=True, budget=budget, purpose=purpose, keep=False, fold=False,
                 peaks=True, events=False,
@@ -153,7 +153,7 @@ class SceneSampler:
             return
         if scene.pair or scene.wall:
             return
-        stopped = impacts.part(endless)
+        stopped = impacts.subset(endless)
         before = run_recorded(stopped, oblique, self.rtol, trajectory=True, budget=budget // _EARLIER, keep=False,
                               fold=False, events=False).answers  # fmt: skip
         for j, (k, early) in enumerate(zip(endless, before, strict=True)):
@@ -179,17 +179,17 @@ class SceneSampler:
         undecided = np.isin(answers["status"], (Status.NO_BUDGET, Status.CHATTER))
         which, wanted = np.flatnonzero(undecided), np.zeros(undecided.size, dtype=bool)
         parts = np.split(which, 1 + np.flatnonzero((np.diff(which) > 1) | (np.diff(stokes[which]) < 0)))
-        for part in parts:
-            wanted[part[::_EVERY]] = wanted[part[-1:]] = True
+        for rows in parts:
+            wanted[rows[::_EVERY]] = wanted[rows[-1:]] = True
         while wanted.any():
             answers[wanted], peaks[wanted] = self._collided(angle[wanted], stokes[wanted])
             undecided &= ~wanted
             chatters = ~undecided & (answers["status"] == Status.CHATTER) & (answers["outcome"] < 0)
             wanted = undecided.copy()
-            for part in parts:
-                still = part[chatters[part]]
+            for rows in parts:
+                still = rows[chatters[rows]]
                 if still.size and (undecided | chatters)[still[0] : still[-1]].all():
-                    inside = part[(still[0] < part) & (part < still[-1])]
+                    inside = rows[(still[0] < rows) & (rows < still[-1])]
                     wanted[inside[abs(inside - (still[0] + still[-1]) // 2) > _ROW // 2]] = False
         self.untried.update(zip(angle[undecided].tolist(), stokes[undecided].tolist(), strict=True))
 

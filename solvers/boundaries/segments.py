@@ -40,7 +40,7 @@ def changes_on(
         return _changes(where, seen)
 
     return [
-        [((low[k] + 0.5 * (one + other) * way[k]).tolist(), *pair) for one, other, *pair in intervals]
+        [((low[k] + 0.5 * (start + other) * way[k]).tolist(), *pair) for start, other, *pair in intervals]
         for k, intervals in enumerate(_narrowed(labels, low, way, at, whole))
     ]
 
@@ -65,15 +65,15 @@ def crossings(
 
     def nearest(k: int, where: np.ndarray, seen: np.ndarray) -> list[Interval]:
         """The nearest interval with these labels; without one, the nearest in which a third may lie between them."""
-        changes = sorted(_changes(where, seen), key=lambda one: abs(one[0] + one[1]))
-        wanted = [one for one in changes if one[2:] == pairs[k]]
-        return (wanted or [one for one in changes if one[2] == pairs[k][0] or one[3] == pairs[k][1]])[:1]
+        changes = sorted(_changes(where, seen), key=lambda span: abs(span[0] + span[1]))
+        wanted = [span for span in changes if span[2:] == pairs[k]]
+        return (wanted or [span for span in changes if span[2] == pairs[k][0] or span[3] == pairs[k][1]])[:1]
 
     result = np.full(centre.shape, np.nan)
     for k, intervals in enumerate(_narrowed(labels, centre, along, at, nearest)):
-        for one, other, *pair in intervals:
+        for start, other, *pair in intervals:
             if tuple(pair) == pairs[k]:
-                result[k] = centre[k] + 0.5 * (one + other) * along[k]
+                result[k] = centre[k] + 0.5 * (start + other) * along[k]
     return np.asarray(np.clip(result, 0.0, 1.0))
 
 
@@ -90,7 +90,7 @@ def _narrowed(
         at: distances of the first points, n x m, ascending.
         chosen: the intervals to go on with, of a segment's index, distances and their labels.
     """
-    found: list[list[Interval]] = [[] for _ in start]
+    result: list[list[Interval]] = [[] for _ in start]
     owner, open_ = np.arange(len(start)), list[Interval]()
     for turn in range(_ROUNDS):
         if not owner.size:
@@ -103,22 +103,22 @@ def _narrowed(
                 wide = interval[1] - interval[0]
                 unknown = not (row[1:-1] >= 0).any()
                 if wide < LOCATED or min(interval[2:]) < 0 or (unknown and wide < _DOUBT):
-                    found[k].append(interval)
+                    result[k].append(interval)
                 else:
                     owners.append(k)
                     open_.append(interval)
         owner, parts = np.array(owners, dtype=int), _PARTS + turn % 2  # others where all of a round are unknown
-        at = np.array([np.linspace(one, other, parts + 1) for one, other, *_ in open_]).reshape(len(open_), parts + 1)
-    for k, (one, other, before, after) in zip(owner.tolist(), open_, strict=True):
-        found[k] += [(one, one, before, -1), (other, other, -1, after)]
-    return [sorted(one) for one in found]
+        at = np.array([np.linspace(low, other, parts + 1) for low, other, *_ in open_]).reshape(len(open_), parts + 1)
+    for k, (low, other, before, after) in zip(owner.tolist(), open_, strict=True):
+        result[k] += [(low, low, before, -1), (other, other, -1, after)]
+    return [sorted(intervals) for intervals in result]
 
 
 def _changes(at: np.ndarray, seen: np.ndarray) -> list[Interval]:
     """Intervals between neighbouring known points, and the ends, whose labels differ."""
-    known = seen >= 0
-    known[[0, -1]] = True
-    where, labels = at[known].tolist(), seen[known].tolist()
+    mask = seen >= 0
+    mask[[0, -1]] = True
+    where, labels = at[mask].tolist(), seen[mask].tolist()
     change = np.flatnonzero(np.diff(labels)).tolist()
     return [(where[k], where[k + 1], labels[k], labels[k + 1]) for k in change]
 

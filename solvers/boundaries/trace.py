@@ -16,7 +16,7 @@ from ..errors import ComputationError
 from ..host.workers import lasting_workers
 from ..scene.scene import Scene
 from .changes import Change, changes_along
-from .samples import first_grid, known, sampled
+from .samples import answers, first_grid, sampled
 from .scene_sampler import PER_DECADE, SceneSampler
 
 SHARPEST = 1e-13
@@ -36,12 +36,12 @@ class Traced:
     collisions: int
     resolution: float
 
-    def add(self, part: Traced) -> None:
+    def add(self, block: Traced) -> None:
         """Append the lines of another."""
-        self.changes += part.changes
-        self.failures += part.failures
-        self.collisions += part.collisions
-        self.resolution = max(self.resolution, part.resolution)
+        self.changes += block.changes
+        self.failures += block.failures
+        self.collisions += block.collisions
+        self.resolution = max(self.resolution, block.resolution)
 
 
 def traces(
@@ -52,7 +52,7 @@ def traces(
         yield trace(scene, parts[0], span, rtol, tell)
         return
     with lasting_workers(len(parts) - 1) as pool:
-        others = [pool.submit(trace, scene, part, span, rtol) for part in parts[1:]]
+        others = [pool.submit(trace, scene, angles, span, rtol) for angles in parts[1:]]
         yield trace(scene, parts[0], span, rtol, tell)
         for other in others:
             yield other.result()
@@ -144,4 +144,4 @@ def _completed(samples: np.ndarray, grid: np.ndarray, sampler: SceneSampler, ang
 
 def _spaced(samples: np.ndarray, grid: np.ndarray) -> np.ndarray:
     """Logarithms of the Stokes numbers of known samples, with the first and last of the grid."""
-    return np.asarray(np.log(np.concatenate([grid[:1], known(samples)["stokes"], grid[-1:]])))
+    return np.asarray(np.log(np.concatenate([grid[:1], answers(samples)["stokes"], grid[-1:]])))

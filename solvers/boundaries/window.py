@@ -39,7 +39,7 @@ def stokes_range(scene: Scene, angles: Collection[float]) -> tuple[float, float]
         if pull and scene.turns(angle) and angle > 0 and not scene.wall:
             lows.append(scene.stokes_of(math.sqrt(pull * a / m) / math.tan(angle)))
     low = max(math.floor(math.log10(min(*lows, 1.0) / _ROOM)), -_FARTHEST)
-    high = min(math.ceil(math.log10(max(1.0, *(each for each in highs if each < math.inf)) * _ROOM)), _FARTHEST)
+    high = min(math.ceil(math.log10(max(1.0, *(value for value in highs if value < math.inf)) * _ROOM)), _FARTHEST)
     lowest, highest = min(10.0**low, STOKES[0]), max(10.0**high, STOKES[1])
     return lowest * max([1.0, *(_reversing(scene, lowest, angle) for angle in angles)]), highest
 

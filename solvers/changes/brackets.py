@@ -42,9 +42,9 @@ class Brackets:
     @classmethod
     def joined(cls, parts: Sequence[Brackets]) -> Brackets:
         """All brackets of several, sorted by line and place."""
-        columns = zip(*(vars(each).values() for each in parts), strict=True)
+        columns = zip(*(vars(group).values() for group in parts), strict=True)
         every = cls(*(np.concatenate(column) for column in columns))
-        return every.part(np.lexsort((every.low, every.line)))
+        return every.subset(np.lexsort((every.low, every.line)))
 
     @property
     def size(self) -> int:
@@ -62,9 +62,9 @@ class Brackets:
         half: np.ndarray = (self.high - self.low) / 2
         return half
 
-    def part(self, which: np.ndarray) -> Brackets:
+    def subset(self, which: np.ndarray) -> Brackets:
         """The brackets of these indices, or of this mask."""
-        return Brackets(*(getattr(self, each.name)[which] for each in fields(Brackets)))
+        return Brackets(*(getattr(self, field.name)[which] for field in fields(Brackets)))
 
 
 def locate(
@@ -77,12 +77,12 @@ def locate(
     """The changes along lines that are sampled at ascending `places` (lines, samples); other arguments as `enclose`."""
     line = np.repeat(np.arange(len(places)), places.shape[1])
     label = labels(line, places.ravel())
-    known = np.flatnonzero(np.ones(label.size, bool) if unknown is None else label != unknown)
-    brackets = Brackets.between(line[known], places.ravel()[known], label[known])
+    indices = np.flatnonzero(np.ones(label.size, bool) if unknown is None else label != unknown)
+    brackets = Brackets.between(line[indices], places.ravel()[indices], label[indices])
     closed = enclose(labels, brackets, width, unknown=unknown, most=most)
     first = label.reshape(places.shape)[:, 0].copy()
-    rows, earliest = np.unique(line[known], return_index=True)
-    first[rows] = label[known[earliest]]
+    rows, earliest = np.unique(line[indices], return_index=True)
+    first[rows] = label[indices[earliest]]
     return Changes(closed.line, closed.low, closed.high, closed.before, closed.after, first)
 
 
@@ -113,25 +113,25 @@ def enclose(
     for _ in range(_ROUNDS):
         wide = np.log(brackets.high / brackets.low) if logarithmic else brackets.high - brackets.low
         done = (wide <= (width(brackets) if callable(width) else width)) | (undecided > 1)
-        closed.append(brackets.part(done))
-        brackets, undecided = brackets.part(~done), undecided[~done]
+        closed.append(brackets.subset(done))
+        brackets, undecided = brackets.subset(~done), undecided[~done]
         if not brackets.size:
             break
         parts = min(_PARTS, max(2, 1 - (-at_once // brackets.size)))
         owner, place = _divisions(brackets, np.where(undecided > 0, _PARTS, parts), logarithmic)
         label = labels(brackets.line[owner], place)
-        known = np.ones(label.size, bool) if unknown is None else label != unknown
+        mask = np.ones(label.size, bool) if unknown is None else label != unknown
         every = np.arange(brackets.size)
-        owner = np.concatenate([every, owner[known], every])
-        place = np.concatenate([brackets.low, place[known], brackets.high])
-        label = np.concatenate([brackets.before, label[known], brackets.after])
+        owner = np.concatenate([every, owner[mask], every])
+        place = np.concatenate([brackets.low, place[mask], brackets.high])
+        label = np.concatenate([brackets.before, label[mask], brackets.after])
         decided = np.bincount(owner, minlength=brackets.size) > 2
         undecided = np.where(decided, np.minimum(undecided, 1), undecided + 1 + (parts == _PARTS))
         order = np.lexsort((place, owner))
         narrower = Brackets.between(owner[order], place[order], label[order])
         if most is not None:
             crowded = np.bincount(brackets.line)[brackets.line] >= most
-            narrower = narrower.part(~crowded[narrower.line] | np.append(np.diff(narrower.line) != 0, True))
+            narrower = narrower.subset(~crowded[narrower.line] | np.append(np.diff(narrower.line) != 0, True))
         undecided = undecided[narrower.line]
         brackets = Brackets(brackets.line[narrower.line], narrower.low, narrower.high, narrower.before, narrower.after)
     return Brackets.joined([*closed, brackets])

@@ -145,7 +145,7 @@ class Experiment:
     def joined(self, others: Sequence[Experiment], row: np.ndarray) -> tuple[Experiment, np.ndarray]:
         """These experiments, one after the other, as one, and its rows: `row` of the first, of the second, and on."""
         every = [self, *others]
-        columns = {name: np.concatenate([each.columns[name] for each in every]) for name in self.columns}
+        columns = {name: np.concatenate([experiment.columns[name] for experiment in every]) for name in self.columns}
         size = next(iter(self.columns.values())).size
         return replace(self, columns=columns), np.concatenate([self._share(row) + k * size for k in range(len(every))])
 
@@ -206,13 +206,13 @@ class Experiment:
             np.zeros(shape), np.zeros(shape),
         )  # fmt: skip
         for oblique, which in impacts.by_kind():
-            self._fill(results, names, row[which], impacts.part(which), which, oblique, forward, budget)
+            self._fill(results, names, row[which], impacts.subset(which), which, oblique, forward, budget)
         mirrored = np.where(angle < 0, -1.0, 1.0)
         results.angle[:] *= mirrored
         if "rotation" in names:
             k = names.index("rotation")
-            for each in (results.value, results.speed, results.angle):
-                each[k] *= mirrored
+            for values in (results.value, results.speed, results.angle):
+                values[k] *= mirrored
             results.free[k] *= mirrored[:, None]
         return results
 
@@ -230,18 +230,18 @@ class Experiment:
         answers, slopes = run.answers, run.slopes
         failures = np.flatnonzero(answers["status"] > LAST_ANSWER)
         if back and failures.size:
-            again = run_tangent(impacts.part(failures), oblique, rtol, rotation, moved, None, budget, False, False)
+            again = run_tangent(impacts.subset(failures), oblique, rtol, rotation, moved, None, budget, False, False)
             assert again is not None
             answers[failures], slopes[failures] = again.answers, again.slopes[:, :, :1]
         done = answers["status"] <= LAST_ANSWER
         results.outcome[which] = np.where(done, answers["outcome"], UNDECIDED)
         for k, name in enumerate(names):
             value, column = result(answers, name), derivative_column(name)
-            by = {one: slopes[:, run.quantities.index(one), column] for one in moved if one in run.quantities}
+            by = {entry: slopes[:, run.quantities.index(entry), column] for entry in moved if entry in run.quantities}
             by_speed, by_angle = by.pop("speed").copy(), by.pop("angle", np.zeros(which.size)).copy()
             free = np.zeros((which.size, len(self.rows.names)))
-            for one, each in by.items():
-                free += each[:, None] * self.slopes[one][share]
+            for entry, derivative in by.items():
+                free += derivative[:, None] * self.slopes[entry][share]
             if name == "contact_time":
                 film = self.columns["film_thickness"][share]
                 scale = film / impacts.speed

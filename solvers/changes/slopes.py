@@ -104,13 +104,13 @@ def normals(experiment: Experiment, lines: Lines, changes: Brackets, approximate
     near = experiment.results(("contact_time",), lines.row[where], *lines.at(where, at), forward=True, budget=budget)
     by_speed, by_angle = lines.slopes(where, at)
     along = near.speed[0] * by_speed + near.angle[0] * by_angle
-    parts = [each[:count] - each[count:] for each in (near.free[0], near.speed[0], near.angle[0], along)]
+    parts = [values[:count] - values[count:] for values in (near.free[0], near.speed[0], near.angle[0], along)]
     with np.errstate(divide="ignore", invalid="ignore"):
         growth = np.abs(along[:count] / along[count:])
     outcome = near.outcome.reshape(2, count)
     sound = (outcome == np.maximum(changes.before, changes.after)).all(axis=0)
     sound &= (growth > _GROWTH[0]) & (growth < _GROWTH[1])
-    free, speed, angle, along = (np.where(sound.reshape(-1, *[1] * (each.ndim - 1)), each, np.nan) for each in parts)
+    free, speed, angle, along = (np.where(sound.reshape(-1, *[1] * (diff.ndim - 1)), diff, np.nan) for diff in parts)
     failures = np.flatnonzero((outcome < 0).any(axis=0)) if approximate else np.zeros(0, int)
     if failures.size:
         far = np.maximum(_FAR, 4 * changes.error[failures])
@@ -135,7 +135,7 @@ def _by_times(
     step_speed = _SHIFT * distance * (np.abs(by_speed) + 1e-3 * speed)
     step_angle = _SHIFT * distance * (np.abs(by_angle) + 1e-3)
     steps = _STEP_OF_ENTRY * float(distance.min()) * experiment.scales
-    displaced = {k: each for k, step in enumerate(steps) if (each := experiment.displaced(k, step)) is not None}
+    displaced = {k: copy for k, step in enumerate(steps) if (copy := experiment.displaced(k, step)) is not None}
     possible = list(displaced)
     points = [
         (speed, angle), *(lines.at(line, y + factor * side * distance) for factor in (4, 16)),
@@ -143,7 +143,7 @@ def _by_times(
     ]  # fmt: skip
     undisplaced = len(points) - len(possible)
     every, rows = experiment.joined([*[experiment] * (undisplaced - 1), *displaced.values()], lines.row[line])
-    speeds, angles = (np.concatenate(each) for each in zip(*points, strict=True))
+    speeds, angles = (np.concatenate(column) for column in zip(*points, strict=True))
     answers = every.answers(rows, speeds, angles)
     done = (answers["status"] <= LAST_ANSWER) & (answers["outcome"] > 0)
     times = np.where(done, answers["time"], np.nan).reshape(len(points), -1)
@@ -178,7 +178,7 @@ def slopes(experiment: Experiment, lines: Lines, changes: Brackets, approximate:
     missing = np.flatnonzero(~np.isfinite(by_free).all(axis=1))
     if missing.size:
         step = _ROUGH if approximate else _EXACT
-        by_free[missing] = slopes_by_differences(experiment, lines, changes.part(missing), step)
+        by_free[missing] = slopes_by_differences(experiment, lines, changes.subset(missing), step)
     return by_free
 
 
@@ -197,9 +197,9 @@ def slopes_by_differences(
     """
     by_free = np.full((changes.size, len(experiment.rows.names)), np.nan)
     steps = step * experiment.scales
-    ends = {k: [experiment.displaced(k, sign * one) for sign in (1, -1)] for k, one in enumerate(steps)}
+    ends = {k: [experiment.displaced(k, sign * size) for sign in (1, -1)] for k, size in enumerate(steps)}
     possible = [k for k, both in ends.items() if None not in both]
-    moved = [each for k in possible for each in ends[k] if each is not None]
+    moved = [end for k in possible for end in ends[k] if end is not None]
     if moved:
         places = _again(moved, lines, changes, step, labels or Experiment.outcomes).reshape(-1, 2, changes.size)
         of_changes = steps[possible] if steps.ndim == 1 else steps[possible][:, lines.row[changes.line]].T
@@ -212,7 +212,7 @@ def _again(
 ) -> np.ndarray:
     """Places of changes near where they were, in each experiment in turn; NaN where they are not found."""
     line, y, before, after = (
-        np.tile(each, len(experiments)) for each in (changes.line, changes.place, changes.before, changes.after)
+        np.tile(column, len(experiments)) for column in (changes.line, changes.place, changes.before, changes.after)
     )
     every, rows = experiments[0].joined(experiments[1:], lines.row[changes.line])
 

@@ -95,7 +95,7 @@ def collision(
         ComputationError: as `recorded` and `assembled`.
     """
     record = followed(problem, rtol, until, ledger=ledger, trajectory=trajectory)
-    answer, books = _row(record.answers), None if record.ledger is None else _row(record.ledger)
+    answer, account = _row(record.answers), None if record.ledger is None else _row(record.ledger)
     separated = answer["outcome"] > 0
     names, words = problem.model(full=ledger).names("outputs"), words_of(problem.scene)
     log = record.events[0, : answer["events"]]
@@ -115,8 +115,8 @@ def collision(
         steps=answer["steps"],
         decided=record.decided,
         rtol=rtol,
-        terms=books and {name: books[field] for name, field in TERMS.items() if field in books},
-        momentum=books["momentum"] if books else 1.0,
+        terms=account and {name: account[field] for name, field in TERMS.items() if field in account},
+        momentum=account["momentum"] if account else 1.0,
         trajectory=_trajectory(problem, rtol, record, ledger) if trajectory else None,
     )
 
@@ -152,14 +152,14 @@ def _stretches(steps: Steps, model: Model, ledger: bool) -> Iterator[Stretch]:
     terms = [name for name in model.names("energy_rates") if name != "capillary"] if ledger else []
     firsts = np.flatnonzero(np.diff(rows["phase"], prepend=-1)) if rows.size else np.zeros(0, int)
     for first, end in zip(firsts, np.append(firsts[1:], rows.size)):
-        part, row = Steps(rows[first:end], turned), rows[first]
+        block, row = Steps(rows[first:end], turned), rows[first]
         start = float(row["time"])
         duration = float(rows[end - 1]["time"] + rows[end - 1]["length"]) - start
 
         def sample(
-            parts: np.ndarray, part: Steps = part, start: float = start, duration: float = duration
+            parts: np.ndarray, block: Steps = block, start: float = start, duration: float = duration
         ) -> tuple[np.ndarray, dict[str, np.ndarray]]:
-            y = part.states(start + parts * duration)
+            y = block.states(start + parts * duration)
             along = dict(zip(terms, y[len(y) - len(terms) :], strict=True))
             if ledger and "capillary" in model.works:
                 along["capillary"] = y[size] - along.get("attraction", 0.0)

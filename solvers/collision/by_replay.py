@@ -102,7 +102,7 @@ def terms_of(model: Model, replay: Replay, p: np.ndarray) -> dict[str, float]:
     terms["dry_friction"] += replay.friction_loss
     stored = last.get("own_energy", 0.0) - first.get("own_energy", 0.0)
     terms |= {"own_events": replay.own_loss, "own_terms": stored + terms.pop("own_work", 0.0)}
-    absent = [name for name, there in (("own_events", model.own_events), ("own_terms", model.own_terms)) if not there]
+    absent = [name for name, items in (("own_events", model.own_events), ("own_terms", model.own_terms)) if not items]
     return {name: value for name, value in terms.items() if name not in absent}
 
 

@@ -36,7 +36,7 @@ def absent_terms(scene: Scene) -> set[str]:
         "own_events": (scene.package and scene.package.events) or None,
         "own_terms": scene.package and scene.package.terms,
     }  # fmt: skip
-    return {name for name, part in absent.items() if part is None}
+    return {name for name, value in absent.items() if value is None}
 
 
 @dataclass(frozen=True)

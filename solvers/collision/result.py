@@ -37,11 +37,11 @@ class Collision(Outcome, Drawn):
 
     def __repr__(self) -> str:
         names = [entry.name for entry in fields(self) if entry.repr and entry.name != "events"]
-        shown = {name: repr(getattr(self, name)) for name in names}
-        first, last = (", ".join(map(repr, part)) for part in (self.events[:_ENDS], self.events[-_ENDS:]))
+        values = {name: repr(getattr(self, name)) for name in names}
+        first, last = (", ".join(map(repr, events)) for events in (self.events[:_ENDS], self.events[-_ENDS:]))
         hidden = len(self.events) - 2 * _ENDS
-        shown["events"] = f"({first}, ... {hidden} more ..., {last})" if hidden > 0 else repr(self.events)
-        return f"{type(self).__name__}({', '.join(f'{name}={text}' for name, text in shown.items())})"
+        values["events"] = f"({first}, ... {hidden} more ..., {last})" if hidden > 0 else repr(self.events)
+        return f"{type(self).__name__}({', '.join(f'{name}={text}' for name, text in values.items())})"
 
     def __str__(self) -> str:
         from .text import table

@@ -84,7 +84,7 @@ def reason(collision: Outcome) -> str:
     """Return the reason of the outcome, in words."""
     if collision.outcome == BOUNCE and collision.reversal is not None:
         own = collision.scene.package.criteria if collision.scene.package is not None else ()
-        return next((known.sentence for known in own if known.word == collision.reversal), None) or (
+        return next((criterion.sentence for criterion in own if criterion.word == collision.reversal), None) or (
             CRITERIA[collision.reversal].sentence
         )
     if collision.outcome != STICK:
@@ -322,7 +322,7 @@ def _energy(collision: Outcome) -> list[str]:
     parts = [f"{100 * value / energy.initial:.3f}" for _, value in terms]
     parts.append(_exponent(100 * energy.residual / energy.initial, 1))
     lines = [f"{'energy':<{_LABEL}}{'J':>11}{'% of initial':>16}"]
-    return lines + [f"  {name:<{_LABEL - 2}}{text:>11}{part:>16}" for (name, text, _), part in zip(rows, parts)]
+    return lines + [f"  {name:<{_LABEL - 2}}{text:>11}{share:>16}" for (name, text, _), share in zip(rows, parts)]
 
 
 def _exponent(value: float, digits: int) -> str:

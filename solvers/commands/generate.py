@@ -79,13 +79,13 @@ def _model(source: Path, folder: Path | None, check: bool) -> None:
     if folder.resolve() == OWN:
         raise InputError("--out", str(folder), "a folder of its own for a model", "is the package's own folder")
 
-    from ..host.user_cache import found, kept
+    from ..host.user_cache import fetch, lookup
     from ..scene.user_model_derived import derived_package, origin_of
     from ..scene.user_model_source import key_of
 
     content = source.read_bytes() if source.is_file() else b""
     key = "" if _READS.search(content) else key_of(content, origin_of(source, folder))
-    before = found(key) if key and not check else None
+    before = lookup(key) if key and not check else None
     if before is not None and not differing(folder, files := json.loads(before)):
         click.echo(f"nothing has changed: the {len(files)} files in {folder} are what {source} gives")
         return
@@ -105,7 +105,7 @@ def _model(source: Path, folder: Path | None, check: bool) -> None:
     for path in removed:
         path.unlink(missing_ok=True)
     if key:
-        kept(key, json.dumps(dict(derived.files)).encode)
+        fetch(key, json.dumps(dict(derived.files)).encode)
     times = aligned([(step, f"{took:.1f} s") for step, took in derived.seconds.items()])
     click.echo("\n".join(["", *(f"{word}  {path}" for word, path in rows), "", *times, ""]))
     click.echo(f"{len(derived.files)} files in {folder}; use it with --model {folder}")

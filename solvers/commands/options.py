@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import click
 
 from ..engines.settings import check_engine, check_rtol
-from ..errors import InputError, shown
+from ..errors import InputError, excerpt
 from ..host import files, outputs
 from ..scene.held import check_hold
 from ..scene.schema import FIELDS, SPEEDS, SPINS, unknown_entry
@@ -72,7 +72,7 @@ class SceneRequest:
         for key in impact:
             for entry in ("impact.angle",) if key == "angle" else SPEEDS:
                 if entry in entries:
-                    problem = f"is given together with --set {entry} = {shown(entries[entry])}"
+                    problem = f"is given together with --set {entry} = {excerpt(entries[entry])}"
                     raise InputError(_flag(key), typed[key], "only one of the two", problem)
         for key in () if varies or hold is None else (key for key in impact if key != "angle"):
             problem = f"is given together with {_flag(key)}, which sets the impact anew"

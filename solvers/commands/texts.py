@@ -5,7 +5,7 @@ An InputError without a field is about the option that is read.
 
 from collections.abc import Mapping, Sequence
 
-from ..errors import InputError, did_you_mean, shown
+from ..errors import InputError, did_you_mean, excerpt
 from ..scene import units
 from ..scene.ranges import MOST, Ends, parse_range
 from ..scene.schema import FIELDS, Field
@@ -26,7 +26,7 @@ def names(text: str) -> list[str]:
         raise InputError("", text, "names, separated by commas", "names nothing")
     for name in listed:
         if listed.count(name) > 1:
-            raise InputError("", text, "every name once", f"has {shown(name)} twice")
+            raise InputError("", text, "every name once", f"has {excerpt(name)} twice")
     return listed
 
 

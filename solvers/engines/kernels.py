@@ -79,8 +79,8 @@ def compile_kernels(
         >>> first.serves, first.oblique, first.order
         (('collide',), True, 9)
     """
-    loaded = [Scene.load(each) for each in ([scenes] if isinstance(scenes, (Scene, str, Path)) else scenes)]
-    tolerances = [check_rtol(each) for each in ([rtol] if isinstance(rtol, (int, float, str)) else rtol)]
+    loaded = [Scene.load(source) for source in ([scenes] if isinstance(scenes, (Scene, str, Path)) else scenes)]
+    tolerances = [check_rtol(tolerance) for tolerance in ([rtol] if isinstance(rtol, (int, float, str)) else rtol)]
     check_flag(derivatives, "derivatives")
     wanted: dict[Variant, tuple[Scene, bool, list[str]]] = {}
     for scene in loaded:

@@ -42,8 +42,8 @@ _SPELLINGS = {"amd64": "x86_64", "arm64": "aarch64"}
 def sets_of(machine: str, features: Collection[str]) -> tuple[InstructionSet, ...]:
     """The instruction sets that a processor has, widest first."""
     name = machine.lower()
-    known = SETS.get(_SPELLINGS.get(name, name), (InstructionSet("scalar", 1),))
-    return tuple(each for each in known if each.needed <= set(features))
+    sets = SETS.get(_SPELLINGS.get(name, name), (InstructionSet("scalar", 1),))
+    return tuple(instructions for instructions in sets if instructions.needed <= set(features))
 
 
 @cache

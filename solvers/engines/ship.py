@@ -56,16 +56,16 @@ def pack(folder: Path, suffix: str, wanted: Collection[str], content: Callable[[
     from concurrent.futures import ThreadPoolExecutor  # slow import
 
     folder.mkdir(parents=True, exist_ok=True)
-    there = {path.name.partition(".")[0]: path for path in folder.glob(f"*{suffix}")}
-    for name in there.keys() - wanted:
-        there[name].unlink()
+    files = {path.name.partition(".")[0]: path for path in folder.glob(f"*{suffix}")}
+    for name in files.keys() - wanted:
+        files[name].unlink()
 
     def write(name: str) -> None:
         written = content(name)
         (folder / f"{name}.{digest_of(written)}{suffix}").write_bytes(written)
 
     with ThreadPoolExecutor(usable_cores()) as pool:
-        list(pool.map(write, (name for name in wanted if name not in there)))
+        list(pool.map(write, (name for name in wanted if name not in files)))
 
 
 def values_for_here() -> list[Variant]:
@@ -79,17 +79,17 @@ def values_for_here() -> list[Variant]:
 
 def _compile(folder: Path, sets: list[InstructionSet], chosen: Collection[Variant]) -> None:
     """Compile kernels for instruction sets into a folder, and remove others from it."""
-    wanted = {name_of(each, instructions): (each, instructions) for each in chosen for instructions in sets}
+    wanted = {name_of(variant, instructions): (variant, instructions) for variant in chosen for instructions in sets}
     pack(folder, SUFFIX, wanted, lambda name: library(*compilation(*wanted[name])))
 
 
 if __name__ == "__main__":
     import argparse  # slow import
 
-    known = {each.name: each for family in SETS.values() for each in family}
+    by_name = {instructions.name: instructions for family in SETS.values() for instructions in family}
     parser = argparse.ArgumentParser(description="Compile the kernels that come with the package.")
     parser.add_argument("folder", type=Path, nargs="?")
-    parser.add_argument("sets", nargs="*", help=f"instruction sets [this machine's]: {', '.join(known)}")
+    parser.add_argument("sets", nargs="*", help=f"instruction sets [this machine's]: {', '.join(by_name)}")
     parser.add_argument("--structure", help="values of this structure only")
     parser.add_argument("--for-here", action="store_true", help="values only; beside a compiler, those asked for first")
     parser.add_argument("--list", action="store_true", help="write the list of kernels instead")
@@ -99,13 +99,13 @@ if __name__ == "__main__":
         parser.exit()
     if arguments.folder is None:
         parser.error("a folder is missing")
-    if unknown := set(arguments.sets) - set(known):
-        parser.error(f"no such instruction set: {', '.join(sorted(unknown))}; accepted: {', '.join(known)}")
+    if unknown := set(arguments.sets) - set(by_name):
+        parser.error(f"no such instruction set: {', '.join(sorted(unknown))}; accepted: {', '.join(by_name)}")
     try:
-        sets = [known[name] for name in arguments.sets] or [here()[0]]
+        sets = [by_name[name] for name in arguments.sets] or [here()[0]]
         chosen = values_for_here() if arguments.for_here else variants()
         if arguments.structure:
-            chosen = [each for each in chosen if each.choice.structure == arguments.structure and not each.gradients]
+            chosen = [item for item in chosen if item.choice.structure == arguments.structure and not item.gradients]
         _compile(arguments.folder, sets, chosen)
     except CannotCompile as error:
         parser.exit(1, f"the kernels cannot be compiled: {error}\n")

@@ -94,15 +94,15 @@ class Knob:
 
 def knobs(scene: Scene, entries: Sequence[Number], impact: Sequence[Number]) -> list[dict[str, Any]]:
     """The knobs of a scene, as the page reads them; those of the impact first."""
-    knobs = {each.name: _of_entry(scene, each) for each in map(_dotted, entries) if each.name != "liquid.density"}
+    knobs = {item.name: _of_entry(scene, item) for item in map(_dotted, entries) if item.name != "liquid.density"}
     if scene.partner is None:  # equal spheres have one size, one density and one coating
-        for name in [each for each in knobs if each.startswith("partner.")]:
+        for name in [knob for knob in knobs if knob.startswith("partner.")]:
             twin = name.replace("partner.coating", "liquid.coating").replace("partner.", "particles.")
             own, partner = knobs[twin], knobs.pop(name)
             knobs[twin] = Knob(**(asdict(own) | {"members": (*own.members, *partner.members)}))
     first = [knobs.pop(name) for name in _FIRST if name in knobs]
-    rest = [Knob(**(asdict(each) | {"first": False})) for each in knobs.values()]
-    return [asdict(each) | {"hint": _HINTS.get(each.name, "")} for each in (*_of_impact(scene, impact), *first, *rest)]
+    rest = [Knob(**(asdict(knob) | {"first": False})) for knob in knobs.values()]
+    return [asdict(knob) | {"hint": _HINTS.get(knob.name, "")} for knob in (*_of_impact(scene, impact), *first, *rest)]
 
 
 @dataclass(frozen=True)
@@ -134,11 +134,11 @@ def _of_entry(scene: Scene, entry: _Entry) -> Knob:
 def _unit(scene: Scene, name: str, si: str) -> tuple[str, float]:
     """The unit in which the scene's file gives an entry, or its size's, and how much it is in SI."""
     given = dict(scene.given)
-    for each in (name, *_ALIKE.get(name, ())):
-        raw = given.get(each)
-        if isinstance(raw, str) and " " in raw and scene.fields[each].unit:
+    for key in (name, *_ALIKE.get(name, ())):
+        raw = given.get(key)
+        if isinstance(raw, str) and " " in raw and scene.fields[key].unit:
             unit = raw.partition(" ")[2]
-            return unit, scene.fields[each].number(f"1 {unit}")
+            return unit, scene.fields[key].number(f"1 {unit}")
     return ("", 1.0) if si == "1" else _UNITS.get(si, (si, 1.0))
 
 
@@ -168,7 +168,7 @@ def _of_impact(scene: Scene, impact: Sequence[Number]) -> list[Knob]:
     most = _rounded(8 * speed / (2 * scene.particles.reduced_radius))
     material = scene.material
     for name, label in (("spin", "Spin"), ("partner_spin", "Partner's spin")):
-        number = next(each for each in impact if each.name == name)
+        number = next(item for item in impact if item.name == name)
         if number.range.high > 0:
             value = float(material.get(f"impact_{name}", 0.0))
             knobs.append(Knob(f"impact.{name}", label, "rad/s", 1.0, value, -most, most, False))

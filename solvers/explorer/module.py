@@ -12,7 +12,7 @@ from ..engines.taylor.shipped import content_of
 from ..errors import InputError
 from ..export.law.texts import LawSource
 from ..host.compiler import CannotCompile, webassembly
-from ..host.user_cache import digest_of, kept
+from ..host.user_cache import digest_of, fetch
 from ..model.validity import LIMITS, NEEDS, WORDS, law_limits
 from ..scene.groups import si_values
 from ..scene.scene import Scene
@@ -74,7 +74,7 @@ def module(law: LawSource, behind: str = "") -> bytes:
     """
     text, digest = compilation(law, behind)
     try:
-        return shipped(digest) or kept(f"explorer-{digest}.wasm", lambda: webassembly(text, FLAGS))
+        return shipped(digest) or fetch(f"explorer-{digest}.wasm", lambda: webassembly(text, FLAGS))
     except CannotCompile as error:
         accepted = "an installed ziglang (pip install 'wetdoublet[explorer]'), or clang with lld and wasi-libc"
         problem = f"has no module of this law in the package, and no compiler for WebAssembly ({error})"
@@ -98,12 +98,12 @@ def limits(scene: Scene, material: Sequence[str], entries: Sequence[str]) -> tup
     results = ("speed", "angle", "outcome", *NEEDS, "density")
     others = {name: SX.sym(name) for name in results}
     dense = "liquid_density" in entries
-    known = {**si_values(scene, None, None), **members, **others}
+    values = {**si_values(scene, None, None), **members, **others}
     if not dense:
-        del known["density"]
+        del values["density"]
     limits, numbers = [], []
     for limit in (*LIMITS, *law_limits(scene)):
-        number = limit.number(scene, known)
+        number = limit.number(scene, values)
         if isinstance(number, float) and math.isnan(number):
             continue  # the question does not arise for this scene
         numbers.append(number)

@@ -70,8 +70,8 @@ class Explorer:
     """
 
     def __init__(self, *scenes: Scene) -> None:
-        for each in scenes:
-            each.need_impact()
+        for scene in scenes:
+            scene.need_impact()
         self.scenes = scenes
 
     @property
@@ -135,11 +135,11 @@ class Explorer:
         A preset joins if its law is among those of the scenes.
         """
         modules: dict[str, bytes] = {}
-        structures = {_structure(each) for each in self.scenes}
+        structures = {_structure(scene) for scene in self.scenes}
         presets = map(Scene.load, PRESETS)
-        more = [each for each in presets if each.given not in {known.given for known in self.scenes}]
-        scenes = [_of_scene(each, modules) for each in self.scenes]
-        scenes += [_of_scene(each, modules) for each in more if _structure(each) in structures]
+        more = [preset for preset in presets if preset.given not in {scene.given for scene in self.scenes}]
+        scenes = [_of_scene(scene, modules) for scene in self.scenes]
+        scenes += [_of_scene(scene, modules) for scene in more if _structure(scene) in structures]
         return {
             "worker": _built("worker.js"),
             "modules": {
@@ -158,7 +158,7 @@ def _structure(scene: Scene) -> tuple[Any, ...]:
 
     law_kernels = kernels(scene, RTOL, _has_ledger(scene))
     entries = pair_entries(scene, material(scene, law_kernels))
-    return (*(each.choice for each in law_kernels), *(each.name for each in entries), _has_ledger(scene))
+    return (*(kernel.choice for kernel in law_kernels), *(entry.name for entry in entries), _has_ledger(scene))
 
 
 def law_of(scene: Scene) -> tuple[LawSource, str, list[str]]:
@@ -168,7 +168,7 @@ def law_of(scene: Scene) -> tuple[LawSource, str, list[str]]:
 
     law = source(scene, ledger=_has_ledger(scene))
     material = [member for _, member, _ in structures(law.header)["law_material"]]
-    return law, *limits(scene, material, [each.name for each in law.entries])
+    return law, *limits(scene, material, [item.name for item in law.entries])
 
 
 def _has_ledger(scene: Scene) -> bool:
@@ -202,7 +202,7 @@ def _of_scene(scene: Scene, modules: dict[str, bytes]) -> dict[str, Any]:
             name: [[kind, member] for kind, member, _ in layout[f"law_{name}"]]
             for name in ("pair_entries", "material", "impact", "collision")
         },
-        "entries": {each.name: each.value for each in law.entries},
+        "entries": {entry.name: entry.value for entry in law.entries},
         "knobs": knobs(scene, law.entries, law.impact),
         "speed": next(name for name in SPEEDS if name in given).partition(".")[2],
         "own_model": scene.package is not None,
@@ -250,14 +250,14 @@ def _built(name: str) -> str:
 def _tables(scene: Scene, law: LawSource) -> list[list[str | None]]:
     """Rows of the scene's TOML: table, key, and its text; for a number of the law that number's name, and its unit."""
     rows: list[list[str | None]] = []
-    members = {each.name for each in law.entries}
+    members = {entry.name for entry in law.entries}
     entries = {name: raw for name, raw in scene.given if name.partition(".")[0] != "impact"}
-    for each in law.entries:
-        table, _, key = each.name.partition("_")
+    for entry in law.entries:
+        table, _, key = entry.name.partition("_")
         if table == "partner" and scene.partner is None:
             continue  # equal to the first
-        unit = "m^3" if f"{table}.{key}" == "bridge.volume" and scene.ways.volume == "absolute" else each.unit
-        rows.append([table, key, None, each.name, "" if unit == "1" else unit])
+        unit = "m^3" if f"{table}.{key}" == "bridge.volume" and scene.ways.volume == "absolute" else entry.unit
+        rows.append([table, key, None, entry.name, "" if unit == "1" else unit])
     for name, raw in entries.items():
         table, _, key = name.partition(".")
         if name.replace(".", "_", 1) not in members and key not in _SIZES:

@@ -32,8 +32,8 @@ class Citation:
 
     def to_dict(self) -> dict[str, Any]:
         """As `wetdoublet cite --json` has it."""
-        known = {} if self.reference is None else self.reference._asdict()
-        return {"key": self.key or None, "uses": list(self.uses), **known, "bibtex": self.bibtex}
+        fields = {} if self.reference is None else self.reference._asdict()
+        return {"key": self.key or None, "uses": list(self.uses), **fields, "bibtex": self.bibtex}
 
 
 def citations(scene: Scene) -> tuple[Citation, ...]:
@@ -42,27 +42,27 @@ def citations(scene: Scene) -> tuple[Citation, ...]:
     Without an impact angle the collision is taken to be oblique.
     """
     uses_of: dict[str, list[str]] = {}
-    cited, known = _known(scene)
+    cited, works = _known(scene)
     for use, name in _uses(scene):
         for key in cited.get(name, ()):
             uses_of.setdefault(key, []).append(use)
-    listed = [Citation(key, tuple(uses), _entry(key, known[key]), known[key]) for key, uses in uses_of.items()]
+    listed = [Citation(key, tuple(uses), _entry(key, works[key]), works[key]) for key, uses in uses_of.items()]
     return (*listed, *_own(scene))
 
 
 def _known(scene: Scene) -> tuple[dict[str, tuple[str, ...]], dict[str, Reference]]:
     """The tables of publications, with those of the laws of a user's model."""
-    cited, known = dict(CITED), dict(REFERENCES)
+    cited, works = dict(CITED), dict(REFERENCES)
     for law in [] if scene.package is None else scene.package.manifest["laws"]:
         for use, published in law.get("references", {}).items():
-            cited[use] = tuple(each["key"] for each in published)
-            known |= {each["key"]: Reference(*(each[name] for name in Reference._fields)) for each in published}
-    return cited, known
+            cited[use] = tuple(reference["key"] for reference in published)
+            works |= {entry["key"]: Reference(*(entry[name] for name in Reference._fields)) for entry in published}
+    return cited, works
 
 
 def as_bibtex(entries: tuple[Citation, ...]) -> str:
     """The entries, each below a comment that says what it stands for."""
-    return "\n\n".join(f"% {', '.join(each.uses)}\n{each.bibtex}" for each in entries)
+    return "\n\n".join(f"% {', '.join(citation.uses)}\n{citation.bibtex}" for citation in entries)
 
 
 def _oblique(scene: Scene) -> bool:
@@ -88,15 +88,15 @@ def _uses(scene: Scene) -> Iterator[tuple[str, str]]:
         yield "elastic criterion", "elastic length"
 
 
-def _entry(key: str, one: Reference) -> str:
+def _entry(key: str, work: Reference) -> str:
     fields = {
-        "author": " and ".join(one.authors), "title": one.title, "journal": one.journal, "volume": one.volume,
-        "pages": one.pages, "year": str(one.year),
+        "author": " and ".join(work.authors), "title": work.title, "journal": work.journal, "volume": work.volume,
+        "pages": work.pages, "year": str(work.year),
     }  # fmt: skip
     written = {name: text.translate(_LATEX) for name, text in fields.items()}
     written["title"] = f"{{{written['title']}}}"  # capitals as they are
-    if one.doi:
-        written["doi"] = one.doi
+    if work.doi:
+        written["doi"] = work.doi
     return _bibtex("article", key, written)
 
 

@@ -74,7 +74,7 @@ class Differences:
     on_map: OnMap | None = None
 
 
-def differences(one: str, other: str, probe: str = "granulation", changes: dict[str, str] | None = None) -> Differences:
+def differences(old: str, new: str, probe: str = "granulation", changes: dict[str, str] | None = None) -> Differences:
     """Compare two models; InputError for an argument that is none of these.
 
     Arguments:
@@ -85,7 +85,7 @@ def differences(one: str, other: str, probe: str = "granulation", changes: dict[
     from ...derive.emit.compare import compare, equations  # imports sympy
     from ...derive.emit.read import ReadError
 
-    sides = _sides(one, other, probe, changes or {})
+    sides = _sides(old, new, probe, changes or {})
     try:
         equation_changes = compare(*(equations(side.modules) for side in sides))
     except ReadError as error:
@@ -99,17 +99,17 @@ def differences(one: str, other: str, probe: str = "granulation", changes: dict[
     return Differences((sides[0].name, sides[1].name), equation_changes, tuple(_probes(scenes)), lines, _on_map(scenes))
 
 
-def _sides(one: str, other: str, probe: str, changes: dict[str, str]) -> tuple[Side, Side]:
-    if bounded.is_folder(one) and bounded.is_folder(other):
+def _sides(source: str, other: str, probe: str, changes: dict[str, str]) -> tuple[Side, Side]:
+    if bounded.is_folder(source) and bounded.is_folder(other):
         try:
-            packages = [open_package(one, "A"), open_package(other, "B")]
+            packages = [open_package(source, "A"), open_package(other, "B")]
         except InputError:  # perhaps of another version: compare emitted texts, compute nothing
-            return Side(one, _folder(one), None), Side(other, _folder(other), None)
+            return Side(source, _folder(source), None), Side(other, _folder(other), None)
         first, second = (Scene.load(probe, package) for package in packages)
     else:
-        first, second = _scene(one, probe, "A"), _scene(other, probe, "B")
+        first, second = _scene(source, probe, "A"), _scene(other, probe, "B")
     second = second.with_entries(changes)
-    return Side(one, _modules(first), first), Side(other, _modules(second), second)
+    return Side(source, _modules(first), first), Side(other, _modules(second), second)
 
 
 def _scene(source: str, probe: str, label: str) -> Scene:
@@ -118,9 +118,9 @@ def _scene(source: str, probe: str, label: str) -> Scene:
     if bounded.is_folder(source) or source.endswith(".py"):
         return Scene.load(probe, open_package(source, label))
     if source not in PRESETS and not bounded.exists(source):
-        known = (LIBRARY, *PRESETS)
-        accepted = f"{', '.join(known)}, a scene file, a folder of `generate`, or MODEL.py"
-        raise InputError(label, source, accepted, "is none of these" + did_you_mean(source, known))
+        names = (LIBRARY, *PRESETS)
+        accepted = f"{', '.join(names)}, a scene file, a folder of `generate`, or MODEL.py"
+        raise InputError(label, source, accepted, "is none of these" + did_you_mean(source, names))
     return Scene.load(source)
 
 
@@ -157,7 +157,7 @@ def _folder(path: str) -> dict[str, str]:
         others = ("__init__.py", "assemble.py", "automaton.py", "model.py")  # which hold no equations
         names = [name for name in listed if name.endswith(".py") and not name.endswith(others)]
         texts = {name.removesuffix(".py"): bounded.text(folder / name) for name in names}
-        return {name: with_imports(each, texts.__getitem__) for name, each in texts.items()}
+        return {name: with_imports(module, texts.__getitem__) for name, module in texts.items()}
     except (AttributeError, OSError, ValueError, KeyError, TypeError, SyntaxError, bounded.NotRead):
         raise InputError("diff", path, accepted, "holds nothing emitted") from None
 
@@ -175,26 +175,26 @@ def _probes(scenes: Sequence[Scene]) -> list[Probe]:
 def _on_map(scenes: Sequence[Scene]) -> OnMap:
     stokes = (scenes[0].stokes or 1.0) * np.geomspace(1 / _DECADE, _DECADE, _SIDE)
     angle = np.linspace(0, _STEEPEST, _SIDE)
-    one, other = (collide_many(scene, stokes=stokes[:, None], angle=angle) for scene in scenes)
-    before, after = one["outcome"].values, other["outcome"].values
-    known = (before >= 0) & (after >= 0)
-    pairs, counts = np.unique(np.stack([before, after])[:, known & (before != after)], axis=1, return_counts=True)
+    first, other = (collide_many(scene, stokes=stokes[:, None], angle=angle) for scene in scenes)
+    before, after = first["outcome"].values, other["outcome"].values
+    mask = (before >= 0) & (after >= 0)
+    pairs, counts = np.unique(np.stack([before, after])[:, mask & (before != after)], axis=1, return_counts=True)
     moved = tuple((OUTCOMES[a], OUTCOMES[b], int(n)) for a, b, n in zip(*pairs, counts, strict=True))
-    off = np.where(known & (before == after), other["restitution"].values - one["restitution"].values, np.nan)
+    off = np.where(mask & (before == after), other["restitution"].values - first["restitution"].values, np.nan)
     at = None if np.isnan(off).all() else np.unravel_index(np.nanargmax(np.abs(off)), off.shape)
     farthest = None if at is None else (float(off[at]), float(stokes[at[0]]), float(angle[at[1]]))
     ends = [(float(values[0]), float(values[-1])) for values in (stokes, angle)]
-    return OnMap(ends[0], ends[1], int(known.sum()), moved, farthest)
+    return OnMap(ends[0], ends[1], int(mask.sum()), moved, farthest)
 
 
 def _collided(scene: Scene, stokes: float, angle: float) -> tuple[str, float] | None:
     try:
-        one = collide(scene, stokes=stokes, angle=angle, ledger=False)
+        collision = collide(scene, stokes=stokes, angle=angle, ledger=False)
     except ComputationError:
         return None
-    return one.outcome, one.restitution
+    return collision.outcome, collision.restitution
 
 
 def _line(scene: Scene) -> list[tuple[str, float, float | None]]:
     line = boundary(scene, angle=_LINE)
-    return [(f"{one.before} -> {one.after}", one.stokes, one.centrifugal) for one in line.changes[0]]
+    return [(f"{change.before} -> {change.after}", change.stokes, change.centrifugal) for change in line.changes[0]]

@@ -115,8 +115,8 @@ class Equations:
         ]
         listing: dict[str, str] = {}  # a function's arguments, once for all phases
         for name, function in self.functions.items():
-            known = _BY_PHASE.sub(r"\1_K", name)
-            listing.setdefault(known, str(function).rpartition(" ")[0].replace(name, known))
+            label = _BY_PHASE.sub(r"\1_K", name)
+            listing.setdefault(label, str(function).rpartition(" ")[0].replace(name, label))
         return "\n".join(
             [
                 f"{name_of(self.scene)}: {self.outcome}",

@@ -46,8 +46,8 @@ def _rows(differences: Differences) -> list[tuple[str, ...]]:
         cells = [f"{math.degrees(probe.angle):g}", f"{probe.stokes:.4g}"]
         for result in probe.results:
             cells += ["failed", "-"] if result is None else [_SHORT[result[0]], f"{result[1]:.6g}"]
-        one, other = probe.results
-        cells.append("-" if one is None or other is None else f"{other[1] - one[1]:.2g}")
+        before, other = probe.results
+        cells.append("-" if before is None or other is None else f"{other[1] - before[1]:.2g}")
         rows.append(tuple(cells))
     return rows
 
@@ -60,7 +60,7 @@ def _lines(differences: Differences) -> list[str]:
         parts = []
         for label, side in zip("AB", sides):
             stokes, ce = side.get(name, (None, None))
-            known = "none" if stokes is None else f"St* {stokes:.6g}" + ("" if ce is None else f", Ce* {ce:.5g}")
-            parts.append(f"{label} {known}")
+            critical = "none" if stokes is None else f"St* {stokes:.6g}" + ("" if ce is None else f", Ce* {ce:.5g}")
+            parts.append(f"{label} {critical}")
         rows.append(f"at 45 deg, {name}: {'; '.join(parts)}")
     return rows

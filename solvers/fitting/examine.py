@@ -67,7 +67,7 @@ class Checkup:
         """The JSON object of `wetdoublet check --json`."""
         return {
             "points": self.data.size, "agreement": self.agreement, "differing": list(self.differing),
-            "findings": [asdict(one) for one in self.findings], "telling": self.telling, "notes": list(self.notes),
+            "findings": [asdict(item) for item in self.findings], "telling": self.telling, "notes": list(self.notes),
         } | origin(self.scene)  # fmt: skip
 
     def __str__(self) -> str:
@@ -75,7 +75,7 @@ class Checkup:
         if self.differing and self.agreement >= _POOR:
             more = " ..." if len(self.differing) > _NAMED else ""
             lines.append(f"Others do not: {', '.join(self.differing[:_NAMED])}{more}.")
-        lines += ["", *([f"{one.kind}: {one.text}" for one in self.findings] or ["Nothing odd was found."])]
+        lines += ["", *([f"{finding.kind}: {finding.text}" for finding in self.findings] or ["Nothing odd was found."])]
         lines += ["", "Impacts that would differ visibly if an entry were half or twice as large (fractions: by 0.1)"]
         lines += aligned([[name, str(count)] for name, count in self.telling.items() if count] or [[""]])
         untold = ", ".join(name for name, count in self.telling.items() if not count)
@@ -107,7 +107,7 @@ def check_data(data: Any, scene: Scene | str | Path) -> Checkup:
     table = read_data(data, loaded)
     seen = _predicted(_as_it_is(loaded, table), table)
     findings = examine(loaded, table)
-    if seen.agreement < _POOR and all(one.kind != "units" for one in findings):
+    if seen.agreement < _POOR and all(finding.kind != "units" for finding in findings):
         text = "the data contradict the scene as it is: units, the kind of speed or entries may be far off"
         findings.append(Finding("contradiction", (), text))
     differing = tuple(table.label(int(k)) for k in np.flatnonzero(~seen.agrees))
@@ -204,7 +204,7 @@ def _kind_of_speed(experiment: Experiment, data: Measurements, seen: _Predicted)
     if not data.kind_unsaid:
         return []
     other = _predicted(experiment, data, data.speed * np.cos(data.angle))
-    gained, lost = (int(np.count_nonzero(each)) for each in (other.agrees & ~seen.agrees, seen.agrees & ~other.agrees))
+    gained, lost = (int(np.count_nonzero(mask)) for mask in (other.agrees & ~seen.agrees, seen.agrees & ~other.agrees))
     if gained - lost <= _SIGNS * math.sqrt(gained + lost):
         return []
     text = (
@@ -257,14 +257,14 @@ def _outliers(experiment: Experiment, data: Measurements, seen: _Predicted) -> l
         words = f"such as {OUTCOMES[data.outcome[k]]} where others have {OUTCOMES[other]}"
         findings.append(_finding("outlier", data, rows, f"unlike all slower and faster impacts nearby, {words}"))
     values, sd = data.observed.get("restitution", (np.full(data.size, np.nan),) * 2)
-    known, residual = np.isfinite(values) & (data.outcome != _STICK), np.full(data.size, np.nan)
+    mask, residual = np.isfinite(values) & (data.outcome != _STICK), np.full(data.size, np.nan)
     misfit = np.where(np.isfinite(seen.misfit), seen.misfit, values)
-    for k in np.flatnonzero(known).tolist():
-        around = np.flatnonzero(near[k] & known & (data.outcome == data.outcome[k]))
+    for k in np.flatnonzero(mask).tolist():
+        around = np.flatnonzero(near[k] & mask & (data.outcome == data.outcome[k]))
         if around.size > _LEAST:  # a plane through the neighbours, of the values and of their distances from the model
             plane = np.stack([np.ones(around.size), apart[0][k, around], apart[1][k, around]], axis=1)
             weight = np.linalg.pinv(plane)[0]
-            off = [float(each[k] - weight @ each[around]) for each in (values, misfit)]
+            off = [float(column[k] - weight @ column[around]) for column in (values, misfit)]
             residual[k] = min(off, key=abs) / math.sqrt(1 + float(weight @ weight))
     if np.isfinite(residual).any():
         scale = np.maximum(1.4826 * np.nanmedian(np.abs(residual)), sd)
@@ -303,7 +303,7 @@ def _telling(scene: Scene, data: Measurements, seen: _Predicted) -> dict[str, in
     noise = [np.where(np.isnan(values), np.inf, sd) for values, sd in data.observed.values()]
     before = _as_it_is(scene, data).plain(measured, *impacts) if measured else np.zeros((0, data.size))
     counts = {}
-    for name in (each for each in free_names(scene) if each not in data.columns):
+    for name in (entry for entry in free_names(scene) if entry not in data.columns):
         rows = rows_of(scene, (name,), data, RTOL)
         value, bounded = float(scene.entries[name]), np.isfinite(scene.fields[name].range.high)
         differs = np.zeros(data.size, bool)

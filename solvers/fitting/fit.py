@@ -86,14 +86,14 @@ def fit(
     rtol = check_rtol(rtol)
     check_function(progress, "progress")
     parts, entries = problem(scene, data, free, prior, own, rtol)
-    for each in parts:
-        warn(each.scene)
+    for member in parts:
+        warn(member.scene)
     likelihood = Joint(parts, entries.names, rtol)
     work, best = Estimated(progress, _EVALUATIONS + _PER_PAIR * entries.size**2), None
     work.start()
     likelihood.tell = work.add
     try:
-        odd = [examine(each.scene, each.data) for each in parts]
+        odd = [examine(member.scene, member.data) for member in parts]
         best = optimise(likelihood, entries, starts, seed)
         contradicts = _is_contradicted(likelihood, entries, best)
         if contradicts:
@@ -104,15 +104,15 @@ def fit(
             ends = [[End(best.inner, open=True)] * 2 for _ in entries.entries]
         else:
             best, ends = intervals(likelihood, entries, best)
-        for k, (each, findings) in enumerate(zip(parts, odd, strict=True)):
-            about = [one.text for one in findings if contradicts or one.kind in ("speed", "outlier", "duplicate")]
-            remarks = (*(f"Before the fit: {text}" for text in about), *each.data.remarks)
-            parts = (*parts[:k], replace(each, data=replace(each.data, remarks=remarks)), *parts[k + 1 :])
+        for k, (member, findings) in enumerate(zip(parts, odd, strict=True)):
+            about = [item.text for item in findings if contradicts or item.kind in ("speed", "outlier", "duplicate")]
+            remarks = (*(f"Before the fit: {text}" for text in about), *member.data.remarks)
+            parts = (*parts[:k], replace(member, data=replace(member.data, remarks=remarks)), *parts[k + 1 :])
         result = _result(parts, likelihood, entries, best, ends)
     except KeyboardInterrupt as interrupt:
         if best is None or str(interrupt):
             raise
-        values = ", ".join(f"{name} = {worded(parts, name, one)}" for name, one in entries.named(best.inner).items())
+        values = ", ".join(f"{name} = {worded(parts, name, size)}" for name, size in entries.named(best.inner).items())
         raise KeyboardInterrupt(f"interrupted: most likely are {values}; the intervals are not computed") from None
     finally:
         del likelihood.tell
@@ -174,7 +174,7 @@ class LogLikelihood:
 def _result(parts: tuple[Part, ...], likelihood: Joint, free: FreeEntries, best: Optimum, ends: list[list[End]]) -> Fit:
     data = parts[0].data
     if len(parts) > 1:
-        data = Measurements.joined([each.data for each in parts], [each.label for each in parts])
+        data = Measurements.joined([member.data for member in parts], [member.label for member in parts])
     objective, inner = Objective(likelihood, free, Resolution()), best.inner
     white, values = whitening(objective, inner), free.values(inner)
     evaluation = objective.at(inner)
@@ -183,22 +183,22 @@ def _result(parts: tuple[Part, ...], likelihood: Joint, free: FreeEntries, best:
     verdicts = [NOT_AT_ALL if rows.contradicted else judged(objective, inner, k, both) for k, both in enumerate(ends)]
     if _only_outcome(data) is not None:
         bounded = [
-            verdict == IDENTIFIED and not isinstance(each.prior, Prior) for verdict, each in zip(verdicts, free.entries)
+            verdict == IDENTIFIED and not isinstance(item.prior, Prior) for verdict, item in zip(verdicts, free.entries)
         ]
-        verdicts = [NOT_AT_ALL if each else verdict for each, verdict in zip(bounded, verdicts)]
+        verdicts = [NOT_AT_ALL if flag else verdict for flag, verdict in zip(bounded, verdicts)]
     estimates = {}
     for k, name in enumerate(free.names):
-        low, high = (None if each.open else float(free.values(each.inner)[k]) for each in ends[k])
+        low, high = (None if end.open else float(free.values(end.inner)[k]) for end in ends[k])
         estimates[name] = Estimate(float(values[k]), low, high, verdicts[k])
     covariance = white @ white.T
     spread = np.sqrt(np.diag(covariance))
     finer = likelihood(values, Resolution().doubled())
     error = np.nan if finer is None else finer.value - evaluation.value
-    others = tuple((free.named(each.inner), each.value) for each in best.others)
+    others = tuple((free.named(other.inner), other.value) for other in best.others)
     remarks = [*data.remarks, *_remarks(parts, data, rows, evaluation.undecided, error, others)]
     if rows.contradicted:
         remarks.insert(0, CONTRADICTED)
-    if any(isinstance(each.prior, Prior) for each in free.entries):
+    if any(isinstance(entry.prior, Prior) for entry in free.entries):
         remarks.append("Intervals and verdicts are those of the likelihood times the priors.")
     return Fit(
         parts, data, estimates, objective.log_likelihood(inner), covariance / np.outer(spread, spread),
@@ -217,7 +217,7 @@ def _only_outcome(data: Measurements) -> str | None:
 def _rows(
     likelihood: Joint, values: np.ndarray, evaluation: Evaluation, white_scores: np.ndarray
 ) -> RowDiagnostics:  # fmt: skip
-    parts = [part.noisier(own) for part, own in zip(likelihood.parts, likelihood.values(values), strict=True)]
+    parts = [term.noisier(own) for term, own in zip(likelihood.parts, likelihood.values(values), strict=True)]
     noisy, residual = Measurements.joined(parts, [""] * len(parts)).observed, {}
     for name, mean in evaluation.mean.items():
         measured, sd = noisy[name]
@@ -251,9 +251,9 @@ def _remarks(
             "its collisions take more steps than an integration may. This part counts as not observed."
         )
     for name, residual in rows.residual.items():
-        known = residual[np.isfinite(residual)]
-        if known.size and chi2.sf(float((known**2).sum()), known.size) < _UNLIKELY:
-            rms = float(np.sqrt((known**2).mean()))
+        misfits = residual[np.isfinite(residual)]
+        if misfits.size and chi2.sf(float((misfits**2).sum()), misfits.size) < _UNLIKELY:
+            rms = float(np.sqrt((misfits**2).mean()))
             remarks.append(
                 f"Residuals of {name} are {rms:.2g} times what scatter and noise allow: the model does not fit, or "
                 f"they are larger than given. The intervals are then too narrow; free noise.{name} estimates the noise."

@@ -59,7 +59,7 @@ class Flights:
             reach: of the scene, m.
         """
         places = [list(FLIGHT).index(name) for name in measured]
-        values, sd = (np.array(each) for each in zip(*measured.values()))
+        values, sd = (np.array(column) for column in zip(*measured.values()))
         valid = np.isfinite(values) & (sd > 0)
         sd = np.where(valid, sd, 1.0)
         both = valid.T[:, :, None] & valid.T[:, None]
@@ -75,7 +75,7 @@ class Flights:
         passing = values[1] + 3 * sd[1]  # a line that passes beyond has no angle there
         return cls(tuple(measured), np.maximum(reach, passing), np.where(valid, values, 0.0), regression), sd * own.T
 
-    def part(self, which: np.ndarray) -> Flights:
+    def subset(self, which: np.ndarray) -> Flights:
         return Flights(self.names, self.reach[which], self.values[:, which], self.regression[which])
 
 
@@ -176,7 +176,7 @@ class FlightExperiment(Experiment):
         which = [flights.names.index(name) for name in names]
         own = (np.eye(len(places)) - flights.regression)[row]
         first = value[places] + np.einsum("njk,kn->jn", flights.regression[row], flights.values[:, row] - value[places])
-        return [first[which], *(np.einsum("njk,kn...->jn...", own, each[places])[which] for each in slopes)]
+        return [first[which], *(np.einsum("njk,kn...->jn...", own, slope[places])[which] for slope in slopes)]
 
 
 def _approach(solids: Any, touch: Any, apart: Any, reach: Any, speed: Any, angle: Any) -> list[Any]:  # noqa: ARG001
@@ -209,5 +209,5 @@ def _flown(
 def _with_slopes(function: Callable[..., list[Any]], arguments: list[np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
     """Values, and derivatives (values, arguments, impacts) by complex steps."""
     count = range(len(arguments))
-    steps = [function(*(each + 1j * _TINY * (j == k) for j, each in enumerate(arguments))) for k in count]
+    steps = [function(*(argument + 1j * _TINY * (j == k) for j, argument in enumerate(arguments))) for k in count]
     return np.array(function(*arguments)), np.moveaxis(np.imag(steps) / _TINY, 0, 1)

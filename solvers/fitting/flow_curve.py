@@ -102,16 +102,16 @@ class FlowCurve(Drawn):
 
     def __call__(self, rate: np.ndarray) -> np.ndarray:
         """The viscosity by the law, Pa s."""
-        values = {name: each.value for name, each in self.parameters.items()}
+        values = {name: parameter.value for name, parameter in self.parameters.items()}
         return next(curve for law, curve, _ in _LAWS if law == self.law)(np.asarray(rate), values, self.reference_rate)
 
     @property
     def entries(self) -> dict[str, str | float]:
         """The entries of a scene."""
         result: dict[str, str | float] = {"liquid.law": self.law}
-        for name, each in self.parameters.items():
+        for name, parameter in self.parameters.items():
             unit = FIELDS[f"liquid.{name}"].unit
-            result[f"liquid.{name}"] = f"{each.value:.6g} {unit}" if unit else float(f"{each.value:.6g}")
+            result[f"liquid.{name}"] = f"{parameter.value:.6g} {unit}" if unit else float(f"{parameter.value:.6g}")
         if self.law in ("power-law", "herschel-bulkley"):
             result["liquid.reference_rate"] = f"{self.reference_rate:.6g} 1/s"
             result["liquid.plateau_rate"] = f"{self.rate[0]:.6g} 1/s"
@@ -127,14 +127,14 @@ class FlowCurve(Drawn):
         return "\n".join(lines)
 
     def _interval(self, name: str) -> str:
-        each = self.parameters[name]
-        ends = ["open" if end is None else f"{end:.4g}" for end in (each.low, each.high)]
+        parameter = self.parameters[name]
+        ends = ["open" if end is None else f"{end:.4g}" for end in (parameter.low, parameter.high)]
         return f"95 %: {ends[0]} to {ends[1]}"
 
     def to_dict(self) -> dict[str, Any]:
         """The JSON object of `wetdoublet flow-curve --json`."""
         return {
-            "law": self.law, "parameters": {name: asdict(each) for name, each in self.parameters.items()},
+            "law": self.law, "parameters": {name: asdict(parameter) for name, parameter in self.parameters.items()},
             "criteria": dict(self.criteria), "scatter": self.scatter, "points": len(self.rate),
             "rates": [float(self.rate[0]), float(self.rate[-1])], "reference_rate": self.reference_rate,
             "entries": self.entries,
@@ -176,13 +176,13 @@ def flow_curve(source: str | Path | tuple[Any, Any]) -> FlowCurve:
     if rate.shape != viscosity.shape or rate.ndim != 1 or len(set(rate.tolist())) < 3 or not (viscosity > 0).all():
         raise InputError("CURVE.csv", len(rate), "three rates at least, each with its viscosity", "is no flow curve")
     fits = [_Fit(law, curve, names, rate, viscosity) for law, curve, names in _LAWS if len(names) + 1 < len(rate)]
-    least = min(each.criterion for each in fits)
-    near = [each for each in fits if each.criterion - least <= _WORTH]
-    best = min(near, key=lambda each: (len(each.names), each.criterion))
+    least = min(fit.criterion for fit in fits)
+    near = [fit for fit in fits if fit.criterion - least <= _WORTH]
+    best = min(near, key=lambda fit: (len(fit.names), fit.criterion))
     criteria: dict[str, float] = {}
-    for each in fits:
-        above = each.criterion - least
-        criteria[each.law] = min(above, criteria.get(each.law, math.inf))
+    for fit in fits:
+        above = fit.criterion - least
+        criteria[fit.law] = min(above, criteria.get(fit.law, math.inf))
     scatter = math.sqrt(2 * best.cost / (len(rate) - len(best.names)))
     return FlowCurve(best.law, best.parameters(), criteria, scatter, best.reference, rate, viscosity)
 
@@ -196,8 +196,8 @@ class _Fit:
         self.reference = float(np.exp(np.log(rate).mean()))
         self._scale = {"viscosity": viscosity.max(), "relaxation_time": 1 / self.reference, "flow_index": 0.5}
         self._scale |= {"infinite_shear_viscosity": viscosity.min() / 3, "yield_stress": (rate * viscosity).min() / 2}
-        found = (self._search(start) for start in self._starts())
-        self.cost, self.best = min(found, key=lambda each: each[0])
+        ends = (self._search(start) for start in self._starts())
+        self.cost, self.best = min(ends, key=lambda end: end[0])
 
     @property
     def criterion(self) -> float:
@@ -235,12 +235,12 @@ class _Fit:
         if not free:
             return float((residuals(np.empty(0)) ** 2).sum() / 2), start
         upper = np.array(most)[free]
-        found = least_squares(
+        optimum = least_squares(
             residuals, np.minimum(start[free], upper - 1e-9), bounds=(-np.inf, upper), xtol=1e-12, ftol=1e-12
         )
         whole = start.copy()
-        whole[free] = found.x
-        return float(found.cost), whole
+        whole[free] = optimum.x
+        return float(optimum.cost), whole
 
     def parameters(self) -> dict[str, Parameter]:
         """The estimates with the intervals of their profiles."""

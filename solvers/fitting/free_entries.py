@@ -105,7 +105,7 @@ class FreeEntries:
 
     @property
     def names(self) -> tuple[str, ...]:
-        return tuple(each.name for each in self.entries)
+        return tuple(entry.name for entry in self.entries)
 
     @property
     def size(self) -> int:
@@ -114,19 +114,19 @@ class FreeEntries:
     @property
     def logarithmic(self) -> np.ndarray:
         """Mask of the entries that vary in their logarithms."""
-        return np.array([each.log for each in self.entries])
+        return np.array([entry.log for entry in self.entries])
 
     @property
     def start(self) -> np.ndarray:
-        return np.array([each.inner(each.value) for each in self.entries])
+        return np.array([entry.inner(entry.value) for entry in self.entries])
 
     @property
     def low(self) -> np.ndarray:
-        return np.array([each.inner(each.low) for each in self.entries])
+        return np.array([entry.inner(entry.low) for entry in self.entries])
 
     @property
     def high(self) -> np.ndarray:
-        return np.array([each.inner(each.high) for each in self.entries])
+        return np.array([entry.inner(entry.high) for entry in self.entries])
 
     @property
     def vague(self) -> np.ndarray:
@@ -135,17 +135,17 @@ class FreeEntries:
 
     def inner(self, values: np.ndarray) -> np.ndarray:
         """The variables of the search at values of the entries, SI."""
-        return np.array([each.inner(float(one)) for each, one in zip(self.entries, values, strict=True)])
+        return np.array([entry.inner(float(value)) for entry, value in zip(self.entries, values, strict=True)])
 
     def values(self, inner: np.ndarray) -> np.ndarray:
-        return np.array([each.outer(float(one)) for each, one in zip(self.entries, inner, strict=True)])
+        return np.array([entry.outer(float(value)) for entry, value in zip(self.entries, inner, strict=True)])
 
     def named(self, inner: np.ndarray) -> dict[str, float]:
         return dict(zip(self.names, self.values(inner).tolist(), strict=True))
 
     def rates(self, values: np.ndarray) -> np.ndarray:
         """Derivatives of the values by the variables of the search."""
-        return np.array([value if each.log else 1.0 for each, value in zip(self.entries, values, strict=True)])
+        return np.array([value if entry.log else 1.0 for entry, value in zip(self.entries, values, strict=True)])
 
 
 def free_entries(
@@ -161,8 +161,8 @@ def free_entries(
         InputError: an entry that the scene has not, that is a choice, or varies in the data; one without a first
             guess; a prior of another entry.
     """
-    known = free_names(scene)
-    chosen = check_names(names, known, "free", "names no entry")
+    candidates = free_names(scene)
+    chosen = check_names(names, candidates, "free", "names no entry")
     for name in chosen:
         if name in data.columns:
             raise InputError("free", name, "entries that are not a column of the data", "is given row by row")
@@ -260,10 +260,10 @@ def combinations(
         powers = vector / vector[first]
         product = _product({free.names[tied[k]]: p for k, p in enumerate(powers.tolist()) if abs(p) >= _LEAST_POWER})
         error = abs(1 / np.sqrt(value) / vector[first])
-        known = f"to {100 * np.expm1(error):.2g} %" if error < 1 else f"to a factor of {np.exp(error):.2g}"
+        precision = f"to {100 * np.expm1(error):.2g} %" if error < 1 else f"to a factor of {np.exp(error):.2g}"
         open_ones = sum(verdicts[k] == COMBINED for k in tied)
         alone = f"; {'neither' if len(tied) == 2 else 'none of them'} alone" if open_ones == len(tied) else ""
-        sentences.append(f"{subject} fix {product} {known} (standard error){alone}.")
+        sentences.append(f"{subject} fix {product} {precision} (standard error){alone}.")
     return tuple(sentences)
 
 

@@ -50,7 +50,7 @@ def worded(parts: Sequence[Part], name: str, value: float | None) -> str:
 
 def home(parts: Sequence[Part], name: str) -> tuple[Scene, str]:
     """The first scene that has a free entry of a fit, and the entry's name there."""
-    return next((part.scene, own) for part in parts for own, each in part.entries.items() if each == name)
+    return next((member.scene, own) for member in parts for own, entry in member.entries.items() if entry == name)
 
 
 class Joint:
@@ -69,42 +69,42 @@ class Joint:
     tell: Callable[[float], None] = staticmethod(lambda _cost: None)
 
     def __init__(self, parts: Sequence[Part], names: Sequence[str], rtol: float) -> None:
-        self.parts = tuple(Likelihood(each.scene, tuple(each.entries), each.data, rtol) for each in parts)
-        self._places = [[names.index(name) for name in each.entries.values()] for each in parts]
-        self.size, self._width = sum(each.size for each in self.parts), len(names)
-        self.constant = np.concatenate([each.constant for each in self.parts])
-        for each in self.parts:
-            each.tell = lambda cost, share=each.size / self.size: self.tell(share * cost)  # type: ignore[misc]
+        self.parts = tuple(Likelihood(member.scene, tuple(member.entries), member.data, rtol) for member in parts)
+        self._places = [[names.index(name) for name in member.entries.values()] for member in parts]
+        self.size, self._width = sum(term.size for term in self.parts), len(names)
+        self.constant = np.concatenate([term.constant for term in self.parts])
+        for term in self.parts:
+            term.tell = lambda cost, share=term.size / self.size: self.tell(share * cost)  # type: ignore[misc]
 
     def values(self, values: np.ndarray) -> list[np.ndarray]:
         return [values[places] for places in self._places]
 
     def aim(self, values: np.ndarray) -> None:
-        for part, own in zip(self.parts, self.values(values), strict=True):
-            part.aim(own)
+        for term, own in zip(self.parts, self.values(values), strict=True):
+            term.aim(own)
 
     def refine(self, values: np.ndarray, tolerance: float) -> None:
-        for part, own in zip(self.parts, self.values(values), strict=True):
-            part.refine(own, tolerance)
+        for term, own in zip(self.parts, self.values(values), strict=True):
+            term.refine(own, tolerance)
 
     def __call__(self, values: np.ndarray, resolution: Resolution | None = None) -> Evaluation | None:
         """The log-likelihoods of all impacts; None where the values make a scene impossible."""
         evaluations = []
-        for part, own in zip(self.parts, self.values(values), strict=True):
-            evaluation = part(own, resolution)
+        for likelihood, own in zip(self.parts, self.values(values), strict=True):
+            evaluation = likelihood(own, resolution)
             if evaluation is None:
                 return None
             evaluations.append(evaluation)
         scores = np.zeros((self.size, self._width))
-        at = np.cumsum([0, *(each.size for each in self.parts)])
-        for places, each, first, last in zip(self._places, evaluations, at[:-1], at[1:], strict=True):
-            scores[first:last, places] = each.scores
+        at = np.cumsum([0, *(term.size for term in self.parts)])
+        for places, result, first, last in zip(self._places, evaluations, at[:-1], at[1:], strict=True):
+            scores[first:last, places] = result.scores
         rows, plain, probability, undecided = (
-            np.concatenate([getattr(each, name) for each in evaluations])
+            np.concatenate([getattr(result, name) for result in evaluations])
             for name in ("rows", "plain", "probability", "undecided")
         )
-        sizes = [each.size for each in self.parts]
-        mean, spread = (stacked([getattr(each, name) for each in evaluations], sizes) for name in ("mean", "spread"))
+        sizes = [term.size for term in self.parts]
+        mean, spread = (stacked([getattr(block, name) for block in evaluations], sizes) for name in ("mean", "spread"))
         return Evaluation(rows, scores, plain, probability, undecided, mean, spread)
 
 
@@ -122,18 +122,18 @@ def problem(
     if not isinstance(tables, (list, tuple)) or len(tables) != len(sources) or not sources:
         count = len(tables) if isinstance(tables, (list, tuple)) else 1
         raise InputError("data", f"{count} sets of impacts", f"one for each of the {len(sources)} scenes")
-    scenes = [Scene.load(each) for each in sources]
+    scenes = [Scene.load(source) for source in sources]
     measured = [
-        read_data(each, first, f"data {k + 1}" if len(sources) > 1 else "data")
-        for k, (each, first) in enumerate(zip(tables, scenes, strict=True))
+        read_data(raw, first, f"data {k + 1}" if len(sources) > 1 else "data")
+        for k, (raw, first) in enumerate(zip(tables, scenes, strict=True))
     ]
-    times = Counter(each.name for each in scenes)
-    labels = [each.name if times[each.name] == 1 and each.name else str(k + 1) for k, each in enumerate(scenes)]
+    times = Counter(setup.name for setup in scenes)
+    labels = [setup.name if times[setup.name] == 1 and setup.name else str(k + 1) for k, setup in enumerate(scenes)]
     if len(set(labels)) < len(labels):  # a scene is called as another one's number
         labels = [str(k + 1) for k in range(len(scenes))]
-    noise = [_noise(each) for each in measured]
-    known = list(dict.fromkeys(name for k, each in enumerate(scenes) for name in (*free_names(each), *noise[k])))
-    chosen = check_names(free, known, "free", "names no entry")
+    noise = [_noise(dataset) for dataset in measured]
+    candidates = list(dict.fromkeys(name for k, setup in enumerate(scenes) for name in (*free_names(setup), *noise[k])))
+    chosen = check_names(free, candidates, "free", "names no entry")
     groups = _groups(own, chosen, labels)
     priors = (
         {} if prior is None else dict(check_mapping(prior, "prior", 'entries and priors, {"NAME": "2 um +- 20 %"}'))
@@ -143,18 +143,18 @@ def problem(
     for k, (first, table) in enumerate(zip(scenes, measured, strict=True)):
         entries = {
             name: f"{name}@{groups[name][k]}" if name in groups else name
-            for name in sorted(chosen, key=lambda each: each.startswith(NOISE))  # the noise last
+            for name in sorted(chosen, key=lambda entry: entry.startswith(NOISE))  # the noise last
             if name in (*free_names(first), *noise[k])
         }
         parts.append(Part(labels[k], first, table, entries))
         names = parts[-1].names
-        told = {name: priors[each] for name in names for each in (entries[name], name) if each in priors}
+        told = {name: priors[label] for name in names for label in (entries[name], name) if label in priors}
         unused -= {*entries.values(), *names}
         entries_free = free_entries(first, names, table, told, rtol).entries if names else ()
         entries_free += tuple(_noise_entry(name, table) for name in entries if name not in names)
-        for each in entries_free:
-            key = entries[each.name]
-            merged[key] = _both(merged[key], each) if key in merged else replace(each, name=key)
+        for entry in entries_free:
+            key = entries[entry.name]
+            merged[key] = _both(merged[key], entry) if key in merged else replace(entry, name=key)
     for name in unused:
         raise InputError("prior", name, ", ".join(merged), "is not free")
     order = sorted(merged, key=lambda name: chosen.index(name.partition("@")[0]))
@@ -166,11 +166,11 @@ def _groups(own: Any, chosen: Sequence[str], labels: Sequence[str]) -> dict[str,
     groups: dict[str, Any] = (
         dict(own) if isinstance(own, Mapping) else dict.fromkeys(check_names(own, chosen, "own"), labels)
     )
-    for name, each in groups.items():
+    for name, group in groups.items():
         check_names(name, chosen, "own")
-        groups[name] = each = each or labels
-        if isinstance(each, str) or len(each) != len(labels):
-            raise InputError(f"own {name}", each, f"a label for each of the {len(labels)} scenes")
+        groups[name] = group = group or labels
+        if isinstance(group, str) or len(group) != len(labels):
+            raise InputError(f"own {name}", group, f"a label for each of the {len(labels)} scenes")
     return groups
 
 
@@ -193,11 +193,11 @@ def _noise_entry(name: str, data: Measurements) -> FreeEntry:
     return FreeEntry(name, 1.0, True, low, high, Normalisation(_counts(data)[of], low))
 
 
-def _both(one: FreeEntry, other: FreeEntry) -> FreeEntry:
+def _both(first: FreeEntry, other: FreeEntry) -> FreeEntry:
     """An entry that two parts share."""
-    low, high, prior = max(one.low, other.low), min(one.high, other.high), one.prior or other.prior
+    low, high, prior = max(first.low, other.low), min(first.high, other.high), first.prior or other.prior
     if low >= high:
-        raise InputError("free", one.name, "entries that have a value which all scenes may have", "has none")
-    if isinstance(one.prior, Normalisation) and isinstance(other.prior, Normalisation):
-        prior = replace(one.prior, count=one.prior.count + other.prior.count)
-    return replace(one, low=low, high=high, prior=prior)
+        raise InputError("free", first.name, "entries that have a value which all scenes may have", "has none")
+    if isinstance(first.prior, Normalisation) and isinstance(other.prior, Normalisation):
+        prior = replace(first.prior, count=first.prior.count + other.prior.count)
+    return replace(first, low=low, high=high, prior=prior)

@@ -24,6 +24,7 @@ from .rare_outcomes import RARE, beyond_reach
 from .scatter import REACH, Resolution, ScatterLines, SegmentMap, Segments, in_deviations, nearest_normals, segment_map
 
 NEGLIGIBLE = 1e-12  # probability of the scatter below which a segment is left out
+_PASSED = 1e-3  # weight of a line, and probability of an outcome on it, that do not count where lines are compared
 FINER = (3, 7)
 """Factors of the number of lines of rows that need more. Odd: the middle line goes through the nominal impact."""
 KNEE, TAIL = 12.0, 4.0
@@ -141,17 +142,33 @@ class Likelihood:
     def refine(self, values: np.ndarray, tolerance: float) -> None:
         """Choose each row's factor of lines: the last of `FINER` that still changes its log-likelihood, else 1.
 
-        A change counts if it is larger than `tolerance`.
+        A change counts if it is larger than `tolerance`. Rows beside a place where three outcomes meet have the largest
+        factor: as the free entries move it across a line, their log-likelihood has a kink.
         """
         experiment, size, noise = self.experiment_at(values), self.size, self._factors(values)
         self.line_factors = np.ones(size, int)
-        now, open_ = self.evaluate(experiment, Resolution(), noise).rows, np.ones(size, bool)
+        now, undecided = self.evaluate(experiment, Resolution(), noise).rows, np.ones(size, bool)
         for factor in FINER:
-            fine = self.evaluate(experiment, Resolution(), noise, np.where(open_, factor, 0)).rows
-            open_ &= np.abs(fine - now) > tolerance
-            self.line_factors[open_], now = factor, fine
-            if not open_.any():
+            fine = self.evaluate(experiment, Resolution(), noise, np.where(undecided, factor, 0)).rows
+            undecided &= np.abs(fine - now) > tolerance
+            self.line_factors[undecided], now = factor, fine
+            if not undecided.any():
                 break
+        self.line_factors[self._beside_meeting(experiment, self.data.noisier(noise))] = FINER[-1]
+
+    def _beside_meeting(self, experiment: Experiment, data: Measurements) -> np.ndarray:
+        """Mask of the rows whose lines do not all have the same outcomes."""
+        lines = ScatterLines.through(data, self.direction, Resolution().lines * FINER[0])
+        segments = Segments.between(lines, lines.changes(experiment, Resolution(within=1e-3)))
+        segments = segments.subset((segments.mass() > _PASSED) & (segments.share > _PASSED))
+        seen = np.zeros((lines.row.size, 4), bool)  # undecided ones in the last column
+        seen[segments.line, segments.outcome] = True
+        count, some = np.zeros((self.size, 4), int), np.unique(segments.line)
+        np.add.at(count, lines.row[some], seen[some])
+        unlike: np.ndarray = ((count > 0) & (count < np.bincount(lines.row[some], minlength=self.size)[:, None])).any(
+            axis=1
+        )
+        return unlike
 
     def experiment_at(self, values: np.ndarray) -> Experiment:
         """The experiment with these values of the free entries; InputError if they make a row's scene impossible."""
@@ -202,9 +219,9 @@ class Likelihood:
         )
         changes = lines.changes(experiment, resolution)
         segments = Segments.between(lines, changes)
-        unknown = segments.part(segments.outcome < 0)
+        unknown = segments.subset(segments.outcome < 0)
         undecided = np.bincount(unknown.row, unknown.share * unknown.mass(), size)
-        segments = segments.part((segments.outcome >= 0) & data.allowed[segments.row, segments.outcome])
+        segments = segments.subset((segments.outcome >= 0) & data.allowed[segments.row, segments.outcome])
         mass = segments.mass()
         probability = np.bincount(segments.row, segments.share * mass, size)
         dense = data.separated[segments.row]
@@ -215,11 +232,11 @@ class Likelihood:
         plain = ~dense & counts
         terms: list[_Terms] = [(segments.row[plain], np.log((segments.weight * mass)[plain]), by_free[plain])]
         which = np.flatnonzero(dense & counts)
-        dense_part = segments.part(which)
+        dense_part = segments.subset(which)
         results = dense_part.results(experiment, lines, ends[:, which], self.measured, resolution)
-        for part, mapping, value, slope in results:
-            for some, finer in self._resolved(dense_part.row[part], noise, mapping, value):
-                at_ends, of = ends[:, which[part[some]]], dense_part.part(part[some])
+        for indices, mapping, value, slope in results:
+            for some, finer in self._resolved(dense_part.row[indices], noise, mapping, value):
+                at_ends, of = ends[:, which[indices[some]]], dense_part.subset(indices[some])
                 terms.append(self._integrals(of, noise, at_ends, finer, value[:, some], slope[:, some], moments))
         rows, scores = _sums(terms, size, len(self.names))
         rare = np.flatnonzero((probability < RARE) & (factors > 0))
@@ -259,13 +276,13 @@ class Likelihood:
         precision, pull = np.tile(np.eye(2), (row.size, 1, 1)), np.zeros((row.size, 2))
         spread = {}
         for k, name in enumerate(self.measured):
-            values, sd = (each[row] for each in data.observed[name])
+            values, sd = (column[row] for column in data.observed[name])
             by = in_deviations(data, row, *at, at_point.speed[k], at_point.angle[k])
             spread[name] = np.linalg.norm(by, axis=1)
-            known = np.isfinite(values - at_point.value[k])
-            steep = np.where(known, 1.0, 0.0)[:, None] * np.nan_to_num(by) / sd[:, None]
+            mask = np.isfinite(values - at_point.value[k])
+            steep = np.where(mask, 1.0, 0.0)[:, None] * np.nan_to_num(by) / sd[:, None]
             precision += steep[:, :, None] * steep[:, None]
-            pull += steep * np.where(known, (values - np.nan_to_num(at_point.value[k])) / sd, 0.0)[:, None]
+            pull += steep * np.where(mask, (values - np.nan_to_num(at_point.value[k])) / sd, 0.0)[:, None]
         across = np.column_stack([-np.sin(self.direction[row]), np.cos(self.direction[row])])
         covariance = np.linalg.inv(precision)
         size = _ROOM * np.sqrt(np.einsum("ni,nij,nj->n", across, covariance, across))
@@ -273,7 +290,7 @@ class Likelihood:
         mean = np.einsum("ni,nij,nj->n", across, covariance, pull)
         centre[row[less]], width[row[less]] = np.clip(mean, -REACH, REACH)[less], size[less]
         values_there = {name: at_point.value[k][less] for k, name in enumerate(self.measured)}
-        return _Narrow(centre, width, row[less], values_there, {name: each[less] for name, each in spread.items()})
+        return _Narrow(centre, width, row[less], values_there, {name: column[less] for name, column in spread.items()})
 
     def _resolved(
         self, row: np.ndarray, noise: Mapping[str, float], mapping: SegmentMap, value: np.ndarray
@@ -281,13 +298,13 @@ class Likelihood:
         """Indices of segments, and the map with points so dense that results change by their noise between two."""
         steps = np.ones(row.size)
         for k, name in enumerate(self.measured):
-            measured, sd = (each[row] for each in self.data.observed[name])
+            measured, sd = (column[row] for column in self.data.observed[name])
             change = np.abs(np.diff(value[k] @ mapping.interpolate.T)).max(axis=1) / (sd * noise.get(name, 1.0))
             steps = np.fmax(steps, np.where(np.isfinite(measured), change, 1.0))
         times = 2 ** np.ceil(np.log2(np.minimum(steps, _FINEST))).astype(int)
-        for each in np.unique(times).tolist():
-            count = each * mapping.at_points.size
-            yield np.flatnonzero(times == each), segment_map(mapping.kind, mapping.at_nodes.size, count)
+        for factor in np.unique(times).tolist():
+            count = factor * mapping.at_points.size
+            yield np.flatnonzero(times == factor), segment_map(mapping.kind, mapping.at_nodes.size, count)
 
     def _integrals(
         self, segments: Segments, noise: Mapping[str, float], ends: np.ndarray, mapping: SegmentMap, value: np.ndarray,
@@ -303,7 +320,7 @@ class Likelihood:
         exponent = scatter.copy()
         pulls, squares = [], dict.fromkeys(self.noise, np.zeros(exponent.shape))
         for k, name in enumerate(self.measured):
-            measured, sd = (each[row, None] for each in self.data.observed[name])
+            measured, sd = (column[row, None] for column in self.data.observed[name])
             sd = sd * noise.get(name, 1.0)
             at = value[k] @ mapping.interpolate.T
             for power in range(3):
@@ -338,8 +355,8 @@ def _widened(slopes: np.ndarray, width: int) -> np.ndarray:
 
 def _sums(terms: Sequence[_Terms], rows: int, width: int) -> tuple[np.ndarray, np.ndarray]:
     """Logarithms of the sums of terms by row, -1e300 for an empty one, and their derivatives, in `width` columns."""
-    row, log = (np.concatenate(each) for each in list(zip(*terms, strict=True))[:2])
-    slope = np.concatenate([_widened(each, width) for *_, each in terms])
+    row, log = (np.concatenate(column) for column in list(zip(*terms, strict=True))[:2])
+    slope = np.concatenate([_widened(block, width) for *_, block in terms])
     top = np.full(rows, -1e300)
     np.maximum.at(top, row, log)
     term = np.exp(log - top[row])
@@ -371,6 +388,6 @@ def check_energy(scene: Scene, names: tuple[str, ...], data: Measurements) -> No
         rows = np.flatnonzero((values - _BEYOND * noise) * np.cos(steepest) > 1)
     if rows.size:
         k, more = int(rows[0]), ", ..." if rows.size > _NAMED else ""
-        where = ", ".join(data.label(each) for each in rows[:_NAMED].tolist()) + more
+        where = ", ".join(data.label(row) for row in rows[:_NAMED].tolist()) + more
         most = f"at most 1/cos(angle) = {1 / np.cos(data.angle[k]):.4g} there, and {_BEYOND:g} standard deviations"
         raise InputError("restitution", float(values[k]), most, f"is more than the impact's energy allows ({where})")

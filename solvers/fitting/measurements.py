@@ -136,7 +136,7 @@ class Measurements:
         )
         return allowed
 
-    def part(self, which: np.ndarray) -> Measurements:
+    def subset(self, which: np.ndarray) -> Measurements:
         """The rows of these indices."""
         alone = ("speed", "angle", "speed_sd", "angle_sd", "outcome")
         return replace(
@@ -144,7 +144,7 @@ class Measurements:
             **{name: getattr(self, name)[which] for name in alone},
             observed={name: (values[which], sds[which]) for name, (values, sds) in self.observed.items()},
             columns={name: values[which] for name, values in self.columns.items()},
-            flights=self.flights and self.flights.part(which),
+            flights=self.flights and self.flights.subset(which),
             labels=tuple(self.labels[k] for k in which.tolist()) if self.labels else (),
         )
 
@@ -155,21 +155,21 @@ class Measurements:
         Arguments:
             labels: before the rows' own.
         """
-        relative, tables = all(each.relative for each in parts), []
-        for each in parts:
-            share = 1.0 if relative else each.normal_speed / each.speed
-            table = {"speed": share * each.speed, "angle": each.angle, "speed_sd": share * each.speed_sd}
-            table |= {"angle_sd": each.angle_sd, "outcome": each.outcome}
-            for name, (values, sd) in each.observed.items():
+        relative, tables = all(data.relative for data in parts), []
+        for data in parts:
+            share = 1.0 if relative else data.normal_speed / data.speed
+            table = {"speed": share * data.speed, "angle": data.angle, "speed_sd": share * data.speed_sd}
+            table |= {"angle_sd": data.angle_sd, "outcome": data.outcome}
+            for name, (values, sd) in data.observed.items():
                 table |= {f"observed {name}": values, f"sd {name}": sd}
             tables.append(table)
-        one: dict[str, Any] = stacked(tables, [each.size for each in parts])
+        whole: dict[str, Any] = stacked(tables, [data.size for data in parts])
         observed = {
-            name: (one.pop(f"observed {name}"), one.pop(f"sd {name}")) for name in _RESULTS if f"sd {name}" in one
+            name: (whole.pop(f"observed {name}"), whole.pop(f"sd {name}")) for name in _RESULTS if f"sd {name}" in whole
         }
-        about = tuple(f"{label}: {text}" for label, each in zip(labels, parts) for text in each.remarks)
-        rows = tuple(f"{label}, {each.label(k)}" for label, each in zip(labels, parts) for k in range(each.size))
-        return cls(**one, observed=observed, relative=relative, remarks=about, labels=rows)
+        about = tuple(f"{label}: {text}" for label, data in zip(labels, parts) for text in data.remarks)
+        rows = tuple(f"{label}, {data.label(k)}" for label, data in zip(labels, parts) for k in range(data.size))
+        return cls(**whole, observed=observed, relative=relative, remarks=about, labels=rows)
 
     def noisier(self, factors: Mapping[str, float]) -> Measurements:
         """The same with standard deviations of results, and of speed and angle, multiplied by these factors."""
@@ -184,9 +184,9 @@ class Measurements:
 
 def stacked(tables: Sequence[Mapping[str, np.ndarray]], sizes: Sequence[int]) -> dict[str, np.ndarray]:
     """Columns of tables of these sizes, one after the other; NaN where a table has no such column."""
-    names = dict.fromkeys(name for each in tables for name in each)
+    names = dict.fromkeys(name for table in tables for name in table)
     return {
-        name: np.concatenate([each.get(name, np.full(size, np.nan)) for each, size in zip(tables, sizes, strict=True)])
+        name: np.concatenate([data.get(name, np.full(size, np.nan)) for data, size in zip(tables, sizes, strict=True)])
         for name in names
     }
 
@@ -243,18 +243,18 @@ class _Table:
             else:
                 self.unused.append(column)
         if self.unused:
-            self.remarks.append(f"Columns that are not used: {', '.join(one.name for one in self.unused)}.")
+            self.remarks.append(f"Columns that are not used: {', '.join(item.name for item in self.unused)}.")
 
     def _is_known(self, name: str) -> bool:
         """Whether a column is used; InputError for a name that is close to a known one, and for a repeated one."""
-        entries = [each for each in self.scene.fields if each not in MEETING and not self.scene.fields[each].choices]
+        entries = [key for key in self.scene.fields if key not in MEETING and not self.scene.fields[key].choices]
         if name not in (*_PLAIN, *entries):
             dotted = _DOTTED.fullmatch(name)
-            known = entries if dotted else [*_PLAIN, *_CANONICAL]
-            if not dotted and not get_close_matches(name.lower(), known, cutoff=_MISSPELT):
+            names = entries if dotted else [*_PLAIN, *_CANONICAL]
+            if not dotted and not get_close_matches(name.lower(), names, cutoff=_MISSPELT):
                 return False
             accepted = f"{', '.join(_PLAIN)}, and entries of the scene by dotted name"
-            raise InputError(self.header, name, accepted, "is unknown" + did_you_mean(name, known))
+            raise InputError(self.header, name, accepted, "is unknown" + did_you_mean(name, names))
         if name in self.by_name:
             raise InputError(self.header, name, "each column once", "is given twice")
         if name in entries and name.partition(".")[0] not in {entry.partition(".")[0] for entry, _ in self.scene.si}:
@@ -360,7 +360,7 @@ class _Table:
             named, more = ", ".join(labels[k] for k in rest[:_NAMED]), f" ... ({rest.size} rows)"
             more = more if rest.size > _NAMED else ""
             self.remarks.append(f"Left out, for neither outcome nor result is given: {named}{more}.")
-            data = data.part(np.flatnonzero(observation))
+            data = data.subset(np.flatnonzero(observation))
         return replace(data, remarks=tuple(self.remarks))
 
     def _angle(self) -> np.ndarray:
@@ -390,14 +390,14 @@ class _Table:
         if name == "stokes":
             entries: dict[str, Any] = {entry: value for entry, value in self.scene.si if entry not in MEETING}
             values = quantities(entries | dict(columns), self.scene.ways)
-            radius, mass, viscosity = (values[each] for each in ("reduced_radius", "reduced_mass", "viscosity"))
+            radius, mass, viscosity = (values[quantity] for quantity in ("reduced_radius", "reduced_mass", "viscosity"))
             speed = speed / scaling.stokes(radius, mass, viscosity, 1.0)
             self.remarks.append("Normal speeds are those of the Stokes numbers with the scene's own entries.")
         return np.broadcast_to(speed, self.size).copy(), name
 
     def _scatter(self, speed: np.ndarray, of_speed: str) -> tuple[np.ndarray, np.ndarray]:
         speed_sd, angle_sd = np.full(self.size, np.nan), np.full(self.size, np.nan)
-        for name in [each for each in _SPREAD[:2] if each in self.by_name][:1]:
+        for name in [column for column in _SPREAD[:2] if column in self.by_name][:1]:
             accepted = f"a standard deviation from 0 to below {_WIDEST:.2g} of the speed"
             values = self._numbers(name, "m/s", lambda v: v >= 0, accepted)
             speed_sd = values * speed if self.by_name[name].unit == "%" else values
@@ -439,16 +439,16 @@ class _Table:
             if not {name, f"{name}_sd"} <= self.by_name.keys():
                 raise InputError(self.header, name, f"{name} and {name}_sd, as `tracks` writes them", "is missing")
             value, sd = (
-                self._numbers(each, unit, lambda v: v >= 0, "a number >= 0", gaps=False)
-                for each in (name, f"{name}_sd")
+                self._numbers(column, unit, lambda v: v >= 0, "a number >= 0", gaps=False)
+                for column in (name, f"{name}_sd")
             )
             measured = {name: (value, sd)} | measured
         size, correlation = len(FLIGHT), np.tile(np.eye(len(FLIGHT)), (self.size, 1, 1))
         lower = np.tril_indices(size, -1)
         for row, cell in enumerate(self.by_name[CORRELATION].cells if CORRELATION in self.by_name else ()):
             if not _is_missing(cell):
-                numbers = [units.number(each, self._where(row, CORRELATION), "numbers") for each in str(cell).split()]
-                if len(numbers) != lower[0].size or not all(-1 <= each <= 1 for each in numbers):
+                numbers = [units.number(word, self._where(row, CORRELATION), "numbers") for word in str(cell).split()]
+                if len(numbers) != lower[0].size or not all(-1 <= number <= 1 for number in numbers):
                     accepted = f"{lower[0].size} numbers between -1 and 1, as `tracks` writes them"
                     raise InputError(self._where(row, CORRELATION), cell, accepted)
                 correlation[row][lower] = numbers

@@ -28,11 +28,11 @@ _NEIGHBOURHOOD = np.log(10.0)  # largest distance of these points from the scene
 _CLOSE = 6.0  # log-likelihood within which a coarse optimum is followed at full resolution
 _DIP = 0.1  # of the log-likelihood between two maxima that count as separate
 _EVALUATIONS = 30  # most evaluations of least squares, and most iterations of SLSQP
-_IMPOSSIBLE = 1e3  # loss of log-likelihood where the scene is impossible
+IMPOSSIBLE = 1e3  # loss of log-likelihood where the scene is impossible
 _TOLERANCE = 1e-3  # of the log-likelihood
 _ROUNDS = 3  # of turning the lines and refining rows
 _FAR_OFF = 1.5  # standard errors that a maximum may be from where the lines were turned
-_ROUGH = Resolution(1, 6, 96, 11)
+ROUGH = Resolution(1, 6, 96, 11)
 _DIRECT = 0.02  # error of a row's log-likelihood beyond which it gets more lines
 _LEAST = 1e-9  # residual below which a row has no derivatives
 
@@ -91,13 +91,13 @@ class Objective:
         evaluation = self.at(inner)
         if evaluation is None:
             return -np.inf
-        offset = sum(each.prior.offset for each in self.free.entries if isinstance(each.prior, Normalisation))
+        offset = sum(entry.prior.offset for entry in self.free.entries if isinstance(entry.prior, Normalisation))
         return evaluation.value + offset - float((self._priors(inner)[0] ** 2).sum()) / 2
 
     def log_likelihood(self, inner: np.ndarray) -> float:
         """The logarithm of the likelihood alone, with all constants of the densities, where the scene is possible."""
-        return self.value(inner) + sum(float(e) ** 2 for e, each in zip(self._priors(inner)[0], self.free.entries)
-                                       if isinstance(each.prior, Prior)) / 2  # fmt: skip
+        return self.value(inner) + sum(float(e) ** 2 for e, entry in zip(self._priors(inner)[0], self.free.entries)
+                                       if isinstance(entry.prior, Prior)) / 2  # fmt: skip
 
     def gradient(self, inner: np.ndarray) -> np.ndarray:
         """Derivatives of `value`."""
@@ -113,7 +113,7 @@ class Objective:
         Half the quantile of chi-squared with one degree of freedom; where the noise is fitted that of Student's t, with
         as many degrees of freedom as there are results more than other entries.
         """
-        counts = [each.prior.count for each in self.free.entries if isinstance(each.prior, Normalisation)]
+        counts = [entry.prior.count for entry in self.free.entries if isinstance(entry.prior, Normalisation)]
         if not counts:
             return DROP
         freedom = max(sum(counts) - self.free.size + len(counts), 1)
@@ -123,9 +123,9 @@ class Objective:
         """The information matrix of rows and priors in the variables of the search (Gauss-Newton)."""
         slopes = self.jacobian(inner)
         information: np.ndarray = slopes.T @ slopes
-        for k, each in enumerate(self.free.entries):
-            if isinstance(each.prior, Normalisation):  # expected: 2 for each value, of which its residual has one
-                information[k, k] += each.prior.count - slopes[self.likelihood.size + k, k] ** 2
+        for k, entry in enumerate(self.free.entries):
+            if isinstance(entry.prior, Normalisation):  # expected: 2 for each value, of which its residual has one
+                information[k, k] += entry.prior.count - slopes[self.likelihood.size + k, k] ** 2
         return information
 
     def log_density(self, values: Mapping[str, float]) -> tuple[float, dict[str, float]]:
@@ -140,8 +140,8 @@ class Objective:
         """Distance of each entry from its prior's centre, in standard deviations, and its derivative; 0 without one."""
         values = self.free.values(inner)
         pairs = [
-            (0.0, 0.0) if each.prior is None else each.prior.misfit(float(value))
-            for each, value in zip(self.free.entries, values, strict=True)
+            (0.0, 0.0) if entry.prior is None else entry.prior.misfit(float(value))
+            for entry, value in zip(self.free.entries, values, strict=True)
         ]
         misfits, slopes = np.array(pairs).T
         return misfits, slopes * self.free.rates(values)
@@ -183,24 +183,24 @@ def optimise(
     climbs: list[Optimum] = []
     for start in _screened(likelihood, free, starts, seed, np.inf if everywhere else _NEIGHBOURHOOD):
         likelihood.aim(free.values(start))
-        rough = Objective(likelihood, free, _ROUGH)
+        rough = Objective(likelihood, free, ROUGH)
         if np.isfinite(rough.value(start)):
             inner = rough_maximum(rough, start)
             climbs.append(Optimum(inner, rough.value(inner)))
     if not climbs:
         raise ComputationError("no start of the fit has a likelihood", advice="give the scene another first guess")
-    climbs.sort(key=lambda each: -each.value)
+    climbs.sort(key=lambda climb: -climb.value)
     distinct: list[Optimum] = []
-    for each in climbs:
-        if each.value > climbs[0].value - _CLOSE and all(_apart(rough, each, other) for other in distinct):
-            distinct.append(each)
-    finished = [maximum_with_aiming(likelihood, free, each.inner) for each in distinct]
-    best, *others = sorted(finished, key=lambda each: -each.value)
+    for climb in climbs:
+        if climb.value > climbs[0].value - _CLOSE and all(_apart(rough, climb, other) for other in distinct):
+            distinct.append(climb)
+    finished = [maximum_with_aiming(likelihood, free, climb.inner) for climb in distinct]
+    best, *others = sorted(finished, key=lambda optimum: -optimum.value)
     if best is not finished[-1]:
         likelihood.aim(free.values(best.inner))  # its lines were last turned for another maximum
         likelihood.refine(free.values(best.inner), _DIRECT)
     objective = Objective(likelihood, free, Resolution())
-    return replace(best, others=tuple(each for each in others if _apart(objective, each, best)))
+    return replace(best, others=tuple(optimum for optimum in others if _apart(objective, optimum, best)))
 
 
 def maximum_with_aiming(likelihood: Likelihood | Joint, free: FreeEntries, inner: np.ndarray) -> Optimum:
@@ -230,7 +230,7 @@ def refined_maximum(objective: Objective, start: np.ndarray) -> np.ndarray:
         at = from_white(z)
         value = objective.value(at)
         possible = np.isfinite(value)
-        return (at_start - value, -white.T @ objective.gradient(at)) if possible else (_IMPOSSIBLE, np.zeros(z.size))
+        return (at_start - value, -white.T @ objective.gradient(at)) if possible else (IMPOSSIBLE, np.zeros(z.size))
 
     box = LinearConstraint(white / span[:, None], (low - start) / span, (high - start) / span)
     optimum = minimize(
@@ -255,15 +255,15 @@ def rough_maximum(
     moving = np.flatnonzero(np.arange(free.size) != fixed)
     low, high = free.low[moving], free.high[moving]
 
-    def with_moved(part: np.ndarray) -> np.ndarray:
+    def with_moved(values: np.ndarray) -> np.ndarray:
         inner = start.copy()
-        inner[moving] = part
+        inner[moving] = values
         return inner
 
     optimum = least_squares(
-        lambda part: objective.residuals(with_moved(part)),
+        lambda values: objective.residuals(with_moved(values)),
         np.clip(start[moving], low + 1e-9 * (high - low), high - 1e-9 * (high - low)),
-        lambda part: objective.jacobian(with_moved(part))[:, moving],
+        lambda values: objective.jacobian(with_moved(values))[:, moving],
         (low, high), method="trf", ftol=1e-3, xtol=variables, gtol=1e-8, max_nfev=most,
         x_scale=np.where(free.logarithmic[moving], 1.0, high - low),
     )  # fmt: skip
@@ -282,7 +282,7 @@ def _screened(
     return [scene, *sorted(points, key=lambda point: -coarse.value(point))[: _FOLLOWED - 1]]
 
 
-def _apart(objective: Objective, one: Optimum, other: Optimum) -> bool:
+def _apart(objective: Objective, first: Optimum, other: Optimum) -> bool:
     """True if the likelihood halfway between two maxima is lower than at either."""
-    between = objective.value((one.inner + other.inner) / 2)
-    return between < min(one.value, other.value) - _DIP
+    between = objective.value((first.inner + other.inner) / 2)
+    return between < min(first.value, other.value) - _DIP

@@ -47,13 +47,13 @@ def draw(fit: Fit) -> Figure:
     halves: Any = figure.subfigures(2, 1, height_ratios=(1.25 * count, 1.0))
     top, bottom = halves
     samples, pairs, at = _samples(fit), top.subplots(count, 2, squeeze=False), 0
-    for (left, right), part in zip(pairs, fit.parts, strict=True):
-        own = samples[:, [free.names.index(part.entries[name]) for name in part.names]]
-        rows = np.arange(at, at := at + part.data.size)
-        _map(left, part, own, fit.rows.contradicting[np.isin(fit.rows.contradicting, rows)] - rows[0])
-        _results(right, part, own, {name: each[rows] for name, each in fit.rows.expected.items()})
+    for (left, right), member in zip(pairs, fit.parts, strict=True):
+        own = samples[:, [free.names.index(member.entries[name]) for name in member.names]]
+        rows = np.arange(at, at := at + member.data.size)
+        _map(left, member, own, fit.rows.contradicting[np.isin(fit.rows.contradicting, rows)] - rows[0])
+        _results(right, member, own, {name: values[rows] for name, values in fit.rows.expected.items()})
         for axes in (left, right) if count > 1 else ():
-            axes.set_title(f"{plain_text(part.label)}\n{axes.get_title()}", fontsize=9)
+            axes.set_title(f"{plain_text(member.label)}\n{axes.get_title()}", fontsize=9)
     axes = bottom.subplots(1, free.size + 1, width_ratios=[1.0] * free.size + [1.5], squeeze=False)[0]
     for k in range(free.size):
         _profile(axes[k], fit, k)
@@ -70,7 +70,7 @@ def _samples(fit: Fit) -> np.ndarray:
     """
     free, objective = fit.free, fit.objective
     white = whitening(objective, fit.best)
-    ends = [(each.low, each.high) for each in fit.estimates.values()]
+    ends = [(estimate.low, estimate.high) for estimate in fit.estimates.values()]
     low = [free.low[k] if end[0] is None else free.entries[k].inner(end[0]) for k, end in enumerate(ends)]
     high = [free.high[k] if end[1] is None else free.entries[k].inner(end[1]) for k, end in enumerate(ends)]
     radius = np.sqrt(chi2.ppf(_JOINT, free.size))
@@ -80,22 +80,22 @@ def _samples(fit: Fit) -> np.ndarray:
     ends_inside = [point for both in fit.ends for point in both if np.isfinite(objective.value(point))]
     inside = [fit.best, *ends_inside]
     tried = np.clip(fit.best + normal @ white.T, low, high)
-    inside += [each for each in tried if objective.value(each) >= least]
-    return np.array([free.values(each) for each in inside])
+    inside += [point for point in tried if objective.value(point) >= least]
+    return np.array([free.values(point) for point in inside])
 
 
-def _collided(part: Part, values: np.ndarray, speed: np.ndarray, angle: np.ndarray, of: tuple[str, ...] = ()) -> Any:
+def _collided(member: Part, values: np.ndarray, speed: np.ndarray, angle: np.ndarray, of: tuple[str, ...] = ()) -> Any:
     """Collisions at all points with each of several values of the part's entries, (values, points)."""
     count, size = values.shape[0], speed.size
     vary = {}
-    for k, name in enumerate(part.names):
-        vary[name] = part.scene.as_given(name, np.repeat(values[:, k], size))
-    kind: dict[str, Any] = {part.data.speed_name: np.tile(speed, count)}
-    return collide_many(part.scene, angle=np.tile(angle, count), vary=vary, of=("outcome", *of), **kind)
+    for k, name in enumerate(member.names):
+        vary[name] = member.scene.as_given(name, np.repeat(values[:, k], size))
+    kind: dict[str, Any] = {member.data.speed_name: np.tile(speed, count)}
+    return collide_many(member.scene, angle=np.tile(angle, count), vary=vary, of=("outcome", *of), **kind)
 
 
-def _map(axes: Axes, part: Part, samples: np.ndarray, odd: np.ndarray) -> None:
-    data = part.data
+def _map(axes: Axes, member: Part, samples: np.ndarray, odd: np.ndarray) -> None:
+    data = member.data
     low, high = data.speed.min(), data.speed.max()
     margin = max((high / low) ** 0.06, 1.05)
     first, last = np.degrees([data.angle.min(), data.angle.max()])
@@ -105,8 +105,8 @@ def _map(axes: Axes, part: Part, samples: np.ndarray, odd: np.ndarray) -> None:
     def outcomes(values: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         speed = np.geomspace(low / margin, high * margin, count)
         angle = np.linspace(limits[0], limits[1], count)
-        points = [each.ravel() for each in np.meshgrid(speed, angle, indexing="ij")]
-        outcome = _collided(part, values, points[0], points[1]).outcome.values.reshape(-1, count, count)
+        points = [grid.ravel() for grid in np.meshgrid(speed, angle, indexing="ij")]
+        outcome = _collided(member, values, points[0], points[1]).outcome.values.reshape(-1, count, count)
         return np.degrees(angle), speed, outcome
 
     degrees, speed, codes = outcomes(samples[:1], _FINE)
@@ -133,21 +133,21 @@ def _map(axes: Axes, part: Part, samples: np.ndarray, odd: np.ndarray) -> None:
         axes.plot(np.degrees(data.angle[odd]), data.speed[odd], **style, markersize=11, clip_on=False, zorder=3)
         handles.append(Line2D([], [], **style, markersize=9, label="contradicts the model"))
     present = [patch(name) for code, name in enumerate(OUTCOMES) if (codes[0] == code).any()]
-    for each in present:
-        each.set(edgecolor=INK, hatch=None, linewidth=0.6)  # the legend may lie on the same colour
+    for handle in present:
+        handle.set(edgecolor=INK, hatch=None, linewidth=0.6)  # the legend may lie on the same colour
     axes.set_yscale("log")
     plain(axes.yaxis)
     axes.set_xlabel("impact angle (deg)")
     axes.set_ylabel(AXIS_LABELS[data.speed_name])
     axes.legend(handles=present + handles, fontsize=6.5, loc="best", frameon=True, framealpha=0.9)
     axes.set_title(
-        "impacts on the fitted map; shaded: where the outcome is uncertain (95 %)" + _caveat(part), fontsize=9
+        "impacts on the fitted map; shaded: where the outcome is uncertain (95 %)" + _caveat(member), fontsize=9
     )
 
 
-def _results(axes: Axes, part: Part, samples: np.ndarray, expected: Mapping[str, np.ndarray]) -> None:
-    data = part.data
-    name = next((each for each in expected if each in OBSERVED), "")
+def _results(axes: Axes, member: Part, samples: np.ndarray, expected: Mapping[str, np.ndarray]) -> None:
+    data = member.data
+    name = next((result for result in expected if result in OBSERVED), "")
     if not name:
         axes.axis("off")
         axes.text(0.5, 0.5, "no result was measured beside the outcome", ha="center", va="center", color=NOTE)
@@ -158,10 +158,10 @@ def _results(axes: Axes, part: Part, samples: np.ndarray, expected: Mapping[str,
     for colour, group in zip(_LINES, _by_angle(data.angle[rows])):
         group = rows[group]
         angle = float(np.mean(data.angle[group]))
-        collided = _collided(part, samples, speed, np.full(_CURVE, angle), (name,))
+        collided = _collided(member, samples, speed, np.full(_CURVE, angle), (name,))
         values, outcome = (collided[of].values.reshape(-1, _CURVE) for of in (name, "outcome"))
-        known = np.isfinite(values).mean(axis=0) > 0.5
-        low, high = (np.where(known, each(values, axis=0), np.nan) for each in (np.fmin.reduce, np.fmax.reduce))
+        mask = np.isfinite(values).mean(axis=0) > 0.5
+        low, high = (np.where(mask, extreme(values, axis=0), np.nan) for extreme in (np.fmin.reduce, np.fmax.reduce))
         at, low, high, best = broken(outcome[0], speed, low, high, values[0])
         axes.fill_between(at, low, high, color=colour, alpha=0.25, linewidth=0)
         axes.plot(at, best, color=colour, linewidth=1.2, label=f"{np.degrees(angle):.3g}°")
@@ -176,7 +176,7 @@ def _results(axes: Axes, part: Part, samples: np.ndarray, expected: Mapping[str,
     axes.legend(title="mean angle of the group", fontsize=7, title_fontsize=7)
     dashes = ";\ndashes: the fit with each impact's group entries" if data.columns else ""
     what = "measured, and the fit at the mean angle of each group with its band (95 %)"
-    axes.set_title(what + _caveat(part) + dashes, fontsize=9)
+    axes.set_title(what + _caveat(member) + dashes, fontsize=9)
 
 
 def _label(name: str) -> str:
@@ -185,9 +185,9 @@ def _label(name: str) -> str:
     return f"{row.label.removesuffix(row.symbol).rstrip()}{symbol}{unit}"
 
 
-def _caveat(part: Part) -> str:
+def _caveat(member: Part) -> str:
     """The note of a picture for one value of every entry, where entries differ from impact to impact."""
-    names = ", ".join(part.data.columns)
+    names = ", ".join(member.data.columns)
     return f",\nwith the scene's group {names}" if names else ""
 
 
@@ -195,7 +195,7 @@ def _by_angle(angle: np.ndarray) -> list[np.ndarray]:
     """Indices of at most three groups of neighbouring angles."""
     distinct, which = np.unique(np.round(angle, 4), return_inverse=True)
     parts = np.array_split(np.arange(distinct.size), min(len(_LINES), distinct.size))
-    return [np.flatnonzero(np.isin(which, part)) for part in parts]
+    return [np.flatnonzero(np.isin(which, group)) for group in parts]
 
 
 def _profile(axes: Axes, fit: Fit, k: int) -> None:
@@ -290,9 +290,9 @@ def draw_prediction(data: xarray.Dataset) -> Figure:
     axes.set(xlabel="impact angle (deg)", ylabel=AXIS_LABELS[kind])
     what = "probability of sticking, with the uncertainty of the fitted entries"
     title(figure, f"{plain_text(data.attrs['title'])}: {what}")
-    handles = [patch(name) for name, each in zip(names, share, strict=True) if each.max() > _PROBABILITIES[0]]
-    for each in handles:
-        each.set(edgecolor=INK, hatch=None, linewidth=0.6)
+    handles = [patch(name) for name, chance in zip(names, share, strict=True) if chance.max() > _PROBABILITIES[0]]
+    for handle in handles:
+        handle.set(edgecolor=INK, hatch=None, linewidth=0.6)
     axes.legend(handles=handles, fontsize=7, loc="best", frameon=True, framealpha=0.9)
     effective = f"{data.attrs['effective_draws']:.0f}"
     figure.supxlabel(f"{data.attrs['draws']} weighted draws of the entries, worth {effective}", color=NOTE, fontsize=7)

@@ -14,15 +14,15 @@ if TYPE_CHECKING:
 
 
 @picture
-def draw(found: FlowCurve) -> Figure:
+def draw(curve: FlowCurve) -> Figure:
     """Viscosities over shear rates, and the law, dashed beyond what is measured."""
     figure = Figure(layout="constrained")
     axes = figure.subplots()
-    first, last = found.rate[0], found.rate[-1]
+    first, last = curve.rate[0], curve.rate[-1]
     for low, high, line in ((first / 10, first, "--"), (first, last, "-"), (last, last * 10, "--")):
         rates = np.geomspace(low, high, 100)
-        axes.plot(rates, found(rates), line, color="C0", label=found.law if line == "-" else None)
-    axes.plot(found.rate, found.viscosity, "o", color="C1", label="measured")
+        axes.plot(rates, curve(rates), line, color="C0", label=curve.law if line == "-" else None)
+    axes.plot(curve.rate, curve.viscosity, "o", color="C1", label="measured")
     axes.set(xscale="log", yscale="log", xlabel="shear rate (1/s)", ylabel="viscosity (Pa s)")
     axes.legend()
     return figure

@@ -46,7 +46,7 @@ def draws(objective: Objective, best: np.ndarray, count: int, seed: int) -> tupl
         inner = centre + _WIDER * z @ spread.T
         inside = ((inner >= free.low) & (inner <= free.high)).all(axis=1)
         height = np.full(number, -np.inf)
-        height[inside] = [objective.value(each) for each in inner[inside]]
+        height[inside] = [objective.value(point) for point in inner[inside]]
         log = height + (z**2).sum(axis=1) / 2
         weight = np.exp(log - log.max()) if np.isfinite(log).any() else np.zeros(number)
         weight /= max(weight.sum(), 1e-300)
@@ -58,11 +58,11 @@ def draws(objective: Objective, best: np.ndarray, count: int, seed: int) -> tupl
         values, vectors = np.linalg.eigh(covariance + 1e-6 * free.size * np.diag(np.diag(covariance)))
         spread = vectors * np.sqrt(np.maximum(values, 1e-30))
     positive = weight > 0
-    return np.array([free.values(each) for each in inner[positive]]), weight[positive]
+    return np.array([free.values(point) for point in inner[positive]]), weight[positive]
 
 
 def predicted(
-    part: Part,
+    member: Part,
     names: tuple[str, ...],
     values: np.ndarray,
     weight: np.ndarray,
@@ -73,9 +73,9 @@ def predicted(
     """The probabilities of the outcomes of one scene's impacts; `names` are those of the columns of `values`."""
     import xarray
 
-    data = part.data
+    data = member.data
     given: dict[str, Any] = {
-        name: each for name, each in (("speed", speed), ("relative_speed", relative_speed)) if each is not None
+        name: value for name, value in (("speed", speed), ("relative_speed", relative_speed)) if value is not None
     }
     if len(given) > 1:
         raise InputError("speed", speed, "one of speed and relative_speed", "is given with relative_speed")
@@ -85,25 +85,25 @@ def predicted(
         angle = np.linspace(max(low, 0.0), min(high, _STEEPEST), _GRID)
     [kind] = given
     along, across = (
-        np.atleast_1d(checked_numbers(name, each, FIELDS[f"impact.{name}"])).ravel()
-        for name, each in ((kind, given[kind]), ("angle", angle))
+        np.atleast_1d(checked_numbers(name, value, FIELDS[f"impact.{name}"])).ravel()
+        for name, value in ((kind, given[kind]), ("angle", angle))
     )
     cells = along.size * across.size
     if cells * weight.size > MOST:
         raise InputError(
             kind, None, f"at most {MOST // weight.size} cells with {weight.size} draws", f"makes {cells} cells"
         )
-    v, a = (np.tile(each.ravel(), weight.size) for each in np.meshgrid(along, across))
-    own = {name: values[:, names.index(part.entries[name])] for name in part.names}
-    vary = {name: part.scene.as_given(name, np.repeat(each, cells)) for name, each in own.items()}
+    v, a = (np.tile(grid.ravel(), weight.size) for grid in np.meshgrid(along, across))
+    own = {name: values[:, names.index(member.entries[name])] for name in member.names}
+    vary = {name: member.scene.as_given(name, np.repeat(column, cells)) for name, column in own.items()}
     given = {kind: v, "angle": a}
-    outcomes = collide_many(part.scene, vary=vary, of=("outcome",), **given).outcome.values
+    outcomes = collide_many(member.scene, vary=vary, of=("outcome",), **given).outcome.values
     outcome = outcomes.reshape(weight.size, across.size, along.size)
     share = np.stack([np.tensordot(weight, outcome == code, 1) for code in range(len(OUTCOMES))])
     columns = {"probability": (("outcome", "angle", kind), share, {"units": "1", "long_name": "probability"})}
     axes = {"angle": (("angle",), across, attributes("angle")), kind: ((kind,), along, attributes(kind))}
     about = {
-        "title": part.scene.name, "scene": part.scene.to_toml(), "draws": int(weight.size),
+        "title": member.scene.name, "scene": member.scene.to_toml(), "draws": int(weight.size),
         "effective_draws": float(1 / (weight**2).sum()),
     }  # fmt: skip
     register()

@@ -9,14 +9,17 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.optimize import LinearConstraint, minimize
 
 from ..errors import ComputationError
 from .free_entries import COMBINED, IDENTIFIED, NOT_AT_ALL, ONE_SIDE, FreeEntries
 from .joint import Joint
-from .optimise import Objective, Optimum, maximum_with_aiming, rough_maximum, whitening
+from .optimise import IMPOSSIBLE, ROUGH, Objective, Optimum, maximum_with_aiming, rough_maximum, whitening
 from .scatter import COARSE, Resolution
 
-_WITHIN = 0.02  # relative error of the root of twice the drop at an end
+_WITHIN = 0.01  # relative error of the root of twice the drop at an end
+_SLACK = 3e-3  # change of the distance from the estimate, in standard errors, that ends the search for an end
+_UNLIKELY = 3.0  # part of the drop beyond which a predicted end is no start
 _FLAT = 0.1  # a profile is flat if at its last slope this part of the distance from the maximum is still to go
 _BETTER = 0.05  # of the drop, by which a point must be more likely to replace the maximum
 _STEPS = 25
@@ -40,13 +43,11 @@ class End:
         inner: in the variables of the search, all entries; where `open`, the farthest point that was evaluated.
         open: the likelihood does not fall by `Objective.drop` before the bound of the search, or where the scene is
             impossible.
-        better: a point that is more likely than the maximum, if one was met.
         wall: no scene was found beyond; with other values of the other entries there may be one.
     """
 
     inner: np.ndarray
     open: bool
-    better: np.ndarray | None = None
     wall: bool = False
 
 
@@ -68,12 +69,16 @@ def intervals(likelihood: Joint, free: FreeEntries, best: Optimum) -> tuple[Opti
     raise ComputationError("the likelihood has no maximum that its profiles agree on", advice=advice)
 
 
-class _MoreLikely(Exception):
-    """A point that is more likely than the maximum."""
+class _Reached(Exception):
+    """A point that is what a search looks for."""
 
     def __init__(self, inner: np.ndarray) -> None:
         super().__init__()
         self.inner = inner
+
+
+class _MoreLikely(_Reached):
+    """A point that is more likely than the maximum."""
 
 
 def _ends(objective: Objective, best: np.ndarray) -> list[list[End]]:
@@ -82,7 +87,7 @@ def _ends(objective: Objective, best: np.ndarray) -> list[list[End]]:
     ends = [[_end(objective, best, k, sign) for sign in (-1.0, 1.0)] for k in entries]
     for k in entries:
         for side in (0, 1):
-            others = [each.inner for j, both in enumerate(ends) for each in both if j != k]
+            others = [end.inner for j, both in enumerate(ends) for end in both if j != k]
             ends[k][side] = _from_elsewhere(objective, best, k, ends[k][side], others)
     for _ in range(_ROUNDS):  # a point evaluated on the way to one end may lie outside another
         moved = False
@@ -99,17 +104,77 @@ def _ends(objective: Objective, best: np.ndarray) -> list[list[End]]:
 def _end(objective: Objective, best: np.ndarray, k: int, sign: float, after: np.ndarray | None = None) -> End:
     """The end of the interval of entry k below (-1) or above (1) its estimate.
 
+    Arguments:
+        after: a point within the interval from which to go on.
+    """
+    free = objective.free
+    bound = free.low[k] if sign < 0 else free.high[k]
+    if abs(bound - best[k]) < _AT_BOUND * (free.high[k] - free.low[k]):
+        return End(best, True)
+    return _farthest(objective, best, k, sign, after) or _followed(objective, best, k, sign, after)
+
+
+def _farthest(objective: Objective, best: np.ndarray, k: int, sign: float, after: np.ndarray | None) -> End | None:
+    """The likely point with the largest or smallest value of entry k, by SLSQP; None if the search does not end there.
+
+    The variables have the unit information matrix of the estimate; the search starts where that matrix has the end, or
+    from `after`.
+    """
+    free, least, goal = objective.free, objective.value(best) - objective.drop, np.sqrt(2 * objective.drop)
+    white, span = whitening(objective, best), free.high - free.low
+    along = sign * white[k] / float(np.linalg.norm(white[k]))
+
+    def point(z: np.ndarray) -> np.ndarray:
+        at: np.ndarray = np.clip(best + white @ z, free.low, free.high)
+        return at
+
+    def spare(z: np.ndarray) -> float:
+        """The log-likelihood above that of the end."""
+        value = objective.value(point(z))
+        if value > least + (1 + _BETTER) * objective.drop:
+            raise _MoreLikely(point(z))
+        return value - least if np.isfinite(value) else -IMPOSSIBLE
+
+    def slope(z: np.ndarray) -> np.ndarray:
+        possible = np.isfinite(objective.value(point(z)))
+        return white.T @ objective.gradient(point(z)) if possible else np.zeros(z.size)
+
+    def stop(z: np.ndarray) -> None:
+        """End the search where the likelihood is that of the end, and falls along the entry alone."""
+        down = -slope(z)
+        if abs(spare(z)) < _WITHIN * goal**2 and along @ down > (1 - _WITHIN) * np.linalg.norm(down):
+            raise _Reached(point(z))
+
+    start = goal * along if after is None else np.linalg.solve(white, after - best)
+    while spare(start) < -_UNLIKELY * objective.drop:
+        start = start / 2
+    box = LinearConstraint(white / span[:, None], (free.low - best) / span, (free.high - best) / span)
+    try:
+        optimum = minimize(
+            lambda z: -float(along @ z), start, jac=lambda _z: -along, method="SLSQP", callback=stop,
+            constraints=[{"type": "ineq", "fun": spare, "jac": slope}, box],
+            options={"maxiter": _STEPS, "ftol": _SLACK},
+        )  # fmt: skip
+    except _Reached as reached:
+        return End(reached.inner, False)
+    end, bound = point(optimum.x), free.low[k] if sign < 0 else free.high[k]
+    enough = abs(spare(optimum.x)) < _WITHIN * goal**2
+    if abs(end[k] - bound) < _NARROW * span[k] and (enough or spare(optimum.x) > 0):
+        return End(end, True)
+    return End(end, False) if optimum.success and enough else None
+
+
+def _followed(objective: Objective, best: np.ndarray, k: int, sign: float, after: np.ndarray | None) -> End:
+    """The end of an interval along its profile, with the first value of the entry at which the likelihood has fallen.
+
     The root of twice the drop of the profile is nearly linear in the entry, and is followed by secants within a
     bracket; the other entries start from where the last points of the profile lead.
 
     Arguments:
-        after: a point within the interval from which to go on; the other entries may also start on the straight line
-            from the estimate through it.
+        after: as of `_end`; the other entries may also start on the straight line from the estimate through it.
     """
     free, top = objective.free, objective.value(best)
     bound = free.low[k] if sign < 0 else free.high[k]
-    if abs(bound - best[k]) < _AT_BOUND * (free.high[k] - free.low[k]):
-        return End(best, True)
     goal, most = np.sqrt(2 * objective.drop), abs(bound - best[k])
     inside, outside = (0.0, 0.0), (np.inf, np.inf)  # distances from the estimate, and roots there
     if after is None:
@@ -127,15 +192,15 @@ def _end(objective: Objective, best: np.ndarray, k: int, sign: float, after: np.
         value = float(best[k] + sign * step)
         ahead = np.clip(at + tangent * (step - abs(at[k] - best[k])), free.low, free.high)
         aside = at if after is None else np.clip(best + through * step, free.low, free.high)
-        starts = [_with(each, k, value) for each in (ahead, aside, at, best)]
-        start = next((each for each in starts if np.isfinite(objective.value(each))), starts[0])
+        starts = [_with(guess, k, value) for guess in (ahead, aside, at, best)]
+        start = next((guess for guess in starts if np.isfinite(objective.value(guess))), starts[0])
         point = profile_point(objective, start, k, value)
         height = objective.value(point)
         if height > top + _BETTER * objective.drop:
             raise _MoreLikely(point)
         possible = bool(np.isfinite(height))
         root = np.sqrt(2 * max(top - height, 0.0)) if possible else np.inf
-        if root < goal * (1 + _WITHIN) and step == most:
+        if root < goal * (1 + 2 * _WITHIN) and step == most:
             return End(point, True)
         flat = False  # a profile that flattens just below the goal may never reach it
         if abs(root - goal) < _WITHIN * goal:
@@ -169,7 +234,7 @@ def _likely_outside(objective: Objective, best: np.ndarray, k: int, end: End, si
     """The farthest point evaluated so far that is likely enough to lie within the interval and is outside of it."""
     if end.open and not end.wall:
         return None
-    least = objective.value(best) - objective.drop * (1 - _BETTER)  # first, as it may be evaluated anew
+    least = objective.value(best) - objective.drop * (1 + 2 * _WITHIN)  # first, as it may be evaluated anew
     points = np.array(objective.points)[np.array(objective.heights) > least]
     excess = sign * (points[:, k] - end.inner[k])
     farthest = int(np.argmax(excess))
@@ -185,7 +250,7 @@ def _from_elsewhere(objective: Objective, best: np.ndarray, k: int, end: End, ot
         others: likely points, such as the ends of other intervals.
     """
     free, top = objective.free, objective.value(best)
-    coarse = Objective(objective.likelihood, free, COARSE)
+    coarse, rough = (Objective(objective.likelihood, free, resolution) for resolution in (COARSE, ROUGH))
     for _ in range(_CHECKS):
         if (end.open and not end.wall) or end.inner[k] == best[k]:
             break
@@ -197,10 +262,10 @@ def _from_elsewhere(objective: Objective, best: np.ndarray, k: int, end: End, ot
             if way * (value - best[k]) > 0:
                 starts.append(np.clip(best + (point - best) * (value - best[k]) / way, free.low, free.high))
         guess = _with(np.clip(free.start, free.low, free.high), k, value)
-        followed = [each for each in (max(starts, key=coarse.value), guess) if coarse.value(each) > top - _HOPELESS]
+        followed = [start for start in (max(starts, key=coarse.value), guess) if coarse.value(start) > top - _HOPELESS]
         if not followed:
             break
-        point = max((profile_point(objective, each, k, value) for each in followed), key=objective.value)
+        point = max((profile_point(rough, start, k, value) for start in followed), key=objective.value)
         if objective.value(point) > top + _BETTER * objective.drop:
             raise _MoreLikely(point)
         if not objective.value(point) > top - objective.drop * (1 - _BETTER):
@@ -230,15 +295,15 @@ def judged(objective: Objective, best: np.ndarray, k: int, ends: Sequence[End]) 
     With both ends open the data may still tell the entry in combination with others: they do if the likelihood falls
     when the others keep their values.
     """
-    still_open = [each.open for each in ends]
+    still_open = [end.open for end in ends]
     if not any(still_open):
         return IDENTIFIED
     if not all(still_open):
         return ONE_SIDE
     free, least = objective.free, objective.value(best) - objective.drop
     alone = (
-        _with(best, k, best[k] + part * (bound[k] - best[k]))
+        _with(best, k, best[k] + share * (bound[k] - best[k]))
         for bound in (free.low, free.high)
-        for part in (0.02, 0.1, 0.3, 1.0)
+        for share in (0.02, 0.1, 0.3, 1.0)
     )
     return COMBINED if free.size > 1 and any(objective.value(point) < least for point in alone) else NOT_AT_ALL

@@ -45,9 +45,9 @@ def beyond_reach(
     log, slope = _from_nearest_change(experiment, data, rows, direction, measured, resolution)
     span = float(np.log(RARE / _FADED))
     with np.errstate(divide="ignore"):
-        part = np.clip(np.log(RARE / probability) / span, 0.0, 1.0)
-        faded = log + np.log(part**2 * (3 - 2 * part))
-    rate = np.where((part > 0) & (part < 1), 6 * (1 - part) / np.maximum(part * (3 - 2 * part), 1e-300), 0.0)
+        step = np.clip(np.log(RARE / probability) / span, 0.0, 1.0)
+        faded = log + np.log(step**2 * (3 - 2 * step))
+    rate = np.where((step > 0) & (step < 1), 6 * (1 - step) / np.maximum(step * (3 - 2 * step), 1e-300), 0.0)
     return faded, slope - (rate / span)[:, None] * moves
 
 
@@ -56,31 +56,31 @@ def _from_nearest_change(
     resolution: Resolution,
 ) -> tuple[np.ndarray, np.ndarray]:  # fmt: skip
     """The likelihoods in full, as functions of the distance of the nearest change and of the results beyond it."""
-    part = data.part(rows)
-    both = ((part.speed_sd > 0) & (part.angle_sd > 0)).astype(int)
-    fan = [ScatterLines.through(part, direction[rows] + turn, both if turn else 1, _FARTHEST) for turn in _TURNS]
+    subset = data.subset(rows)
+    both = ((subset.speed_sd > 0) & (subset.angle_sd > 0)).astype(int)
+    fan = [ScatterLines.through(subset, direction[rows] + turn, both if turn else 1, _FARTHEST) for turn in _TURNS]
     columns = {
-        name: np.concatenate([getattr(each, name) for each in fan]) for name in vars(fan[0]) if name != "relative"
+        name: np.concatenate([getattr(block, name) for block in fan]) for name in vars(fan[0]) if name != "relative"
     }
     of_part = columns["row"]
     lines = replace(fan[0], **columns | {"row": rows[of_part]})
     places = np.clip(np.concatenate([-_PLACES[::-1], _PLACES]), lines.low[:, None], lines.high[:, None])
     changes = locate(outcomes_along(experiment, lines), places, resolution.within)
     least = np.where(np.arange(of_part.size) < rows.size, -ndtri(RARE), REACH)  # no likelier than by the integral
-    which = _nearest(changes, least, of_part, part.allowed)
+    which = _nearest(changes, least, of_part, subset.allowed)
     line, y, at = changes.line[which], changes.place[which], of_part[changes.line[which]]
-    log = np.full(rows.size, float(log_ndtr(-_FARTHEST))) - np.where(part.separated, _WORST, 0.0)
+    log = np.full(rows.size, float(log_ndtr(-_FARTHEST))) - np.where(subset.separated, _WORST, 0.0)
     slope = np.zeros((rows.size, len(experiment.rows.names)))
     if not at.size:
         return log, slope
     sign, distance = np.where(y < 0, -1.0, 1.0), np.maximum(np.abs(y), least[line])
     log[at] = log_ndtr(-distance)
-    moves = np.nan_to_num(slopes(experiment, lines, changes.part(which), resolution.approximate))
+    moves = np.nan_to_num(slopes(experiment, lines, changes.subset(which), resolution.approximate))
     hazard = np.exp(-(distance**2) / 2 - np.log(2 * np.pi) / 2 - log[at])
     slope[at] = -(np.where(distance > least[line], hazard, 0.0) * sign)[:, None] * moves
     misfit, by_free = _misfit(experiment, data, measured, lines, line, y + _BESIDE * sign, moves)
     # from _FADES on, the lack from the measured result grows to _WORST, as where the outcome is not found at all
-    short = np.where(part.separated[at], np.maximum(_WORST - misfit, 0.0), 0.0)
+    short = np.where(subset.separated[at], np.maximum(_WORST - misfit, 0.0), 0.0)
     way = np.clip((distance - _FADES) / (_FARTHEST - _FADES), 0.0, 1.0)
     share, rate = way**2 * (3 - 2 * way), 6 * way * (1 - way) / (_FARTHEST - _FADES) * sign
     log[at] -= np.minimum(misfit, _WORST) + share * short
@@ -97,7 +97,7 @@ def _nearest(changes: Changes, least: np.ndarray, rows: np.ndarray, allowed: np.
     """
     up, row = changes.place > 0, rows[changes.line]
     outward, inward = np.where(up, changes.after, changes.before), np.where(up, changes.before, changes.after)
-    agrees, agreed = ((each >= 0) & allowed[row, each] for each in (outward, inward))
+    agrees, agreed = ((outcome >= 0) & allowed[row, outcome] for outcome in (outward, inward))
     gained = np.flatnonzero(agrees & ~agreed)
     order = gained[np.argsort(np.maximum(np.abs(changes.place), least[changes.line])[gained], kind="stable")]
     return order[np.unique(row[order], return_index=True)[1]]
@@ -115,10 +115,10 @@ def _misfit(
     at_point = experiment.results(measured, row, *lines.at(line, y))
     by_speed, by_angle = lines.slopes(line, y)
     for k, name in enumerate(measured):
-        values, sd = (each[row] for each in data.observed[name])
-        known = np.isfinite(values) & np.isfinite(at_point.value[k]) & data.separated[row]
-        pull = np.where(known, (values - np.nan_to_num(at_point.value[k])) / sd, 0.0)
+        values, sd = (column[row] for column in data.observed[name])
+        mask = np.isfinite(values) & np.isfinite(at_point.value[k]) & data.separated[row]
+        pull = np.where(mask, (values - np.nan_to_num(at_point.value[k])) / sd, 0.0)
         by_y = at_point.speed[k] * by_speed + at_point.angle[k] * by_angle
         half += pull**2 / 2
-        slope[known] -= ((pull / sd)[:, None] * (at_point.free[k] + by_y[:, None] * moves))[known]
+        slope[mask] -= ((pull / sd)[:, None] * (at_point.free[k] + by_y[:, None] * moves))[mask]
     return half, slope

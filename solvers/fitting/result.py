@@ -132,8 +132,8 @@ class Fit:
     def scenes(self) -> tuple[Scene, ...]:
         """The scenes with the most likely values."""
         return tuple(
-            each.scene.with_si({name: self.estimates[each.entries[name]].value for name in each.names})
-            for each in self.parts
+            member.scene.with_si({name: self.estimates[member.entries[name]].value for name in member.names})
+            for member in self.parts
         )
 
     @property
@@ -153,14 +153,14 @@ class Fit:
     @cached_property
     def best(self) -> np.ndarray:
         """The estimates in the variables of the search."""
-        return np.array([each.inner(self.estimates[each.name].value) for each in self.free.entries])
+        return np.array([entry.inner(self.estimates[entry.name].value) for entry in self.free.entries])
 
     def table(self) -> tuple[list[str], list[list[str]]]:
         """Head and rows of the table of estimates."""
         rows = [
-            [name, worded(self.parts, name, one.value), interval(*home(self.parts, name), one.low, one.high),
-             f"{one.verdict} {one.precision}".rstrip()]
-            for name, one in self.estimates.items()
+            [name, worded(self.parts, name, entry.value), interval(*home(self.parts, name), entry.low, entry.high),
+             f"{entry.verdict} {entry.precision}".rstrip()]
+            for name, entry in self.estimates.items()
         ]  # fmt: skip
         return ["entry", "estimate", "95 % interval", "verdict"], rows
 
@@ -183,7 +183,7 @@ class Fit:
             for name, values in self.rows.residual.items()
         }
         return {
-            "estimates": {name: asdict(each) for name, each in self.estimates.items()},
+            "estimates": {name: asdict(estimate) for name, estimate in self.estimates.items()},
             "log_likelihood": self.log_likelihood,
             "points": self.points,
             "correlation": {name: dict(zip(names, row)) for name, row in zip(names, self.correlation.tolist())},
@@ -193,7 +193,7 @@ class Fit:
             "quadrature": self.quadrature,
             "others": [{"values": dict(values), "log_likelihood": height} for values, height in self.others],
             **origin(self.first),
-            **({"scenes": [origin(each.scene)["scene"] for each in self.parts]} if len(self.parts) > 1 else {}),
+            **({"scenes": [origin(member.scene)["scene"] for member in self.parts]} if len(self.parts) > 1 else {}),
             "units": {
                 name: scene.fields[entry].unit or "1" if entry in scene.fields else "1"
                 for name in names
@@ -206,7 +206,7 @@ class Fit:
         count = "1 impact" if self.points == 1 else f"{self.points} impacts"
         first = [CONTRADICTED, ""] if self.rows.contradicted else []
         lines = [f"{count}, log-likelihood {self.log_likelihood:.3f}", "", *first, *aligned([head, *rows])]
-        for sentences in (self.combinations, [each for each in self.remarks if each not in first]):
+        for sentences in (self.combinations, [remark for remark in self.remarks if remark not in first]):
             if sentences:
                 lines += ["", *sentences]
         return "\n".join(lines)
@@ -268,8 +268,8 @@ class Fit:
             check_whole(samples, "samples", 32, 4096),
             check_whole(seed, "seed", 0, 2**32 - 1),
         )
-        one = self.parts[check_whole(part, "part", 0, len(self.parts) - 1)]
-        return predicted(one, self.free.names, values, weight, speed, relative_speed, angle)
+        member = self.parts[check_whole(part, "part", 0, len(self.parts) - 1)]
+        return predicted(member, self.free.names, values, weight, speed, relative_speed, angle)
 
     def write(self, path: str | Path) -> None:
         """Write the fitted scene as TOML, with the intervals as comments; of several NAME-1.toml, NAME-2.toml, ..."""
@@ -284,18 +284,18 @@ class Fit:
         Arguments:
             part: index of the scene, if there are several.
         """
-        one = self.parts[part]
+        member = self.parts[part]
         try:
-            scene = self._rounded(one, 6)
+            scene = self._rounded(member, 6)
         except InputError:  # at the edge of what is possible
-            scene = self._rounded(one, 17)
+            scene = self._rounded(member, 17)
         rows = {name: f"fitted: 95 % {ends}, {verdict}" for name, _, ends, verdict in self.table()[1]}
-        comments = dict(scene.comments) | {name: rows[one.entries[name]] for name in one.names}
+        comments = dict(scene.comments) | {name: rows[member.entries[name]] for name in member.names}
         return Scene(scene.name, scene.given, tuple(comments.items()), scene.package).to_toml()
 
-    def _rounded(self, part: Part, digits: int) -> Scene:
+    def _rounded(self, member: Part, digits: int) -> Scene:
         changes: dict[str, float | str] = {}
-        for name in part.names:
-            value, (unit, size) = self.estimates[part.entries[name]].value, unit_shown(part.scene, name)
+        for name in member.names:
+            value, (unit, size) = self.estimates[member.entries[name]].value, unit_shown(member.scene, name)
             changes[name] = f"{value / size:.{digits}g} {unit}" if unit else float(f"{value:.{digits}g}")
-        return part.scene.with_entries(changes)
+        return member.scene.with_entries(changes)

@@ -38,8 +38,8 @@ def flow_curve_of(source: str | Path) -> tuple[np.ndarray, np.ndarray]:
         InputError: no such file, no such columns or units, or a number that is not positive.
     """
     rows = [_cells(line) for line in _text(source).splitlines()]
-    found = ((k, names) for k, row in enumerate(rows) if "rate" in (names := _named(row)) and len(names) > 1)
-    line, places = next(found, (0, {}))
+    heads = ((k, names) for k, row in enumerate(rows) if "rate" in (names := _named(row)) and len(names) > 1)
+    line, places = next(heads, (0, {}))
     if not places:
         raise InputError("CURVE.csv", str(source), _ACCEPTED, "has no line that names a shear rate and a viscosity")
     factors, first = {}, line + 1
@@ -81,7 +81,7 @@ def _text(source: str | Path) -> str:
 
 
 def _cells(line: str) -> list[str]:
-    separator = next(each for each in "\t;," if each in line or each == ",")
+    separator = next(mark for mark in "\t;," if mark in line or mark == ",")
     cells = next(csv.reader([line], delimiter=separator), [])
     if separator != ",":
         cells = [cell.replace(",", ".") if DECIMAL_COMMA.fullmatch(cell) else cell for cell in cells]

@@ -148,7 +148,7 @@ def nearest_normals(experiment: Experiment, data: Measurements) -> tuple[np.ndar
         which = order[np.unique(changes_row[order] * _OUTCOMES + pair[order], return_index=True)[1]]
         if not which.size:
             continue
-        normal_of = normals(experiment, lines, changes.part(which), approximate=True)
+        normal_of = normals(experiment, lines, changes.subset(which), approximate=True)
         row, line, place = changes_row[which], changes.line[which], changes.place[which]
         unit = in_deviations(data, row, *lines.at(line, place), normal_of.speed, normal_of.angle)
         with np.errstate(invalid="ignore", divide="ignore"):
@@ -201,9 +201,9 @@ class Segments:
         low = np.where(first < 0, lines.low[line], upper[first])
         high = np.where(last < 0, lines.high[line], lower[last])
         segments = cls(line, lines.row[line], lines.weight[line], lines.share[line], outcome, low, high, first, last)
-        return segments.part(high > low)
+        return segments.subset(high > low)
 
-    def part(self, which: np.ndarray) -> Segments:
+    def subset(self, which: np.ndarray) -> Segments:
         return Segments(*(values[which] for values in vars(self).values()))
 
     @property
@@ -221,7 +221,7 @@ class Segments:
     def mass_slopes(self, ends: np.ndarray) -> np.ndarray:
         """Derivatives of the logarithm of `mass`, from those of the ends."""
         mass = np.maximum(self.mass(), 1e-300)
-        density = [np.exp(-(each**2) / 2) / np.sqrt(2 * np.pi) / mass for each in (self.low, self.high)]
+        density = [np.exp(-(end**2) / 2) / np.sqrt(2 * np.pi) / mass for end in (self.low, self.high)]
         by_free: np.ndarray = density[1][:, None] * ends[1] - density[0][:, None] * ends[0]
         return by_free
 
@@ -238,7 +238,7 @@ class Segments:
         needed = needed[needed >= 0]
         by_free = np.zeros((changes.size + 1, len(experiment.rows.names)))  # the last for ends that stay
         if needed.size:
-            by_free[needed] = np.nan_to_num(slopes(experiment, lines, changes.part(needed), approximate))
+            by_free[needed] = np.nan_to_num(slopes(experiment, lines, changes.subset(needed), approximate))
         moving: np.ndarray = by_free[np.stack([self.first, self.last])]
         return moving
 
@@ -256,9 +256,9 @@ class Segments:
         maps = [(which, segment_map(k, nodes * 3 // 2 if k else nodes, points)) for k, which in kinds if which.size]
         if not maps:
             return
-        at = [self.low[w, None] + (self.high - self.low)[w, None] * each.at_nodes for w, each in maps]
-        y = np.concatenate([each.ravel() for each in at])
-        line = np.concatenate([np.repeat(self.line[w], each.at_nodes.size) for w, each in maps])
+        at = [self.low[w, None] + (self.high - self.low)[w, None] * mapping.at_nodes for w, mapping in maps]
+        y = np.concatenate([places.ravel() for places in at])
+        line = np.concatenate([np.repeat(self.line[w], mapping.at_nodes.size) for w, mapping in maps])
         row, impacts = lines.row[line], lines.at(line, y)
         budget = _SHORT if resolution.approximate else KERNEL_STEPS
         at_nodes = experiment.results(names, row, *impacts, budget=budget)
@@ -270,18 +270,18 @@ class Segments:
         by_speed, by_angle = lines.slopes(line, y)
         by_y = at_nodes.speed * by_speed + at_nodes.angle * by_angle
         first = 0
-        for which, each in maps:
-            span, g = slice(first, first + which.size * each.at_nodes.size), each.at_nodes[:, None]
-            first, shape = span.stop, (len(names), which.size, each.at_nodes.size)
+        for which, mapping in maps:
+            span, g = slice(first, first + which.size * mapping.at_nodes.size), mapping.at_nodes[:, None]
+            first, shape = span.stop, (len(names), which.size, mapping.at_nodes.size)
             moves = ends[0, which][:, None] * (1 - g) + ends[1, which][:, None] * g
             slope = (
                 at_nodes.free[:, span].reshape(*shape, moves.shape[-1])
                 + by_y[:, span].reshape(shape)[..., None] * moves
             )
-            known = at_nodes.outcome[span].reshape(shape[1:]) >= 0
-            for k in np.flatnonzero(~known.all(axis=1) & known.any(axis=1)).tolist():
-                slope[:, k] = np.einsum("mn,rnp->rmp", _extension(tuple(known[k].tolist()), _DEGREE), slope[:, k])
-            yield which, each, at_nodes.value[:, span].reshape(shape), slope
+            mask = at_nodes.outcome[span].reshape(shape[1:]) >= 0
+            for k in np.flatnonzero(~mask.all(axis=1) & mask.any(axis=1)).tolist():
+                slope[:, k] = np.einsum("mn,rnp->rmp", _extension(tuple(mask[k].tolist()), _DEGREE), slope[:, k])
+            yield which, mapping, at_nodes.value[:, span].reshape(shape), slope
 
 
 @dataclass(frozen=True)
@@ -329,13 +329,13 @@ def segment_map(kind: int, nodes: int, points: int) -> SegmentMap:
 
 
 @lru_cache(maxsize=256)
-def _extension(known: tuple[bool, ...], degree: int) -> np.ndarray:
+def _extension(mask: tuple[bool, ...], degree: int) -> np.ndarray:
     """From values at some of the nodes to values at all of them, by a polynomial of this degree at most.
 
     Arguments:
-        known: which of the nodes have a value.
+        mask: which of the nodes have a value.
     """
-    nodes, places = len(known), np.flatnonzero(known)
+    nodes, places = len(mask), np.flatnonzero(mask)
     basis = np.polynomial.chebyshev.chebvander(2 * _chebyshev_nodes(nodes) - 1, min(degree, places.size - 1))
     matrix = np.zeros((nodes, nodes))
     matrix[:, places] = basis @ np.linalg.pinv(basis[places])

@@ -33,7 +33,7 @@ class Flight:
     places: np.ndarray
     names: Sequence[str]
 
-    def part(self, which: np.ndarray) -> "Flight":
+    def subset(self, which: np.ndarray) -> "Flight":
         """The frames of a mask."""
         return Flight(self.time[which], self.places[which], [self.names[k] for k in np.flatnonzero(which).tolist()])
 
@@ -54,9 +54,9 @@ class Flight:
 
 def _noise(paths: Sequence[Flight], floor: float) -> tuple[float, int]:
     """Standard deviation of a coordinate across the motion, at least `floor`, and its degrees of freedom."""
-    paths = [each for each in paths if each.time.size >= LEAST]
-    squares = sum(float((each.residuals(each.places @ each.axes[1]) ** 2).sum()) for each in paths)
-    freedom = sum(each.time.size - 2 for each in paths)
+    paths = [path for path in paths if path.time.size >= LEAST]
+    squares = sum(float((path.residuals(path.places @ path.axes[1]) ** 2).sum()) for path in paths)
+    freedom = sum(path.time.size - 2 for path in paths)
     return max(math.sqrt(squares / max(freedom, 1)), floor), freedom
 
 
@@ -142,7 +142,7 @@ def _bent(paths: Sequence[Flight], edge: float, solids: float, floor: float) -> 
     most, rare = 0.0, 1.0
     for zone in _ZONES:
         far = edge + zone * solids
-        sigma, freedom = _noise([each.part(each.gaps(solids) >= far) for each in paths], floor)
+        sigma, freedom = _noise([flight.subset(flight.gaps(solids) >= far) for flight in paths], floor)
         for path in paths if freedom else ():
             weight = np.maximum(far - path.gaps(solids), 0.0)[:, None]
             push = path.residuals(weight * path.places / np.linalg.norm(path.places, axis=1)[:, None])
@@ -163,7 +163,7 @@ def near_contact(paths: Sequence[Flight], solids: float, floor: float) -> tuple[
     if rare > _BENT:
         return 0.0, 0.0
     for gap in solids * np.append(_GAPS[_GAPS >= REACH], _GAPS):
-        far = [each.part(each.gaps(solids) >= gap) for each in paths]
-        if min(each.time.size for each in far) >= LEAST and _bent(far, gap, solids, floor)[1] > _STRAIGHT:
+        far = [path.subset(path.gaps(solids) >= gap) for path in paths]
+        if min(path.time.size for path in far) >= LEAST and _bent(far, gap, solids, floor)[1] > _STRAIGHT:
             return most, float(gap)
     return (most, math.inf) if rare < _RARE else (0.0, 0.0)

@@ -95,7 +95,7 @@ def read_film(source: Any, particles: Any, solids: float, lengths: Units) -> Fil
     for word, column in zip(words, columns):
         by_word[word] = _same(by_word.get(word, column), column)
     by_name = {name: replace(by_word[word], name=name) for name, spelt in _SPELT.items()
-             for word in [next((each for each in spelt.split() if each in by_word), None)] if word}  # fmt: skip
+             for word in [next((alias for alias in spelt.split() if alias in by_word), None)] if word}  # fmt: skip
     if not kind:
         kind = next((name for name, some in _KINDS.items() if some <= by_word.keys()), "")
     if long := {"x", "y"} <= by_name.keys():
@@ -112,7 +112,7 @@ def read_film(source: Any, particles: Any, solids: float, lengths: Units) -> Fil
             raise InputError("tracks", header, _ACCEPTED, lack[0] if 1 <= len(lack) < 4 else "is none of these")
         if not {"frame", "time"} & by_name.keys() and len(words) == 2 * len(bodies):
             by_name["frame"] = Column("frame", None, list(range(len(lines))))
-    every = [each for each in dict.fromkeys(table.particle) if each] if long else list(bodies)
+    every = [name for name in dict.fromkeys(table.particle) if name] if long else list(bodies)
     linked = long and ("particle" not in by_name or len(every) == 1)  # TrackMate's track of two that merge
     if long and len(every) == 1:
         table, every = _linked(table), ["1", "2"]
@@ -123,11 +123,11 @@ def read_film(source: Any, particles: Any, solids: float, lengths: Units) -> Fil
         table, pair, of_films = _meeting(table, distance)
     shared: dict[str, Column] = {name: by_name[name] for name in ("frame", "time", "impact") if name in by_name}
     if long:
-        first, second = (table[table.particle.isin(each)] for each in pair)
+        first, second = (table[table.particle.isin(labels)] for labels in pair)
         both = first.merge(second, how="outer", on=["at", "film"], suffixes=("1", "2"))
         both = both.iloc[np.argsort(both.row1.fillna(both.row2))]  # films as they come in the table
         rows = both.row1.fillna(both.row2).astype(int).tolist()
-        shared = {name: replace(each, cells=[each.cells[k] for k in rows]) for name, each in shared.items()}
+        shared = {name: replace(entry, cells=[entry.cells[k] for k in rows]) for name, entry in shared.items()}
         for place in PLACES:
             cells = [None if k != k else by_name[place[0]].cells[int(k)] for k in both[f"row{place[1]}"]]
             shared[place] = replace(by_name[place[0]], name=place, cells=cells)
@@ -137,9 +137,7 @@ def read_film(source: Any, particles: Any, solids: float, lengths: Units) -> Fil
         shared |= {place: replace(by_word[word], name=place) for place, word in zip(PLACES, four)}
     if kind == _TRACKER:
         shared = _calibrated(shared, solids)
-    which = (
-        ", particles " + (of_films or " and ".join("+".join(each) for each in pair)) if long or len(every) > 2 else ""
-    )
+    which = ", particles " + (of_films or " and ".join("+".join(ids) for ids in pair)) if long or len(every) > 2 else ""
     how = ", linked from frame to frame by their distance" if linked else ""
     where = f", positions in {shared['x1'].unit}" if shared["x1"].unit else ""
     remark = f"the table was taken for {kind or 'two paths side by side'}{which}{how}{where}"
@@ -178,7 +176,7 @@ def with_one_clock(film: Film, rate: float | None, times: Units) -> Film:
         columns.pop("frame" if time.unit else "time", None)
         return replace(film, columns=columns)
     why = f" {problem} and" if problem else ""
-    columns = {name: each for name, each in columns.items() if name != "time"} | {"frame": frame}
+    columns = {name: column for name, column in columns.items() if name != "time"} | {"frame": frame}
     return replace(film, columns=columns, remark=f"{film.remark}; the times{why} are not used")
 
 
@@ -213,9 +211,9 @@ def _one_header(text: str) -> tuple[str, str]:
                      for j, (body, cell, axis) in enumerate(zip(above, cells, axes))]  # fmt: skip
             kind = _TRACKER if text.lstrip().lower().startswith("#multi") else "bodies side by side"
             return kind, "\n".join([*[""] * k, separator.join(names), *lines[k + 1 :]])
-        filled = [next((each for each in cells[j::-1] if each), "") for j in range(len(cells))]
+        filled = [next((cell for cell in cells[j::-1] if cell), "") for j in range(len(cells))]
         above = [
-            re.sub(r"\W+", "_", f"{name}_{each}".strip("_")) for name, each in zip(above or [""] * len(filled), filled)
+            re.sub(r"\W+", "_", f"{name}_{cell}".strip("_")) for name, cell in zip(above or [""] * len(filled), filled)
         ]
     return "", text
 
@@ -232,12 +230,12 @@ def _from_xml(text: str, source: str) -> dict[str, list[Any]]:
     if model is not None:
         length, clock = model.get("spatialunits", "px"), model.get("timeunits", "frame")
         spots = {spot.get("ID"): spot for spot in model.iter("Spot")}
-        listed = {each.get("TRACK_ID") for each in model.findall("FilteredTracks/TrackID")}
+        listed = {item.get("TRACK_ID") for item in model.findall("FilteredTracks/TrackID")}
         for track in model.iter("Track"):
             number, names = track.get("TRACK_ID"), ("FRAME", "POSITION_T", "POSITION_X", "POSITION_Y")
             ends = {edge.get(f"SPOT_{end}_ID") for edge in track.iter("Edge") for end in ("SOURCE", "TARGET")}
             if not listed or number in listed:
-                rows += [(number, *map(spots[each].get, names)) for each in sorted(ends & spots.keys(), key=str)]
+                rows += [(number, *map(spots[key].get, names)) for key in sorted(ends & spots.keys(), key=str)]
     else:
         length, clock = root.get("spaceUnits", "px"), root.get("timeUnits", "frame")
         interval = _number(root.get("frameInterval", 1))
@@ -246,16 +244,16 @@ def _from_xml(text: str, source: str) -> dict[str, list[Any]]:
                 rows.append((k, spot.get("t"), interval * _number(spot.get("t")), spot.get("x"), spot.get("y")))
     if not rows:
         raise InputError("tracks", source, accepted, "has none")
-    length, clock = (_UNITS.get(each.lower(), each) for each in (length, clock))
+    length, clock = (_UNITS.get(unit.lower(), unit) for unit in (length, clock))
     header = ("track_id", "frame", f"t [{clock}]", f"x [{length}]", f"y [{length}]")
-    return {name: list(each) for name, each in zip(header, zip(*rows)) if name != "t [frame]"}
+    return {name: list(column) for name, column in zip(header, zip(*rows)) if name != "t [frame]"}
 
 
 def _below_names(by_name: dict[str, Column], lines: list[int]) -> tuple[dict[str, Column], list[int]]:
     """The columns of a long table without TrackMate's three rows of names, the last of which has the units."""
     clocks = [by_name[name].cells for name in ("x", "frame", "time") if name in by_name]
     names = 0
-    while names < min(3, len(lines)) and all(math.isnan(_number(each[names])) for each in clocks):
+    while names < min(3, len(lines)) and all(math.isnan(_number(clock[names])) for clock in clocks):
         names += 1
     for name, column in by_name.items():
         below = re.fullmatch(r"\s*\((.+)\)\s*", str(column.cells[names - 1])) if names else None
@@ -291,9 +289,9 @@ def _as_long(
     at = [_number(cell) for cell in clock.cells]
     for k in (k for k in rows if not math.isfinite(at[k])):
         raise InputError(f"tracks, line {lines[k]}, column {clock.name}", clock.cells[k], "a number")
-    films = pd.factorize(np.array([_name(each) for each in by_name["impact"].cells]))[0] if "impact" in by_name else 0
+    films = pd.factorize(np.array([_name(cell) for cell in by_name["impact"].cells]))[0] if "impact" in by_name else 0
     parts = [
-        pd.DataFrame({"film": films, "at": at, "particle": body if names is None else [_name(each) for each in names],
+        pd.DataFrame({"film": films, "at": at, "particle": body if names is None else [_name(cell) for cell in names],
                       **{axis: [_number(cell) for cell in by_name[word].cells] for axis, word in zip("xy", both)},
                       "row": rows}) for body, both in bodies.items()
     ]  # fmt: skip
@@ -323,8 +321,8 @@ def _chosen(names: list[str], particles: Any) -> tuple[list[str], list[str]] | N
     if particles is None:
         return ([names[0]], [names[1]]) if len(names) == 2 else None
     parts = re.split(r"[,;]", particles) if isinstance(particles, str) else list(np.atleast_1d(particles))
-    pair = [[_name(each) for each in str(part).split("+")] for part in parts]
-    every = [each for part in pair for each in part]
+    pair = [[_name(number) for number in str(particle).split("+")] for particle in parts]
+    every = [number for numbers in pair for number in numbers]
     if len(pair) != 2 or len(set(every)) < len(every) or not set(every) <= set(names):
         accepted = f'two of {", ".join(names[:12])}{" ..." * (len(names) > 12)}, as "A,B"'
         raise InputError("particles", str(particles), accepted)
@@ -336,10 +334,10 @@ def _meeting(table: pd.DataFrame, solids: float) -> tuple[pd.DataFrame, tuple[li
     films = [_near(rows, solids) for _, rows in table.groupby("film")]
     if len(meet := sorted(set().union(*films))) == 1:
         return table, ([meet[0][0]], [meet[0][1]]), ""
-    if meet and all(len(each) == 1 for each in films) and table.particle.index.is_unique:
-        number = {(film, name): str(k + 1) for film, each in enumerate(films) for k, name in enumerate(each[0])}
-        names = [number.get(each, "") for each in zip(table.film, table.particle)]
-        text = "; ".join(" and ".join(each[0]) for each in films[:6]) + " ..." * (len(films) > 6)
+    if meet and all(len(pairs) == 1 for pairs in films) and table.particle.index.is_unique:
+        number = {(film, name): str(k + 1) for film, pairs in enumerate(films) for k, name in enumerate(pairs[0])}
+        names = [number.get(key, "") for key in zip(table.film, table.particle)]
+        text = "; ".join(" and ".join(pairs[0]) for pairs in films[:6]) + " ..." * (len(films) > 6)
         return table.assign(particle=names), (["1"], ["2"]), text
     accepted = 'two that meet, or particles="A,B" (--particles); "A+C,B" if the tracker goes on with A as C'
     several = "; ".join(f"{a},{b}" for a, b in meet[:6]) + " ..." * (len(meet) > 6)
@@ -368,15 +366,15 @@ def _calibrated(columns: dict[str, Column], solids: float) -> dict[str, Column]:
     x1, y1, x2, y2 = (np.array([_number(cell) for cell in columns[place].cells]) for place in PLACES)
     nearest = np.nanmin(np.hypot(x2 - x1, y2 - y1), initial=math.inf)
     unit = {"time": "s"} | dict.fromkeys(PLACES if 0.5 < nearest / solids < 2 else (), "m")
-    return {name: replace(each, unit=each.unit or unit.get(name)) for name, each in columns.items()}
+    return {name: replace(column, unit=column.unit or unit.get(name)) for name, column in columns.items()}
 
 
 def _same(first: Column, again: Column) -> Column:
     """A column that is written twice: trackpy's frame is index and column, and Tracker's stands with each mass."""
-    cells = [(each, other) if str(each).strip() else (other, each) for each, other in zip(first.cells, again.cells)]
-    if any(str(other).strip() not in ("", str(each).strip()) for each, other in cells):
+    cells = [(cell, other) if str(cell).strip() else (other, cell) for cell, other in zip(first.cells, again.cells)]
+    if any(str(other).strip() not in ("", str(cell).strip()) for cell, other in cells):
         raise InputError("tracks, header", again.name, "each column once", "is given twice, with different cells")
-    return replace(first, cells=[each for each, _ in cells])
+    return replace(first, cells=[cell for cell, _ in cells])
 
 
 def _number(cell: Any) -> float:

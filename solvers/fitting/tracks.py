@@ -85,8 +85,8 @@ class Tracks:
         head = [f"{name} [{unit[name]}]" if unit[name] else name for name in columns]
         scale = {name: math.degrees(1) if unit[name] == "deg" else 1.0 for name in columns}
         rows = [
-            [each if isinstance(each, str) else "" if math.isnan(each) else f"{scale[name] * each:.6g}"
-             for name, each in zip(columns, row, strict=True)]
+            [cell if isinstance(cell, str) else "" if math.isnan(cell) else f"{scale[name] * cell:.6g}"
+             for name, cell in zip(columns, row, strict=True)]
             for row in zip(*columns.values(), strict=True)
         ]  # fmt: skip
         return head, rows
@@ -100,15 +100,15 @@ class Tracks:
     def to_dict(self) -> dict[str, Any]:
         """The JSON object of `wetdoublet tracks --json`: SI, null where there is none."""
         columns = {
-            name: [None if each == "" or each != each else each for each in values]
+            name: [None if value == "" or value != value else value for value in values]
             for name, values in self.columns.items()
         }
         return {"labels": list(self.labels), **columns, "noise": list(self.noise), "remarks": list(self.remarks)}
 
     def __str__(self) -> str:
-        columns = {name: each for name, each in self.columns.items() if name.removesuffix("_sd") not in _HIDDEN}
+        columns = {name: column for name, column in self.columns.items() if name.removesuffix("_sd") not in _HIDDEN}
         head, rows = self._shown(columns)
-        head = [f"normal {each}" if each.startswith("speed") else each for each in head]
+        head = [f"normal {name}" if name.startswith("speed") else name for name in head]
         return "\n".join([*aligned([["impact", *head], *([n, *r] for n, r in zip(self.labels, rows))]), *self.remarks])
 
 
@@ -184,7 +184,7 @@ def tracks(
     time = _numbers(clock, lines, "s", per_frame, "rate" * (clock.name == "frame"))
     unit_of_clock = f" {clock.unit}" if clock.unit and clock.name == "time" else ""
     films = np.array(
-        [str(each) for each in columns["impact"].cells] if "impact" in columns else ["1"] * time.size, object
+        [str(cell) for cell in columns["impact"].cells] if "impact" in columns else ["1"] * time.size, object
     )
     reaches = radii, radii + loaded.liquid.film_thickness, radii + loaded.rupture_gap
     rows, sigmas, remarks, labels, left_out = [], [], [], list[str](), list[InputError]()
@@ -211,7 +211,7 @@ def tracks(
         labels.append(label)
         rows.append(values)
         sigmas.append(sigma / math.sqrt(2))
-        remarks += [f"impact {label}: {each}" for each in remark]
+        remarks += [f"impact {label}: {text}" for text in remark]
     if not rows:
         raise left_out[0]
     remarks.append(paths.remark)
@@ -227,7 +227,7 @@ def tracks(
     )
     results = {name: [row[name] for row in rows] for name in rows[0]}
     always = ("speed", "angle", "speed_sd", "angle_sd", "outcome", CORRELATION)
-    chosen = {name: each for name, each in results.items() if name in always or any(one == one for one in each)}
+    chosen = {name: cells for name, cells in results.items() if name in always or any(cell == cell for cell in cells)}
     return Tracks(tuple(labels), chosen, tuple(sigmas), tuple(remarks))
 
 
@@ -270,9 +270,9 @@ def _impact(
     sticks, rests, apart_still = not after.any(), rest < time.size, distance[nearest] > touch + _CLEAR * sigma
 
     def check_count() -> None:
-        for part, side in ((before, "before the impact"), (after | sticks, "after the separation")):
-            if part.sum() < LEAST:
-                problem = f"has {int(part.sum())} frames {side}" + ": is the scale off?" * (not part.any())
+        for flags, side in ((before, "before the impact"), (after | sticks, "after the separation")):
+            if flags.sum() < LEAST:
+                problem = f"has {int(flags.sum())} frames {side}" + ": is the scale off?" * (not flags.any())
                 raise InputError(where, None, f"at least {LEAST} frames {side}", problem)
 
     check_count()
@@ -284,8 +284,8 @@ def _impact(
 
     def free(gap: float) -> list[Flight]:
         """Both flights, or the approach to a stick, where the spheres are farther apart than a gap."""
-        flights = [path.part(each & (distance >= solids + gap)) for each in (before, after) if each.any()]
-        return flights if min(each.time.size for each in flights) >= LEAST else []
+        flights = [path.subset(flags & (distance >= solids + gap)) for flags in (before, after) if flags.any()]
+        return flights if min(piece.time.size for piece in flights) >= LEAST else []
 
     def check_times(gap: float, most: float = math.inf) -> None:
         text, lost = uneven(free(gap), interval, floor)
@@ -312,11 +312,11 @@ def _impact(
         if rests and apart_still and free(REACH * solids):
             gap = max(gap, REACH * solids)
     near_frames = distance < solids + gap
-    for part, reach in ((before, touch), (after, apart)):  # the scene's gaps may be too small
+    for mask, reach in ((before, touch), (after, apart)):  # the scene's gaps may be too small
         wide = distance > solids + (1 + _WIDER) * (reach - solids)
-        if (part & wide & ~near_frames).sum() >= _MANY:
-            part &= wide
-    turned_only = [each & near_frames & (near is None) for each in (before, after)]  # if free: contact is hidden there
+        if (mask & wide & ~near_frames).sum() >= _MANY:
+            mask &= wide
+    turned_only = [flag & near_frames & (near is None) for flag in (before, after)]  # if free: contact is hidden there
     if blank := int(((before | after) & near_frames).sum()):
         use = "are left out" if near is not None else _BY_DIRECTION
         remarks.append(f"{blank} frames in which the gap is below {gap:.3g} m {use}")
@@ -324,10 +324,10 @@ def _impact(
     check_count()
     time = time - time[first]
     lines, used = list[tuple[np.ndarray, np.ndarray, float, int]](), [before, after]
-    for k, (part, reach, side) in enumerate([(before, touch, -1), (after, apart, 1)][: 1 if sticks else 2]):
+    for k, (mask, reach, side) in enumerate([(before, touch, -1), (after, apart, 1)][: 1 if sticks else 2]):
         for _ in range(_REFITS):
-            line = _line(time, relative, part, used[k] & ~part)
-            used[k] = part | (turned_only[k] & (side * (time - _state(line[0], reach, side)[3]) > 0))
+            line = _line(time, relative, mask, used[k] & ~mask)
+            used[k] = mask | (turned_only[k] & (side * (time - _state(line[0], reach, side)[3]) > 0))
         lines.append(line)
     first, last = int(np.flatnonzero(used[0])[-1]) + 1, int(np.flatnonzero(used[1])[0]) - 1 if not sticks else last
     sigma = noise or math.sqrt(sum(line[2] for line in lines) / sum(line[3] for line in lines))
@@ -335,13 +335,13 @@ def _impact(
         problem = f"scatter by {sigma / math.sqrt(2):.3g} m about their lines: look at the scale and the tracker"
         raise InputError(where, None, f"centres to {_BLURRED / math.sqrt(2):.2g} of the touching distance", problem)
     turned = np.unwrap(np.arctan2(relative[:, 1], relative[:, 0]))
-    for part, reach, (course, *_) in zip((before, after), (touch, sure), lines):
+    for mask, reach, (course, *_) in zip((before, after), (touch, sure), lines):
         passing = abs(course[0, 0] * course[1, 1] - course[0, 1] * course[1, 0]) / np.linalg.norm(course[1])
         if passing >= reach:
             problem = f"pass each other at {passing:.4g} m, beyond {reach:.4g} m: is the scale or the diameter off?"
             raise InputError(where, None, within, problem)
-        frames = np.flatnonzero(part)
-        off = np.linalg.norm(relative[part] - course[0] - time[part, None] * course[1], axis=1)
+        frames = np.flatnonzero(mask)
+        off = np.linalg.norm(relative[mask] - course[0] - time[mask, None] * course[1], axis=1)
         worst, usual = int(np.argmax(off)), max(float(np.median(off)), noise or 0.0)
         beside = distance[frames[worst]] - solids
         if off[worst] > _STRAY * usual + _ROUNDING * touch and near is None and beside < REACH * solids:
@@ -388,7 +388,7 @@ def _impact(
             free += [exit_speed, sense * exit_parameter, time_after - time_before, sense * (coming + turn + going)]
         return np.array([*free, *row])
 
-    centre = np.array([*(each for one in lines for each in one[0].ravel()), 0.0])
+    centre = np.array([*(number for estimate in lines for number in estimate[0].ravel()), 0.0])
     blocks = [np.linalg.cholesky(covariance) * sigma for _, covariance, *_ in lines]
     steps = block_diag(*blocks, [[scale_sd]]).T  # independent deviations of the parameters
     moved = [(results(centre + _STEP * step) - results(centre - _STEP * step)) / (2 * _STEP) for step in steps]
@@ -412,7 +412,7 @@ def _impact(
         unknown += ("rotation", "turn")
         remarks.append("it turns by more than 90 deg between two frames, so that its turns cannot be counted")
     values |= {name + suffix: math.nan for name in unknown for suffix in _WITH_SD}
-    written = "" if sticks else " ".join(f"{each:.6f}" for each in correlation)
+    written = "" if sticks else " ".join(f"{number:.6f}" for number in correlation)
     return values | {"outcome": STICK if sticks else "", CORRELATION: written}, sigma, remarks
 
 
@@ -427,7 +427,7 @@ def _rests_from(time: np.ndarray, distance: np.ndarray, tolerance: float) -> int
 
 
 def _line(
-    time: np.ndarray, relative: np.ndarray, part: np.ndarray, turned_only: np.ndarray
+    time: np.ndarray, relative: np.ndarray, mask: np.ndarray, turned_only: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray, float, int]:
     """Position at time 0 and velocity, (2, 2); their covariance over the noise's variance; sum of squares; freedom.
 
@@ -435,9 +435,9 @@ def _line(
         turned_only: frames of which the direction counts: by symmetry a tracker displaces near discs along their line.
     """
     across = relative[turned_only] @ [[0, 1], [-1, 0]] / np.linalg.norm(relative[turned_only], axis=1)[:, None]
-    whole = np.kron(np.stack([np.ones(int(part.sum())), time[part]], axis=1), np.eye(2))
+    whole = np.kron(np.stack([np.ones(int(mask.sum())), time[mask]], axis=1), np.eye(2))
     design = np.concatenate([whole, np.hstack([across, time[turned_only, None] * across])])
-    values = np.append(relative[part].ravel(), np.zeros(len(across)))
+    values = np.append(relative[mask].ravel(), np.zeros(len(across)))
     solution = np.linalg.lstsq(design, values, rcond=None)[0]
     squares = float(((values - design @ solution) ** 2).sum())
     return solution.reshape(2, 2), np.linalg.inv(design.T @ design), squares, values.size - 4
@@ -484,7 +484,7 @@ def _size(value: Any, si: str, option: str, *, pixel: float | None = None, plain
         size = math.nan
     if not (math.isfinite(size) and (size > 0 or (size == 0 and option == "near"))):
         raise InputError(option, value, accepted)
-    per_pixel, pixels_per = (each.fullmatch(unit) if option == "scale" else None for each in (_PER_PIXEL, _PIXELS_PER))
+    per_pixel, pixels_per = (form.fullmatch(unit) if option == "scale" else None for form in (_PER_PIXEL, _PIXELS_PER))
     if pixels_per:
         return units.quantity(f"1 {pixels_per[1]}", si, option, accepted) / size
     if unit not in _PIXELS or (isinstance(text, str) and plain is None and not unit):

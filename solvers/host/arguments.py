@@ -7,13 +7,13 @@ from typing import Any
 from ..errors import InputError, did_you_mean
 
 
-def check_names(requested: object, known: Sequence[str], label: str, none: str = "") -> tuple[str, ...]:
+def check_names(requested: object, choices: Sequence[str], label: str, none: str = "") -> tuple[str, ...]:
     """Return the requested name or names, in order, without duplicates; InputError suggests the nearest known name.
 
     Arguments:
         none: the fault of a list without names ("names no entry"), if it is one.
     """
-    accepted = ", ".join(known)
+    accepted = ", ".join(choices)
     if isinstance(requested, str):
         requested = (requested,)
     if not isinstance(requested, Collection) or isinstance(requested, (bytes, bytearray)):
@@ -21,15 +21,15 @@ def check_names(requested: object, known: Sequence[str], label: str, none: str =
     if none and len(requested) == 0:  # an array has no truth value
         raise InputError(label, "", accepted, none)
     for name in requested:
-        if not isinstance(name, str) or name not in known:
-            raise InputError(label, name, accepted, "is not known" + did_you_mean(name, known))
+        if not isinstance(name, str) or name not in choices:
+            raise InputError(label, name, accepted, "is not known" + did_you_mean(name, choices))
     return tuple(dict.fromkeys(str(name) for name in requested))
 
 
-def check_name(requested: object, known: Sequence[str], label: str) -> str:
+def check_name(requested: object, choices: Sequence[str], label: str) -> str:
     """Return one of the known names; InputError for anything else, which suggests the nearest."""
-    if not isinstance(requested, str) or requested not in known:
-        raise InputError(label, requested, ", ".join(known), "is not known" + did_you_mean(requested, known))
+    if not isinstance(requested, str) or requested not in choices:
+        raise InputError(label, requested, ", ".join(choices), "is not known" + did_you_mean(requested, choices))
     return requested
 
 

@@ -65,8 +65,8 @@ def read(path: Path, most: int, unopened: float = UNOPENED, silent: float = SILE
 def _whole(descriptor: int, most: int) -> bytes:
     """Up to `most + 1` bytes of a regular file."""
     content = b""
-    while len(content) <= most and (part := os.read(descriptor, _PART)):
-        content += part
+    while len(content) <= most and (chunk := os.read(descriptor, _PART)):
+        content += chunk
     return content
 
 
@@ -78,17 +78,17 @@ def _delivered(descriptor: int, most: int, unopened: float, silent: float) -> by
         seconds = (silent if met else unopened) - (time.monotonic() - begun)
         ready = bool(select.select([descriptor], [], [], max(0.0, seconds))[0])
         try:
-            part = os.read(descriptor, _PART)
+            chunk = os.read(descriptor, _PART)
         except BlockingIOError:  # the writer has not written yet
             if met and seconds <= 0:
                 raise NotRead(f"did not deliver everything within {silent:g} s") from None
             met = True
             continue
-        if not part and not ready and not met:
+        if not chunk and not ready and not met:
             raise NotRead(f"is a pipe that nothing has opened for writing within {unopened:g} s")
-        if not part:
+        if not chunk:
             break
-        content, met = content + part, True
+        content, met = content + chunk, True
     return content
 
 

@@ -212,7 +212,7 @@ def _accepted(command: tuple[str, ...], limit: float) -> Compiler | str:
         name = f"compiler-{hashlib.sha256(content.encode(errors='replace')).hexdigest()[:32]}.txt"
         if not cache.has(name.removesuffix("txt")):
             _try(command, limit)
-            cache.kept(name, lambda: f"{shlex.join(command)}\n{version}\n".encode(errors="replace"))
+            cache.fetch(name, lambda: f"{shlex.join(command)}\n{version}\n".encode(errors="replace"))
     except subprocess.TimeoutExpired:
         return f"it has not ended after {limit:g} s"
     except CannotCompile as error:
@@ -254,7 +254,7 @@ def _ran(program: bytes, place: Path, limit: float) -> tuple[int, str]:
 def _compiled(command: tuple[str, ...], flags: Sequence[str], place: Path, limit: float) -> bytes:
     """The binary compiled from `source.c` of a folder. CannotCompile, TimeoutExpired or OSError if that fails."""
     if _ZIG in command:  # "-s": without text with paths of this machine
-        flags = [*(each for each in flags if each not in _ONLY_GCC), "-s"]
+        flags = [*(flag for flag in flags if flag not in _ONLY_GCC), "-s"]
     binary = place / "made"
     status, output = _run((*command, *flags, "-o", str(binary), str(place / "source.c"), "-lm"), limit, place)
     if status:

@@ -74,8 +74,8 @@ def module(name: str) -> ModuleType:
     path = name.replace(".", "/") + ".py"
     if not committed(path):
         return executed(f"{_PACKAGE}.{name}", text(name).encode())
-    for each in (path, "assemble.py", "scaling.py", "automaton.py", "laws.json"):
-        _verified(each)
+    for file in (path, "assemble.py", "scaling.py", "automaton.py", "laws.json"):
+        _verified(file)
     for home in _IMPORTED.findall((_FOLDER / path).read_text(encoding="utf-8")):
         _verified(f"{home}.py")
     return import_module(f"{_PACKAGE}.{name}")
@@ -100,10 +100,10 @@ def with_imports(module: str, read: Callable[[str], str]) -> str:
     """
     for node in ast.parse(module).body:
         if isinstance(node, ast.ImportFrom) and node.level == 1 and node.module:
-            names, home = {each.name for each in node.names}, read(node.module)
-            for each in ast.parse(home).body:
-                if isinstance(each, ast.FunctionDef) and each.name in names:
-                    module += f"\n\n{ast.get_source_segment(home, each)}\n"
+            names, home = {alias.name for alias in node.names}, read(node.module)
+            for statement in ast.parse(home).body:
+                if isinstance(statement, ast.FunctionDef) and statement.name in names:
+                    module += f"\n\n{ast.get_source_segment(home, statement)}\n"
     return module
 
 
@@ -158,14 +158,14 @@ def derivation() -> str:
 
 
 def derived_once(name: str, function: str, *arguments: str | bool) -> str:
-    """A text from the cache; `function` of `derive.emit.one` makes it if there is none of that name and derivation."""
-    from .user_cache import kept
+    """A text from the cache; `function` of `derive.emit.first_use` makes it if none has that name and derivation."""
+    from .user_cache import fetch
 
     def alone() -> bytes:
         with DERIVING:  # one thread at a time
-            from ...derive.emit import one  # imports sympy
+            from ...derive.emit import first_use  # imports sympy
 
-            text: str = getattr(one, function)(*arguments)
+            text: str = getattr(first_use, function)(*arguments)
             return text.encode()
 
-    return kept(f"emitted-{derivation()[:32]}-{name}", alone).decode()
+    return fetch(f"emitted-{derivation()[:32]}-{name}", alone).decode()

@@ -43,7 +43,7 @@ def check_folder(path: object, label: str) -> Path:
     accepted = "a folder that exists or can be made"
     text = _text(path, label, accepted)
     folder = Path(text)
-    if any(len(os.fsencode(part)) > _LONGEST for part in folder.parts):
+    if any(len(os.fsencode(name)) > _LONGEST for name in folder.parts):
         raise InputError(label, text, accepted, "is too long a name")
     nearest = next(parent for parent in (folder, *folder.absolute().parents) if bounded.exists(parent))
     if not bounded.is_folder(nearest):

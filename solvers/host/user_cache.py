@@ -58,7 +58,7 @@ def _folder(named: str | None, *_usual: str | None) -> Path:
     return user_cache_path("wetdoublet")
 
 
-def kept(name: str, make: Callable[[], bytes]) -> bytes:
+def fetch(name: str, make: Callable[[], bytes]) -> bytes:
     """The content of the entry of that name; computed and stored if it is missing or damaged.
 
     Arguments:
@@ -66,14 +66,14 @@ def kept(name: str, make: Callable[[], bytes]) -> bytes:
         make: computes the content; its exceptions propagate.
     """
     with _BY_NAME(name):  # one thread makes the entry; others wait
-        content = found(name)
+        content = lookup(name)
         if content is None:
             content = make()
             _put(name, content)
         return content
 
 
-def found(name: str) -> bytes | None:
+def lookup(name: str) -> bytes | None:
     """The content of the entry of that name; None if it is missing or damaged."""
     if name in _MEMORY:
         return _MEMORY[name]

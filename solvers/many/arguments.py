@@ -36,9 +36,9 @@ def of_one_length(arrays: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
     }
 
 
-def check_outputs(of: Sequence[str], known: Sequence[str] = MAPPED) -> tuple[str, ...]:
+def check_outputs(of: Sequence[str], choices: Sequence[str] = MAPPED) -> tuple[str, ...]:
     """The quantities to keep, with those that the limits of the model need; InputError for an unknown one."""
-    names = check_names(of, known, "of")
+    names = check_names(of, choices, "of")
     return tuple(dict.fromkeys((*names, *NEEDS))) if VALIDITY in names else names
 
 
@@ -157,12 +157,12 @@ def check_varies(
     name: str, values: object, label: str = "vary", package: Package | None = None, texts: bool = False
 ) -> None:
     """Raise InputError unless the entry is a number (with `texts`, or a choice) and not the impact's speed or angle."""
-    known = fields(package)
-    if name not in known:
+    entries = fields(package)
+    if name not in entries:
         raise unknown(name, values, package) or unknown_entry(name, values)
     if name in MEETING:
         raise InputError(label, name, "entries other than the impact's speed and angle", "has an argument of its own")
-    if known[name].flag or (known[name].choices and not texts):
+    if entries[name].flag or (entries[name].choices and not texts):
         raise InputError(label, name, "entries that are numbers", "is a choice")
 
 

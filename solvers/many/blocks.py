@@ -72,13 +72,13 @@ def blocks(shape: tuple[int, ...], engine: str) -> list[Place]:
     Those at the far ends are smaller; the last dimension varies fastest. Neither the number of cores or workers nor
     what an earlier run has finished moves them: a block holds the same collisions wherever and whenever it is computed.
     """
-    left = min(max(math.prod(shape) // _SHARES, _LEAST.get(engine, _LEAST_SLOW)), LARGEST)
+    room = min(max(math.prod(shape) // _SHARES, _LEAST.get(engine, _LEAST_SLOW)), LARGEST)
     block = [1] * len(shape)
     by_length = sorted(range(len(shape)), key=lambda axis: shape[axis])
     for place, axis in enumerate(by_length):  # what a short dimension cannot take falls to the longer ones
-        share = math.floor(left ** (1 / (len(shape) - place)) + 1e-9)
+        share = math.floor(room ** (1 / (len(shape) - place)) + 1e-9)
         block[axis] = max(1, min(shape[axis], share))
-        left //= block[axis]
+        room //= block[axis]
     corners = np.ndindex(*(-(-size // length) for size, length in zip(shape, block, strict=True)))
     return [
         tuple(slice(i * length, min((i + 1) * length, size)) for i, length, size in zip(corner, block, shape))
@@ -86,10 +86,10 @@ def blocks(shape: tuple[int, ...], engine: str) -> list[Place]:
     ]
 
 
-def _computed(part: Impacts, cores: int) -> Block:
+def _computed(impacts: Impacts, cores: int) -> Block:
     """Results of a block, computed here or by a worker."""
-    results = empty(part.size, part.of)
-    complete(part, results, cores=cores)
+    results = empty(impacts.size, impacts.of)
+    complete(impacts, results, cores=cores)
     return results
 
 
@@ -120,7 +120,7 @@ def into_memory(
 
     Arguments:
         progress: called with (collisions done, collisions in all) at the start and after every block.
-        resume: as of `kept`.
+        resume: as of `checkpoint`.
     """
     results, done = empty(impacts.size, impacts.of), np.zeros(impacts.size, bool)
 
@@ -130,7 +130,7 @@ def into_memory(
         if progress is not None:
             progress(int(np.count_nonzero(done)), impacts.size)
 
-    with kept(resume, impacts.identity, results, done, "collisions"):
+    with checkpoint(resume, impacts.identity, results, done, "collisions"):
         finished(np.zeros(0, int), {})
         if client is None:
             order = impacts.order()
@@ -151,7 +151,7 @@ def into_store(impacts: Impacts, path: Path, client: Any = None, progress: Progr
         progress: called with (collisions done, collisions in all) at the start and after every block.
     """
     cut = blocks(impacts.shape, impacts.engine)
-    sizes = [math.prod(one.stop - one.start for one in at) for at in cut]
+    sizes = [math.prod(span.stop - span.start for span in at) for at in cut]
     with _computing(impacts, client, cut) as (digits, computed):
         key = _digest({**impacts.identity(), "arithmetic": dict(digits)})
         target = Path(os.path.realpath(path))
@@ -271,7 +271,7 @@ def _unwarned() -> Iterator[None]:
 
 
 @contextmanager
-def kept(
+def checkpoint(
     resume: Path | None, identity: Callable[[], Mapping[str, Any]], columns: Block, done: np.ndarray, unit: str
 ) -> Iterator[None]:
     """Keep what an interrupt finds finished: in RESUME.KEY.partial, which is read here by the same request.
@@ -287,9 +287,9 @@ def kept(
         return
     file = resume.with_name(f"{resume.name}.{_digest(identity())[:12]}.partial")
     with suppress(OSError, ValueError, KeyError, EOFError, BadZipFile):  # there is none, or it is damaged
-        left = dict(np.load(io.BytesIO(file.read_bytes()), allow_pickle=False))
-        where = np.flatnonzero(left[".done"])
-        fill(columns, where, {name: left[name][where] for name in columns})
+        arrays = dict(np.load(io.BytesIO(file.read_bytes()), allow_pickle=False))
+        where = np.flatnonzero(arrays[".done"])
+        fill(columns, where, {name: arrays[name][where] for name in columns})
         done[where] = True
     try:
         yield
@@ -452,11 +452,11 @@ def _distributed(
     from distributed import as_completed
 
     waiting: dict[Any, int] = {}
-    finished, left = as_completed(), iter(todo)
+    finished, rest = as_completed(), iter(todo)
     try:
         while True:
             most = 2 + 2 * sum(client.nthreads().values())
-            while len(waiting) < most and (k := next(left, None)) is not None:
+            while len(waiting) < most and (k := next(rest, None)) is not None:
                 future = client.submit(_answered, task(k), dict(expected), pure=False)
                 waiting[future] = k
                 finished.add(future)

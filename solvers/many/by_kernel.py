@@ -40,24 +40,24 @@ def collide_by_kernel(
     ledger = any(name in LEDGER for name in request.of)
     jumps = min((DEFINITIONS[name].jumps for name in request.of if name in DEFINITIONS), default=2)
     for first in range(0, which.size, _STRETCH):
-        part = which[first : first + _STRETCH]
-        whole = part.size == request.size and bool((part == np.arange(part.size)).all())
-        impacts, sound = impacts_of(request if whole else request.part(part))
-        books = np.zeros(impacts.size, OWN_LEDGER) if ledger else None
-        answers = run_kernel(impacts, request.rtol, "rotation" in request.of, threads, jumps=jumps, ledgers=books)
+        rows = which[first : first + _STRETCH]
+        whole = rows.size == request.size and bool((rows == np.arange(rows.size)).all())
+        impacts, sound = impacts_of(request if whole else request.subset(rows))
+        terms = np.zeros(impacts.size, OWN_LEDGER) if ledger else None
+        answers = run_kernel(impacts, request.rtol, "rotation" in request.of, threads, jumps=jumps, ledgers=terms)
         decided = answers["status"] <= LAST_ANSWER
-        if books is not None:  # where the ledger is open the trajectory is wrong
-            decided &= _closed(answers, books, request.rtol)
-        if part.size == decided.size and decided.all():  # the usual case; avoids copies
-            finished(part, block_of(request.of, answers, impacts, books))
+        if terms is not None:  # where the ledger is open the trajectory is wrong
+            decided &= _closed(answers, terms, request.rtol)
+        if rows.size == decided.size and decided.all():  # the usual case; avoids copies
+            finished(rows, block_of(request.of, answers, impacts, terms))
             continue
         done = sound.copy()
         done[sound] = decided
         finished(
-            part[done],
-            block_of(request.of, answers[decided], impacts.part(decided), None if books is None else books[decided]),
+            rows[done],
+            block_of(request.of, answers[decided], impacts.subset(decided), None if terms is None else terms[decided]),
         )
-        incomplete.append(part[~done])
+        incomplete.append(rows[~done])
     return np.concatenate(incomplete)
 
 
@@ -77,7 +77,7 @@ def impacts_of(request: Impacts) -> tuple[call.Impacts, np.ndarray]:
         speed = request.speed if request.speed is not None else np.asarray(request.stokes) / unit
         sound &= _usual(speed, _MOST)
     impacts = call.Impacts(scene, speed, request.angle, values)
-    return impacts if sound.all() else impacts.part(np.flatnonzero(sound)), sound
+    return impacts if sound.all() else impacts.subset(np.flatnonzero(sound)), sound
 
 
 def _usual(values: np.ndarray, most: float) -> np.ndarray:
@@ -115,7 +115,7 @@ def admissible(scene: Scene, values: Mapping[str, np.ndarray]) -> np.ndarray:
     return sound
 
 
-def block_of(of: Sequence[str], answers: np.ndarray, impacts: call.Impacts, books: np.ndarray | None = None) -> Block:
+def block_of(of: Sequence[str], answers: np.ndarray, impacts: call.Impacts, ledgers: np.ndarray | None = None) -> Block:
     """Kernel records as the requested columns of a result."""
     separated = answers["outcome"] > 0
     exists = {
@@ -132,7 +132,7 @@ def block_of(of: Sequence[str], answers: np.ndarray, impacts: call.Impacts, book
     }
     length = impacts.others.get("film_thickness", impacts.scene.liquid.film_thickness)
     rates = rates_of(answers, impacts) if any(name in RATES for name in of) else {}
-    terms = {} if books is None else _ledger(books, impacts)
+    terms = {} if ledgers is None else _ledger(ledgers, impacts)
     for name in of:
         row = DEFINITIONS.get(name)
         if name in terms:
@@ -157,24 +157,24 @@ def rates_of(answers: np.ndarray, impacts: call.Impacts) -> Block:
     return rates
 
 
-def _ledger(books: np.ndarray, impacts: call.Impacts) -> Block:
+def _ledger(ledgers: np.ndarray, impacts: call.Impacts) -> Block:
     """The ledger in J, and the drift of the angular momentum; NaN where the scene has no such term."""
     scene, others = impacts.scene, impacts.others
     unit = np.asarray(others.get("reduced_mass", scene.reduced_mass)) * impacts.speed**2
-    terms = {name: books[column] * unit for name, column in TERMS.items()}
-    terms |= {name: np.full(books.size, 0.0 if name == "strings" else np.nan) for name in absent_terms(scene)}
+    terms = {name: ledgers[column] * unit for name, column in TERMS.items()}
+    terms |= {name: np.full(ledgers.size, 0.0 if name == "strings" else np.nan) for name in absent_terms(scene)}
     initial, final, *spent = terms.values()
     block = {f"energy.{name}": values for name, values in terms.items()}
     block["energy.residual"] = initial - final - sum(map(np.nan_to_num, spent))
     conserved = scene.pendulum is None and not scene.wall
-    drift = np.abs(books["momentum"] - 1.0) if conserved else np.nan
+    drift = np.abs(ledgers["momentum"] - 1.0) if conserved else np.nan
     block["angular_momentum_drift"] = np.where(impacts.oblique, drift, 0.0 if scene.pendulum is None else np.nan)
     return block
 
 
-def _closed(answers: np.ndarray, books: np.ndarray, rtol: float) -> np.ndarray:
+def _closed(answers: np.ndarray, ledgers: np.ndarray, rtol: float) -> np.ndarray:
     """Where the ledger is as closed as a tolerance leaves it, or the outcome is a stick."""
-    terms = np.array([books[name] for name in TERMS.values()])
+    terms = np.array([ledgers[name] for name in TERMS.values()])
     residual = np.abs(terms[0] - terms[1:].sum(axis=0))
     largest = np.maximum(np.abs(terms).max(axis=0), residual)
     return np.asarray((answers["outcome"] == 0) | (residual <= open_beyond(rtol) * largest))

@@ -43,12 +43,12 @@ def complete(
             blocks are kept if a later one is interrupted.
         cores: how many it may use; None for all of this process.
     """
-    for where, part in request.by_text() if request.texts else ():
-        if isinstance(part, InputError):
-            results["outcome"][where], results["reason"][where] = FAILED, str(part)
+    for where, group in request.by_text() if request.texts else ():
+        if isinstance(group, InputError):
+            results["outcome"][where], results["reason"][where] = FAILED, str(group)
             continue
-        columns = empty(part.size, part.of)
-        complete(part, columns, cores=cores)
+        columns = empty(group.size, group.of)
+        complete(group, columns, cores=cores)
         fill(results, where, columns)
     if request.texts:
         return
@@ -70,9 +70,9 @@ def _compute(request: Impacts, which: np.ndarray, finished: Finished, cores: int
     cores = min(len(blocks), cores)
     if which.size <= few or cores == 1:
         for block in blocks:
-            finished(block, run(request.part(block)))
+            finished(block, run(request.subset(block)))
         return
-    for block, result in in_workers(cores, run, ((block, (request.part(block),)) for block in blocks)):
+    for block, result in in_workers(cores, run, ((block, (request.subset(block),)) for block in blocks)):
         finished(block, result)
 
 

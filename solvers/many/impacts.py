@@ -138,7 +138,7 @@ class Impacts:
         assert self.stokes is not None
         return scene, scene.speed_of(float(self.stokes[k])), float(self.angle[k])
 
-    def part(self, which: np.ndarray) -> Impacts:
+    def subset(self, which: np.ndarray) -> Impacts:
         """These impacts alone, in one dimension."""
         columns = {name: (LISTED, np.asarray(self._flat(name))[which]) for name in self.columns}
         return replace(self, columns=columns, dims=LISTED, shape=which.shape, beside=None)
@@ -149,7 +149,7 @@ class Impacts:
             name: (dims, values[tuple(at[self.dims.index(dim)] for dim in dims)])
             for name, (dims, values) in self.columns.items()
         }
-        return replace(self, shape=tuple(part.stop - part.start for part in at), columns=columns, beside=None)
+        return replace(self, shape=tuple(span.stop - span.start for span in at), columns=columns, beside=None)
 
     def by_text(self) -> Iterator[tuple[np.ndarray, Impacts | InputError]]:
         """Indices of impacts with the same choices, and these impacts, or the InputError of the scene."""
@@ -161,9 +161,9 @@ class Impacts:
             except InputError as error:
                 yield which, error
             else:
-                part = self.part(which)
-                numbers = {name: column for name, column in part.columns.items() if name not in self.texts}
-                yield which, replace(part, scene=scene, columns=numbers)
+                group = self.subset(which)
+                numbers = {name: column for name, column in group.columns.items() if name not in self.texts}
+                yield which, replace(group, scene=scene, columns=numbers)
 
     def check(self) -> None:
         """Raise InputError if the entries that vary make every scene impossible.
@@ -177,14 +177,14 @@ class Impacts:
         lengths = zip(self.dims, self.shape, strict=True)
         scenes = self.block(tuple(slice(0, size if dim in varied else min(size, 1)) for dim, size in lengths))
         errors, possible = [], False
-        for _, part in scenes.by_text() if scenes.texts else ((np.arange(1), scenes),):
+        for _, group in scenes.by_text() if scenes.texts else ((np.arange(1), scenes),):
             try:
-                if isinstance(part, InputError):
-                    raise part
-                if part.vary and part.size:
-                    first_accepted(partial(part.scene_of, k) for k in range(part.size))
+                if isinstance(group, InputError):
+                    raise group
+                if group.vary and group.size:
+                    first_accepted(partial(group.scene_of, k) for k in range(group.size))
                 possible = True
-                warn(part.scene)
+                warn(group.scene)
             except InputError as error:
                 errors.append(error)
         if errors and not possible:

@@ -180,14 +180,14 @@ def _multiples(data: xarray.Dataset, varied: list[str], curves: Curves) -> tuple
     for number, place in enumerate(chosen):
         axes = figure.add_subplot(grid[1 + number // across, number % across])
         index = dict(zip(varied, np.unravel_index(place, sizes), strict=True))
-        part = data.isel({name: int(k) for name, k in index.items()})
-        _outcomes(axes, part)
-        axes.set_title(", ".join(_value(part, name) for name in varied))
+        panel = data.isel({name: int(k) for name, k in index.items()})
+        _outcomes(axes, panel)
+        axes.set_title(", ".join(_value(panel, name) for name in varied))
         left_most, lowest = number % across == 0, number + across >= len(chosen)
-        _frame(axes, part, left_most, lowest)
+        _frame(axes, panel, left_most, lowest)
         _exact(axes, curves.get(place, ()))
-        _failed(axes, part)
-        draw_contours(axes, part, _LEVELS)
+        _failed(axes, panel)
+        draw_contours(axes, panel, _LEVELS)
         axes.tick_params(labelleft=left_most, labelbottom=lowest)
     lines = Line2D([], [], color=INK, linewidth=0.9, label="normal restitution $e_n$")
     _legend(figure.add_subplot(grid[0, :]), [*_handles(data, curves), lines], figure.get_figwidth())
@@ -201,9 +201,9 @@ def panels(data: xarray.Dataset) -> list[int]:
     return [int(k) for k in np.unique(np.linspace(0, total - 1, min(total, _MOST)).round())]
 
 
-def _value(part: xarray.Dataset, name: str) -> str:
-    unit = part[name].attrs.get("units", "1")
-    value = float(part[name])
+def _value(panel: xarray.Dataset, name: str) -> str:
+    unit = panel[name].attrs.get("units", "1")
+    value = float(panel[name])
     if unit == "rad":
         text = f"{math.degrees(value):.4g}°"
     else:
@@ -221,8 +221,8 @@ def _outcomes(axes: Axes, data: xarray.Dataset) -> None:
     outcome = _upright(data, "outcome")
     colours = ListedColormap(list(FILLS.values()))
     edges = _edges(data)
-    shown = np.ma.masked_less(outcome, 0)
-    axes.pcolormesh(*edges, shown, cmap=colours, vmin=-0.5, vmax=2.5, rasterized=True)
+    cells = np.ma.masked_less(outcome, 0)
+    axes.pcolormesh(*edges, cells, cmap=colours, vmin=-0.5, vmax=2.5, rasterized=True)
     for k, name in enumerate(OUTCOMES):
         if HATCHES[name]:
             style = {"facecolor": "none", "edgecolor": EDGES[name], "hatch": HATCHES[name], "linewidth": 0}

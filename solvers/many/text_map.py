@@ -34,8 +34,8 @@ def table(data: xarray.Dataset) -> str:
     chosen = _some(math.prod(sizes), _MAPS)
     for number in chosen:
         index = [int(k) for k in np.unravel_index(number, sizes)] if varied else []
-        part = data.isel(dict(zip(varied, index, strict=True)))
-        lines += ["", *([", ".join(_value(part, name) for name in varied)] if varied else []), *_map(part)]
+        panel = data.isel(dict(zip(varied, index, strict=True)))
+        lines += ["", *([", ".join(_value(panel, name) for name in varied)] if varied else []), *_map(panel)]
     lines += _subsampled(data, len(chosen), math.prod(sizes))
     if VALIDITY in data and data[VALIDITY].values.any():
         limits = ", ".join(f"{words} in {count}" for words, count in counted(data[VALIDITY].values))
@@ -67,21 +67,21 @@ def _some(size: int, most: int) -> list[int]:
     return sorted({round(k) for k in np.linspace(0, size - 1, min(size, most)).tolist()})
 
 
-def _value(part: xarray.Dataset, name: str) -> str:
-    unit = part[name].attrs.get("units", "1")
-    value = float(part[name])
+def _value(panel: xarray.Dataset, name: str) -> str:
+    unit = panel[name].attrs.get("units", "1")
+    value = float(panel[name])
     if unit == "rad":
         return f"{name} = {math.degrees(value):.4g} deg"
     return f"{name} = {value:.4g}" if unit == "1" else f"{name} = {quantity(value, unit)}"
 
 
-def _subsampled(data: xarray.Dataset, shown: int, total: int) -> list[str]:
+def _subsampled(data: xarray.Dataset, maps: int, total: int) -> list[str]:
     impact = impact_axis(data)
     parts = []
     for count, size, what in (
         (min(data.sizes[impact], _ROWS), data.sizes[impact], "rows"),
         (min(data.sizes["angle"], WIDTH - _LABEL), data.sizes["angle"], "columns"),
-        (shown, total, "maps"),
+        (maps, total, "maps"),
     ):
         if count < size:
             parts.append(f"{count} of {size} {what}")

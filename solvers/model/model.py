@@ -46,7 +46,7 @@ def select_model(scene: Scene, oblique: bool, full: bool = False, fold: bool = F
     free = oblique and partner in ("", "space") and scene.pendulum is None
     package = scene.package
     turned = package is not None and (  # by a declared event or term
-        any(each.spins for each in package.events) or (package.terms is not None and package.terms.rotates)
+        any(event.spins for event in package.events) or (package.terms is not None and package.terms.rotates)
     )
     reduced = free and not (full or friction or turned) and scene.law_has("arm", "balanced")
     spread = scene.law_has("film", "spread")
@@ -60,7 +60,7 @@ def select_model(scene: Scene, oblique: bool, full: bool = False, fold: bool = F
         "all": friction and scene.model.contact_friction == "all",
     }
     parts = ["oblique" if oblique else "head_on", *([partner] if partner else [])]
-    parts += [word for word, there in words.items() if there]
+    parts += [word for word, flag in words.items() if flag]
     laws = [(slot, scene.law_of(slot)) for slot in ("film", "glass")]
     if oblique:
         laws.append(("shear", scene.law_of("shear")))
@@ -180,7 +180,7 @@ class Model:
     @cached_property
     def events(self) -> tuple[Event, ...]:
         """Rows of all events, in order of precedence."""
-        return (*EVENTS, *(each.row for each in self.own_events))
+        return (*EVENTS, *(event.row for event in self.own_events))
 
     @cached_property
     def _guards(self) -> _Guards:

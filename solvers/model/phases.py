@@ -146,8 +146,8 @@ def _precessing(model: Model, state: dict[str, SX], rates: dict[str, SX]) -> tup
     axis = vertcat(*(parts[f"momentum_{name}"] for name in "xyz"))
     turning = parts["per_momentum"]
     result = {name: SX(rate) for name, rate in rates.items()}
-    for each in dict.fromkeys(name[:-2] for name in result if name.endswith(("_x", "_y", "_z"))):
-        names = [f"{each}_{component}" for component in "xyz"]
+    for vector in dict.fromkeys(name[:-2] for name in result if name.endswith(("_x", "_y", "_z"))):
+        names = [f"{vector}_{component}" for component in "xyz"]
         turned = turning * cross(axis, vertcat(*(state[name] for name in names)))
         result |= {name: result[name] - turned[k] for k, name in enumerate(names)}
     return result, turning
@@ -167,15 +167,15 @@ def event_table(flow: Flow, motion: SX) -> dict[str, SX]:
         and (flow.edge_watched or not row.within_reach)
         and (region.shear or model.strings or not row.driven)
         and all(
-            getattr(region, part) == value
-            for part, value in row.where
-            if part != "motion" and VOID_WITHOUT.get(part, "turning") in guards
+            getattr(region, field) == value
+            for field, value in row.where
+            if field != "motion" and VOID_WITHOUT.get(field, "turning") in guards
         )
     }
     table |= {
-        each.name: if_else(model.state[each.mark] > 0.5, _guard(each.row, guards, region, motion), 1)
-        for each in model.own_events
-        if all(getattr(region, part) == value for part, value in each.row.where if part != "motion")
+        event.name: if_else(model.state[event.mark] > 0.5, _guard(event.row, guards, region, motion), 1)
+        for event in model.own_events
+        if all(getattr(region, field) == value for field, value in event.row.where if field != "motion")
     }
     if not region.resting:
         table |= {name: side * model.kinks[name] for name, side in zip(model.kinks, region.sides)}
@@ -191,7 +191,7 @@ def _guard(row: Row, guards: dict[str, SX], region: Phase, motion: SX) -> SX:
         value = motion * value
     elif row.follows:
         value = value * (getattr(region, row.follows) or -1)
-    directions = [wanted for part, wanted in row.where if part == "motion"]
+    directions = [wanted for field, wanted in row.where if field == "motion"]
     return if_else(motion == directions[0], value, 1) if directions else value
 
 

@@ -41,7 +41,7 @@ def rebounded(model: Model, kind: str, y: np.ndarray, p: np.ndarray, rests: bool
         after = np.array(list(model.values("rebound", y, p).values()))
         return Rebound(after, model.values("rebound_loss", y, p)["dry_contact"])
     rubbing, impulses = rubs(model, kind), model.values("dry_slip", y, p)
-    parts = [part.full().ravel() for part in jump(model.choice, rests)(y[: len(model.state)], p, float(rubbing))]
+    parts = [block.full().ravel() for block in jump(model.choice, rests)(y[: len(model.state)], p, float(rubbing))]
     sticking, most = abs(impulses["sticking"]), impulses[_MOST[rests]]
     grip = math.log(sticking / most) if rubbing and sticking > 0 and most > 0 else math.inf
     return Rebound(parts[0], float(parts[1][0]), float(parts[2][0]), grip)

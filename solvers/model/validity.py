@@ -183,8 +183,8 @@ def shear_rate(scene: Scene, values: Values) -> Any:
     for k in range(1, _PLACES + 1):
         here = on.where(gap == gap, gap, 1e-3) ** (k / _PLACES)  # a stick has none
         stopped = on.where(gap == gap, _taken(gap, on), stokes)
-        left = on.where(bounced, 1.0, on.maximum(1 - _taken(here, on) / stopped, 0.0))
-        largest = on.maximum(largest, left * ((1 - here) > 0.25) / here**1.5)
+        share = on.where(bounced, 1.0, on.maximum(1 - _taken(here, on) / stopped, 0.0))
+        largest = on.maximum(largest, share * ((1 - here) > 0.25) / here**1.5)
     return 9 * math.sqrt(6) / 16 * largest * speed / (thickness * radius) ** 0.5
 
 
@@ -377,8 +377,8 @@ def law_limits(scene: Scene) -> list[Limit]:
         def says(number: float, name: str = name, low: float = low, high: float = high) -> str:
             side, bound = ("below", low) if number < low else ("above", high)
             value, limit = (
-                f"{math.degrees(each):.4g} deg" if name == "contact_angle" else f"{each:.4g}"
-                for each in (number, bound)
+                f"{math.degrees(quantity):.4g} deg" if name == "contact_angle" else f"{quantity:.4g}"
+                for quantity in (number, bound)
             )
             bridge = scene.bridge.law if scene.bridge else ""
             where = f"outside the range of the law {bridge} ({law.VALIDITY_SOURCE})"

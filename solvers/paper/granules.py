@@ -40,8 +40,8 @@ def fig4a(folder: Path) -> Part:
     """Both maps, and Ce* and St*."""
     scene, dry = Scene.load(report.BRIDGED), Scene.load(report.DRY)
     whole, dry_oblique = (
-        atlas(each, span=(first, _STEEPEST), stokes=(1e-3 * _REACH, _REACH))
-        for each, first in ((scene, 0.0), (dry, _FIRST))
+        atlas(setup, span=(first, _STEEPEST), stokes=(1e-3 * _REACH, _REACH))
+        for setup, first in ((scene, 0.0), (dry, _FIRST))
     )
     stokes, centrifugal = report.critical_stokes(scene), report.critical_centrifugal(scene, _AT)
     with sheet(folder / "fig4a.png", 7.6) as figure:

@@ -27,7 +27,7 @@ _MS = 1e3
 def fig1(folder: Path) -> Part:
     """The three collisions and their figure."""
     scene = Scene.load(report.PENDULUM)
-    collisions = [collide(scene, stokes=each.stokes, angle=SHOT_ANGLE, ledger=False, trajectory=True) for each in SHOTS]
+    collisions = [collide(scene, stokes=shot.stokes, angle=SHOT_ANGLE, ledger=False, trajectory=True) for shot in SHOTS]
     _draw_shots(collisions, folder / "fig1.png")
     comparisons = [
         Comparison(f"fig1{shot.panel}", seen.outcome, report.described(scene), _end(seen), seen.outcome == shot.outcome)

@@ -96,7 +96,7 @@ def picture(file: str, caption: str) -> str:
 
 def report(parts: Sequence[Part], how: str) -> str:
     """The report in Markdown; `how` describes the computation."""
-    comparisons = {each.key: each for part in parts for each in part.comparisons}
+    comparisons = {comparison.key: comparison for section in parts for comparison in section.comparisons}
     compared = [(printed, comparisons[key]) for key, printed in PRINTED.items() if key in comparisons]
     blocks = [f"# {TITLE}", how]
     if compared:
@@ -116,9 +116,9 @@ def report(parts: Sequence[Part], how: str) -> str:
             table("Every number the paper prints, beside ours", _HEAD, rows),
             table("Printed, but not compared", ("what", "why"), NOT_COMPARED),
         ]
-    for part in parts:
-        blocks += [f"## {part.title}", part.text]
-    blocks += ["## Inputs", _inputs([*dict.fromkeys(name for part in parts for name in part.scenes)])]
+    for section in parts:
+        blocks += [f"## {section.title}", section.text]
+    blocks += ["## Inputs", _inputs([*dict.fromkeys(name for section in parts for name in section.scenes)])]
     if compared:
         sources = [(printed.what, printed.place, f"“{printed.quote}”") for printed, _ in compared]
         blocks += ["## Sources", table("Where the paper prints it", ("quantity", "place", "words"), sources)]

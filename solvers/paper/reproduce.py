@@ -103,4 +103,4 @@ def reproduce(which: Sequence[str], folder: Path, *, progress: Progress | None =
     write(file, report(parts, how))
     if stopped is not None:
         raise stopped
-    return [*(folder / file for part in parts for file in part.pictures), file]
+    return [*(folder / file for section in parts for file in section.pictures), file]

@@ -98,9 +98,9 @@ def design(
     def evaluate(points: np.ndarray) -> np.ndarray:
         """The information of impacts, in the variables of the search."""
         totals = []
-        for part in np.array_split(points, -(-len(points) // _AT_ONCE)):
-            totals.append(information(scene_now, entries.names, values, window.plan(part), rtol).total * rates)
-            work.add(len(part))
+        for block in np.array_split(points, -(-len(points) // _AT_ONCE)):
+            totals.append(information(scene_now, entries.names, values, window.plan(block), rtol).total * rates)
+            work.add(len(block))
         return np.concatenate(totals)
 
     # the range of the search keeps the matrices from being singular; nothing is known beyond it
@@ -128,5 +128,5 @@ def _known(
         return fitted.free, fitted.objective.information(fitted.best), fitted.scene
     entries = free_entries(scene, free, window.plan(np.zeros((1, 2))), prior, rtol)
     rates = entries.rates(entries.values(entries.start))
-    slopes = np.array([0.0 if each.prior is None else each.prior.misfit(each.value)[1] for each in entries.entries])
+    slopes = np.array([0.0 if entry.prior is None else entry.prior.misfit(entry.value)[1] for entry in entries.entries])
     return entries, np.diag((slopes * rates) ** 2), scene

@@ -58,9 +58,9 @@ def information(
     likelihood, scale = Likelihood(scene, names, plan, rtol), values**2
     experiment = likelihood.experiment_at(values)
     likelihood.aim(values)
-    one, other = (_integrated(experiment, plan, likelihood.direction, each) for each in _QUADRATURES)
-    less = np.einsum("cii,i->c", other.total, scale) < np.einsum("cii,i->c", one.total, scale)
-    pairs = zip(vars(one).values(), vars(other).values(), strict=True)
+    first, other = (_integrated(experiment, plan, likelihood.direction, order) for order in _QUADRATURES)
+    less = np.einsum("cii,i->c", other.total, scale) < np.einsum("cii,i->c", first.total, scale)
+    pairs = zip(vars(first).values(), vars(other).values(), strict=True)
     return Information(*(np.where(less.reshape(-1, *[1] * (a.ndim - 1)), b, a) for a, b in pairs))
 
 
@@ -71,7 +71,7 @@ def _integrated(
     lines = ScatterLines.through(plan, direction, resolution.lines)
     changes = lines.changes(experiment, resolution)
     segments = Segments.between(lines, changes)
-    segments = segments.part(segments.outcome >= 0)
+    segments = segments.subset(segments.outcome >= 0)
     mass = segments.mass()
     ends = segments.moving_ends(experiment, lines, changes, mass > NEGLIGIBLE, resolution.approximate)
     share = segments.weight * mass
@@ -86,7 +86,7 @@ def _integrated(
     noise = plan.observed[RESTITUTION][1] if RESTITUTION in plan.observed else np.full(size, np.nan)
     dense = (mass > NEGLIGIBLE) & (segments.outcome != OUTCOMES.index(STICK)) & np.isfinite(noise[segments.row])
     counts = np.bincount(lines.row, minlength=size)
-    for row, points in _points(experiment, lines, segments.part(dense), ends[:, dense], resolution):
+    for row, points in _points(experiment, lines, segments.subset(dense), ends[:, dense], resolution):
         degree = _DEGREE if counts[row] == 1 else min(_DEGREE, int(counts[row]) - 1)
         total[row] += _beyond_outcome(*points, float(noise[row]), degree)
     return Information(total, outcome, probability)
@@ -116,7 +116,7 @@ def _points(
                     mapping.interpolate @ value[0, j], mapping.interpolate @ slope[0, j],
                 )  # fmt: skip
                 parts.setdefault((int(segments.row[k]), int(segments.outcome[k])), []).append(points)
-    return [(row, tuple(map(np.concatenate, zip(*each, strict=True)))) for (row, _), each in parts.items()]  # type: ignore[misc]
+    return [(row, tuple(map(np.concatenate, zip(*data, strict=True)))) for (row, _), data in parts.items()]  # type: ignore[misc]
 
 
 def _beyond_outcome(
@@ -130,7 +130,7 @@ def _beyond_outcome(
     scale = np.sqrt(np.average((measured - centre) ** 2, weights=weights))
     q = np.polynomial.hermite_e.hermevander((measured - centre) / scale, degree)
     rate = np.pad(q[:, :-1] * np.arange(1, degree + 1), ((0, 0), (1, 0))) / scale
-    of_weight, of_value = (np.repeat(each, t.size, axis=0) for each in (log_slope, slope))
+    of_weight, of_value = (np.repeat(array, t.size, axis=0) for array in (log_slope, slope))
     moments = (weights[:, None] * q).T @ of_weight + (weights[:, None] * rate).T @ of_value
     factor = np.asarray(np.linalg.qr(np.sqrt(weights)[:, None] * q, mode="r"))
     told = np.linalg.solve(factor.T, moments)[1:]  # without the constant, which is the outcome

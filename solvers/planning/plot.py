@@ -29,7 +29,7 @@ def draw(design: Design) -> Figure:
     error = 1 / np.sqrt(data[rows].to_array().clip(_OPEN**-2))
     scale = LogNorm(float(np.clip(error.min(), _BEST, 0.3)), _WORST)
     x, y = np.degrees(data["angle"].values), data[window.key].values
-    x, y = (np.array([each[0] * 0.97, each[0] * 1.03 + 1e-3]) if each.size == 1 else each for each in (x, y))
+    x, y = (np.array([axis[0] * 0.97, axis[0] * 1.03 + 1e-3]) if axis.size == 1 else axis for axis in (x, y))
     for (i, of), (j, name) in product(enumerate(rows), enumerate(names)):
         axes = panels[i, j]
         values = np.broadcast_to(error.sel(variable=of, entry=name).values.T, (y.size, x.size))
@@ -63,8 +63,8 @@ def draw(design: Design) -> Figure:
 
 def _mark(axes: Axes, design: Design) -> None:
     """Draw the planned impacts and how often each is repeated."""
-    for each in design.impacts:
-        at = np.degrees(each.angle), getattr(each, design.window.key)
+    for impact in design.impacts:
+        at = np.degrees(impact.angle), getattr(impact, design.window.key)
         axes.plot(*at, "o", color="white", markeredgecolor=INK, markersize=11, zorder=4, clip_on=False)
         style: Any = {"ha": "center", "va": "center_baseline", "fontsize": 8, "color": INK}
-        axes.text(*at, f"{each.count}", zorder=5, clip_on=False, **style)
+        axes.text(*at, f"{impact.count}", zorder=5, clip_on=False, **style)

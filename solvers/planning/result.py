@@ -123,7 +123,7 @@ class Design(Drawn):
         even = before + told[counts.size :].sum(axis=0) * size / (plan.size - counts.size)
         expected = _expected(free, values, total)
         spread = _spread(total + free.vague) / _spread(even + free.vague)
-        verdicts = [COMBINED if each.low is None and each.high is None else IDENTIFIED for each in expected.values()]
+        verdicts = [COMBINED if entry.low is None and entry.high is None else IDENTIFIED for entry in expected.values()]
         return cls(
             window, free, values, impacts, expected, _expected(free, values, before),
             dict(zip(free.names, spread.tolist(), strict=True)), grid,
@@ -132,11 +132,11 @@ class Design(Drawn):
 
     @property
     def size(self) -> int:
-        return sum(each.count for each in self.impacts)
+        return sum(impact.count for impact in self.impacts)
 
     def plan(self) -> Measurements:
         """The impacts as rows of measurements; outcomes unknown, restitutions NaN with their standard deviation."""
-        return self.window.plan(np.repeat(self.points, [each.count for each in self.impacts], axis=0))
+        return self.window.plan(np.repeat(self.points, [impact.count for impact in self.impacts], axis=0))
 
     def map(self, along: int = _ALONG, across: int = _ACROSS) -> xarray.Dataset:
         """What a single impact tells of each entry over the window, in the variables of the fit (logarithms).
@@ -152,11 +152,11 @@ class Design(Drawn):
 
         points, key = self.window.grid(along, across), self.window.key
         single = information(self.window.scene, self.free.names, self.values, self.window.plan(points), self.rtol)
-        speed, angle = (each.reshape(np.unique(points[:, 1]).size, -1) for each in self.window.values(points))
+        speed, angle = (axis.reshape(np.unique(points[:, 1]).size, -1) for axis in self.window.values(points))
         of_entry, of_outcome = (("angle", key, name) for name in ("entry", "outcome"))
         told = [
-            (np.einsum("cii->ci", each) * self.free.rates(self.values) ** 2).reshape(*speed.shape, -1)
-            for each in (single.total, single.outcome)
+            (np.einsum("cii->ci", matrix) * self.free.rates(self.values) ** 2).reshape(*speed.shape, -1)
+            for matrix in (single.total, single.outcome)
         ]
         return xr.Dataset(
             {"information": (of_entry, told[0]), "by_outcome": (of_entry, told[1]),
@@ -170,10 +170,10 @@ class Design(Drawn):
         scatter = self.window.scatter
         return {
             "impacts": [
-                asdict(each) | {"probability": dict(zip(OUTCOMES, each.probability))} for each in self.impacts
+                asdict(impact) | {"probability": dict(zip(OUTCOMES, impact.probability))} for impact in self.impacts
             ],
-            "expected": {name: asdict(each) for name, each in self.expected.items()},
-            "before": {name: asdict(each) for name, each in self.before.items()},
+            "expected": {name: asdict(entry) for name, entry in self.expected.items()},
+            "before": {name: asdict(entry) for name, entry in self.before.items()},
             "against_grid": dict(self.against_grid),
             "grid": list(self.grid),
             "combinations": list(self.combinations), "for": self.target, "candidates": self.candidates,
@@ -198,15 +198,15 @@ class Design(Drawn):
         names = self.free.names if self.target is None else (self.target,)
         rows = [("times", "St", speed, "angle", "S / SRS / B (%)")]
         rows += [
-            (str(each.count), f"{each.stokes:.4g}", f"{getattr(each, self._speed):.4g} m/s",
-             f"{math.degrees(each.angle):.1f} deg", " / ".join(f"{100 * share:.0f}" for share in each.probability))
-            for each in self.impacts
+            (str(impact.count), f"{impact.stokes:.4g}", f"{getattr(impact, self._speed):.4g} m/s",
+             f"{math.degrees(impact.angle):.1f} deg", " / ".join(f"{100 * share:.0f}" for share in impact.probability))
+            for impact in self.impacts
         ]  # fmt: skip
         entries = [("entry", "expected 95 % interval", "before", "beside a {} x {} grid".format(*self.grid))]
         for name, expected in self.expected.items():
-            now, known = (interval(scene, name, each.low, each.high) for each in (expected, self.before[name]))
+            now, before = (interval(scene, name, entry.low, entry.high) for entry in (expected, self.before[name]))
             is_open = expected.low is expected.high
-            entries.append((name, now, known, "-" if is_open else f"{self.against_grid[name]:.2g} of its interval"))
+            entries.append((name, now, before, "-" if is_open else f"{self.against_grid[name]:.2g} of its interval"))
         noise = "outcomes only" if scatter.restitution is None else f"restitution to {scatter.restitution:.3g}"
         values = zip(self.free.names, self.values.tolist(), strict=True)
         at = ", ".join(f"{name} = {in_unit(scene, name, value)}" for name, value in values)
@@ -214,7 +214,7 @@ class Design(Drawn):
             f"scatter {100 * scatter.speed:.3g} % of the {speed}, {math.degrees(scatter.angle):.3g} deg; {noise}"
         )
         sentences = [f"Planned for {at}; {scattered}."]
-        if self.combinations and any(each.low is each.high for each in self.expected.values()):
+        if self.combinations and any(entry.low is entry.high for entry in self.expected.values()):
             sentences.append(
                 "Entries open at both ends are told in combination only; a prior on one may close the others."
             )
@@ -244,9 +244,9 @@ def _expected(free: FreeEntries, values: np.ndarray, total: np.ndarray) -> dict[
     spread, wider = _spread(total + free.vague), _spread(total + free.vague / 4)  # of a range twice as wide
     centre, ranges = free.inner(values), free.high - free.low
     low, high = centre - _QUANTILE * spread, centre + _QUANTILE * spread
-    known = (2 * _QUANTILE * spread < ranges) & (wider < _FROM_RANGE * spread)
-    for k, each in enumerate(free.entries):
-        below = each.outer(float(low[k])) if known[k] and low[k] > free.low[k] else None
-        above = each.outer(float(high[k])) if known[k] and high[k] < free.high[k] else None
-        expected[each.name] = Expected(float(spread[k]), below, above)
+    mask = (2 * _QUANTILE * spread < ranges) & (wider < _FROM_RANGE * spread)
+    for k, entry in enumerate(free.entries):
+        below = entry.outer(float(low[k])) if mask[k] and low[k] > free.low[k] else None
+        above = entry.outer(float(high[k])) if mask[k] and high[k] < free.high[k] else None
+        expected[entry.name] = Expected(float(spread[k]), below, above)
     return expected

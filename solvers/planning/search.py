@@ -29,18 +29,18 @@ class Criterion:
 
     Attributes:
         target: an entry, or None for all.
-        part: of the determinant's logarithm that counts beside the precision of `target`, by entry.
+        share: of the determinant's logarithm that counts beside the precision of `target`, by entry.
     """
 
     target: int | None
-    part: float = 0.0
+    share: float = 0.0
 
     def __call__(self, total: np.ndarray) -> np.ndarray:
         """Of sums of information (..., entries, entries), (...)."""
         values = np.linalg.slogdet(total)[1]
         if self.target is not None:
             precision = -np.log(np.linalg.inv(total)[..., self.target, self.target])
-            values = precision + self.part * values / total.shape[-1]
+            values = precision + self.share * values / total.shape[-1]
         return np.asarray(values)
 
 
@@ -117,7 +117,7 @@ def _merged(
     for pair in distinct[np.argwhere(np.triu(apart < near, 1))].tolist():
         gone, into = sorted(pair, key=lambda k: int((chosen == k).sum()))
         fewer = np.where(chosen == gone, into, chosen)
-        now, merged = (float(criterion(before + single[each].sum(axis=0))) for each in (chosen, fewer))
+        now, merged = (float(criterion(before + single[choice].sum(axis=0))) for choice in (chosen, fewer))
         if merged > now - _LOSS:
             chosen = fewer
     return chosen

@@ -68,12 +68,12 @@ class ProvedBoundary:
     def __str__(self) -> str:
         counted = f"{len(self.changes)} change{'' if len(self.changes) == 1 else 's'}"
         lines = [f"at {math.degrees(self.angle):.10g} deg: {counted} between proved outcomes"]
-        for each in self.changes:
-            (low, high), (one, other) = each.stokes, each.outcomes
-            named = f"{one} at St {low:.17g}, {other} at St {high:.17g}"
-            lines.append(f"{named} (relative distance {each.width:.2g})")
-            low, high = each.within
-            if each.within != each.stokes:
+        for change in self.changes:
+            (low, high), (before, other) = change.stokes, change.outcomes
+            named = f"{before} at St {low:.17g}, {other} at St {high:.17g}"
+            lines.append(f"{named} (relative distance {change.width:.2g})")
+            low, high = change.within
+            if change.within != change.stokes:
                 lines.append(f"  around it nothing is proved from St {low:.10g} to {high:.10g}")
         lines += [f"undecided: St {low:.10g} to {high:.10g}" for low, high in self.undecided]
         lines.append("everywhere else on the line the outcome is proved and does not change")
@@ -82,10 +82,10 @@ class ProvedBoundary:
     def to_dict(self) -> dict[str, Any]:
         """The JSON object of `wetdoublet prove --boundary --json`."""
         changes = [
-            {"stokes": list(each.stokes), "outcomes": list(each.outcomes), "within": list(each.within)}
-            for each in self.changes
+            {"stokes": list(change.stokes), "outcomes": list(change.outcomes), "within": list(change.within)}
+            for change in self.changes
         ]
-        undecided = [list(each) for each in self.undecided]
+        undecided = [list(stretch) for stretch in self.undecided]
         return {"angle": self.angle, "changes": changes, "undecided": undecided, **origin(self.scene)}
 
 
@@ -120,10 +120,10 @@ def prove_boundary(scene: Scene | str | Path, *, angle: float | str, stokes: tup
 
     numbers = [low, *map(float, np.geomspace(low, high, _LINES)[1:-1]), high]
     points = [(number, at(number).outcome) for number in numbers]
-    known = [(number, outcome) for number, outcome in points if outcome is not None]
+    proofs = [(number, outcome) for number, outcome in points if outcome is not None]
     pairs: list[tuple[Stretch, tuple[str, str]]] = []
-    for (begin, one), (end, other) in itertools.pairwise(known):
-        pairs += _between(at, begin, one, end, other) if one != other else ()
+    for (begin, before), (end, other) in itertools.pairwise(proofs):
+        pairs += _between(at, begin, before, end, other) if before != other else ()
     assert loaded.angle is not None
     return ProvedBoundary(loaded, loaded.angle, *_cover(loaded, numbers, pairs))
 
@@ -166,13 +166,13 @@ def _cover(
     edges = [ends[0], *itertools.chain(*proved), ends[-1]]
     gaps = [(low, high) for low, high in zip(edges[::2], edges[1::2], strict=True) if low < high]
     changes = [
-        Change(pair, outcomes, next(each for each in gaps if each[0] <= pair[0] and pair[1] <= each[1]))
+        Change(pair, outcomes, next(gap for gap in gaps if gap[0] <= pair[0] and pair[1] <= gap[1]))
         for pair, outcomes in pairs
     ]
-    return tuple(changes), tuple(proved), tuple(each for each in gaps if all(each != one.within for one in changes))
+    return tuple(changes), tuple(proved), tuple(gap for gap in gaps if all(gap != change.within for change in changes))
 
 
-def _between(at: Any, begin: float, one: str, end: float, other: str) -> Iterator[tuple[Stretch, tuple[str, str]]]:
+def _between(at: Any, begin: float, first: str, end: float, other: str) -> Iterator[tuple[Stretch, tuple[str, str]]]:
     """The changes between two points with different outcomes: halved as long as the middle is proved.
 
     Where it is not, both ends move towards it as far as they can be proved.
@@ -183,14 +183,14 @@ def _between(at: Any, begin: float, one: str, end: float, other: str) -> Iterato
             break
         outcome = at(middle).outcome
         if outcome is None:
-            begin, end = _towards(at, begin, one, middle), _towards(at, end, other, middle)
+            begin, end = _towards(at, begin, first, middle), _towards(at, end, other, middle)
             break
-        if outcome not in (one, other):  # a third one lies between
-            yield from _between(at, begin, one, middle, outcome)
+        if outcome not in (first, other):  # a third one lies between
+            yield from _between(at, begin, first, middle, outcome)
             yield from _between(at, middle, outcome, end, other)
             return
-        begin, end = (middle, end) if outcome == one else (begin, middle)
-    yield (begin, end), (one, other)
+        begin, end = (middle, end) if outcome == first else (begin, middle)
+    yield (begin, end), (first, other)
 
 
 def _towards(at: Any, start: float, outcome: str, end: float) -> float:

@@ -84,7 +84,7 @@ class ProvedMap:
         return xarray.Dataset({"outcome": outcome, **ends}, attrs=attributes)
 
     def __str__(self) -> str:
-        lines = [f"{100 * part:8.3f} %  {name}" for name, part in self.shares.items()]
+        lines = [f"{100 * share:8.3f} %  {name}" for name, share in self.shares.items()]
         return "\n".join([f"{len(self.cells)} cells, {self.proofs} boxes enclosed; shares of the area:", *lines])
 
     def to_dict(self) -> dict[str, Any]:
@@ -180,7 +180,7 @@ def prove_map(
         return list(decided(cell, depth))
 
     pairs = [list(zip(map(float, edges), map(float, edges[1:]), strict=False)) for edges in (stokes, angle)]
-    start = [Cell(one, other, UNDECIDED) for one in pairs[0] for other in pairs[1]]
+    start = [Cell(span, other, UNDECIDED) for span in pairs[0] for other in pairs[1]]
     cells: list[Cell] = []
     with ThreadPoolExecutor(usable_cores()) as pool:  # the engine is called without the interpreter's lock
         for done, decisions in enumerate(pool.map(whole, start), 1):
@@ -210,7 +210,7 @@ class _Guide(NamedTuple):
     def expected(self, cell: Cell) -> int | None:
         """The outcome of the grid's points in a cell, or of the one next to it; None where there are two."""
         (low, high), (left, right) = (
-            np.searchsorted(each, ends) for each, ends in ((self.stokes, cell.stokes), (self.angle, cell.angle))
+            np.searchsorted(grid, ends) for grid, ends in ((self.stokes, cell.stokes), (self.angle, cell.angle))
         )
         last, end = (size - 1 for size in self.outcome.shape)
         inside = self.outcome[min(low, last) : max(high, low + 1), min(left, end) : max(right, left + 1)]

@@ -65,13 +65,13 @@ def _read(source: Any, label: str) -> tuple[list[Column], list[int]]:
         cells = {str(name): frame[name].tolist() for name in frame.columns if str(name) in units}
         return _columns(cells, label, {name: unit for name, unit in units.items() if isinstance(unit, str)})
     if isinstance(source, Mapping):
-        return _columns({str(name): _listed(each, f"{label}, column {name}") for name, each in source.items()}, label)
+        return _columns({str(name): _listed(data, f"{label}, column {name}") for name, data in source.items()}, label)
     if hasattr(source, "columns") and hasattr(source, "iloc"):  # pandas
         if not source.columns.is_unique:
             name = source.columns[source.columns.duplicated()][0]
             raise InputError(f"{label}, header", str(name), "each column once", "is given twice")
-        known = source.astype(object).where(source.notna(), None)  # pandas has several kinds of missing cells
-        return _columns({str(name): known[name].tolist() for name in known.columns}, label)
+        table = source.astype(object).where(source.notna(), None)  # pandas has several kinds of missing cells
+        return _columns({str(name): table[name].tolist() for name in table.columns}, label)
     if isinstance(source, (str, Path)):
         return columns_from_text(text_of(source, label), label, str(source))
     accepted = "a CSV file, a DataFrame, a Dataset, or a mapping of columns"
@@ -94,7 +94,7 @@ def _columns(
         name, length = max(lengths.items(), key=lambda item: item[1])
         raise InputError(f"{label}, column {name}", f"{length} values", "columns of one length", "differs in length")
     headers = ((name, *_header(name, label)) for name in cells)
-    columns = [Column(known, (units or {}).get(name, unit), cells[name]) for name, known, unit in headers]
+    columns = [Column(key, (units or {}).get(name, unit), cells[name]) for name, key, unit in headers]
     return columns, list(range(1, max(lengths.values(), default=0) + 1))
 
 
@@ -118,15 +118,15 @@ def text_of(source: str | Path, label: str, accepted: str = _CSV) -> str:
 
 def columns_from_text(text: str, label: str, source: str, accepted: str = _CSV) -> tuple[list[Column], list[int]]:
     """The columns of a CSV file's text, separated by commas, semicolons or tabs, and the line of each row."""
-    kept = [(k, line) for k, line in enumerate(text.splitlines(), 1) if line.strip(" \t,;") and line.lstrip()[0] != "#"]
-    if not kept:
+    data = [(k, line) for k, line in enumerate(text.splitlines(), 1) if line.strip(" \t,;") and line.lstrip()[0] != "#"]
+    if not data:
         raise InputError(label, str(source), accepted, "has no line with names of columns")
-    first = kept[0][1]
+    first = data[0][1]
     separator = max(",;\t", key=first.count)
-    head, *rows = csv.reader(io.StringIO("\n".join(line for _, line in kept)), delimiter=separator)
+    head, *rows = csv.reader(io.StringIO("\n".join(line for _, line in data)), delimiter=separator)
     while head and not head[-1].strip():
         head.pop()  # empty columns at the right, as spreadsheets leave them
-    lines = [k for k, _ in kept[1:]]
+    lines = [k for k, _ in data[1:]]
     if len(rows) != len(lines):
         raise InputError(label, str(source), accepted, "has a quoted cell that does not end on its line")
     if len(rows) > _MOST_ROWS:

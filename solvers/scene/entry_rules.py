@@ -7,7 +7,7 @@ import math
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
-from ..errors import InputError, shown
+from ..errors import InputError, excerpt
 from ..host import emitted
 from . import user_model as custom
 from .contact import AT_ANY_SPEED, ENTRIES, gap_at_any_speed, never_touching
@@ -74,15 +74,15 @@ def check_entries(
 ) -> dict[str, float | str]:
     """Return the entries in SI; InputError for one that is unknown, wrong by itself, or an alternative to another."""
     emitted.check_laws()  # which say what entries may be
-    known = custom.fields(package)
+    fields = custom.fields(package)
     for name, raw in entries.items():
-        if name not in known:
+        if name not in fields:
             raise custom.unknown(name, raw, package) or unknown_entry(name, raw)
-    read = {name: known[name].read(raw, from_file=from_file) for name, raw in entries.items()}
+    read = {name: fields[name].read(raw, from_file=from_file) for name, raw in entries.items()}
     for ways in ALTERNATIVES:
         first, *others = [name for name in ways if name in entries] or [""]
         if others:
-            problem = f"is given together with {first} = {shown(entries[first])}"
+            problem = f"is given together with {first} = {excerpt(entries[first])}"
             raise InputError(others[0], entries[others[0]], "only one of " + ", ".join(ways), problem)
     return read
 
@@ -92,7 +92,7 @@ def check_replaced(entries: Mapping[str, Any], changes: Mapping[str, Any]) -> No
     for ways in ALTERNATIVES:
         for name in (way for way in ways if way in changes):
             for other in (way for way in ways if way in entries and way not in changes):
-                problem = f"is given together with {other} = {shown(entries[other])}, which the scene has"
+                problem = f"is given together with {other} = {excerpt(entries[other])}, which the scene has"
                 instead = "--speed or --stokes, or --relative-speed" if name.startswith("impact.") else f"{other} here"
                 accepted = f"only one of {', '.join(ways)}: set {instead}, or edit the scene file"
                 raise InputError(name, changes[name], accepted, problem)
@@ -116,7 +116,7 @@ def check_complete(entries: Mapping[str, Any], tables: Mapping[str, Any] | None 
     pair = ("particles.youngs_modulus", "particles.poisson_ratio")
     for here, absent in (pair, pair[::-1]):
         if here in entries and absent not in entries:
-            problem = f"missing while {here} = {shown(entries[here])} is given"
+            problem = f"missing while {here} = {excerpt(entries[here])} is given"
             raise InputError(absent, None, f"{FIELDS[absent].accepts}, or neither of the two", problem)
 
 
@@ -131,8 +131,8 @@ def check_liquid(entries: Mapping[str, Any], package: Package | None) -> None:
     for name in (name for name in of_laws if name in entries and name not in own):
         if law == NEWTONIAN and "liquid.law" in entries:
             continue
-        known = ", ".join(own) or "no such entry, or liquid.law one of " + ", ".join(LIQUIDS)
-        raise InputError(name, entries[name], known, f"is no entry of liquid.law = {law}")
+        choices = ", ".join(own) or "no such entry, or liquid.law one of " + ", ".join(LIQUIDS)
+        raise InputError(name, entries[name], choices, f"is no entry of liquid.law = {law}")
     if law not in LIQUIDS:
         return
     if package is not None and package.table != "liquid":
@@ -153,7 +153,7 @@ def check_liquid(entries: Mapping[str, Any], package: Package | None) -> None:
     least, most = "liquid.infinite_shear_viscosity", "liquid.viscosity"
     ends = [FIELDS[name].number(entries[name]) for name in (least, most) if law in THINNING and name in entries]
     if len(ends) == 2 and ends[0] > ends[1]:
-        accepted = f"at most {most} = {shown(entries[most])}"
+        accepted = f"at most {most} = {excerpt(entries[most])}"
         raise InputError(least, entries[least], accepted, f"thickens, which {law} does not")
 
 
@@ -187,7 +187,7 @@ def check_ways(entries: Mapping[str, Any], values: Mapping[str, Any]) -> None:
         raise InputError(wetted, entries[wetted], "no such entry, or a [bridge]", "is given without a bridge")
     if fraction in entries and volume != FROM_COATING:
         accepted = f'bridge.volume = "{FROM_COATING}" beside it, or no such entry'
-        raise InputError(fraction, entries[fraction], accepted, f"is given with bridge.volume = {shown(volume)}")
+        raise InputError(fraction, entries[fraction], accepted, f"is given with bridge.volume = {excerpt(volume)}")
     if fraction in entries and "partner.wall" in entries:
         raise InputError(fraction, entries[fraction], "no such entry beside a wall", "is no part of a wall's liquid")
 
@@ -266,7 +266,7 @@ def check_together(scene: System) -> None:
 def _film_in_words(entries: Mapping[str, Any], x0: float) -> str:
     """The film thickness in words, as the scene gives it."""
     if "liquid.film_thickness" in entries:
-        return f"liquid.film_thickness = {shown(entries['liquid.film_thickness'])}"
+        return f"liquid.film_thickness = {excerpt(entries['liquid.film_thickness'])}"
     return f"the film of both coatings, {x0:.4g} m"
 
 
@@ -303,9 +303,9 @@ def _check_partner(scene: System) -> None:
         raise InputError(entry, entries[entry], "no [partner] beside [pendulum]", "is given together with strings")
     for name, ratio in (("partner.radius", scene.radius_ratio), ("partner.mass", scene.mass_ratio)):
         if ratio is not None and not FARTHEST**-1 <= ratio <= FARTHEST:
-            known = _given_alternative(name, entries)
+            given = _given_alternative(name, entries)
             accepted = f"a partner of {FARTHEST**-1:g} to {FARTHEST:g} times the sphere's, or wall = true"
-            raise InputError(known, entries[known], accepted, "is too far from the sphere's")
+            raise InputError(given, entries[given], accepted, "is too far from the sphere's")
 
 
 FARTHEST = 1e4  # largest ratio of radii or masses; beyond it the equations lose digits (use the limit, a wall)

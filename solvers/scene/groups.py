@@ -49,10 +49,10 @@ class System:
     @property
     def fields(self) -> Mapping[str, Field]:
         """The entries that this scene may have: dotted name -> `Field`, with the unit of the value in `si`."""
-        known = fields(self.package)
+        entries = fields(self.package)
         if self.ways.volume != "absolute":
-            return known
-        return {**known, "bridge.volume": known["bridge.volume"].measured}
+            return entries
+        return {**entries, "bridge.volume": entries["bridge.volume"].measured}
 
     @property
     def entries(self) -> Mapping[str, float | str]:
@@ -254,7 +254,7 @@ def rate_scales(scene: System, quantities: Mapping[str, Any], space: bool = Fals
     values, planar = dict(quantities), formulas(scene)
     for name, in_space in (("obliquity", "obliquity_space"), ("rate_scale", "rate_scale_pair")):
         formula, arguments = (getattr(scaling, in_space), scaling.ARGUMENTS[in_space]) if space else planar[name]
-        values[name] = np.asarray(formula(*(values[each] for each in arguments))).reshape(-1)  # of arrays a DM
+        values[name] = np.asarray(formula(*(values[argument] for argument in arguments))).reshape(-1)  # of arrays a DM
     scales: np.ndarray = values["rate_scale"]
     return scales
 
@@ -295,10 +295,10 @@ def _finite(name: str, formula: Formula, values: Mapping[str, float]) -> float:
     numbers = {argument: values[argument] for argument in arguments}
     spins = [spin for spin in ("impact_spin", "impact_partner_spin") if numbers.get(spin)]
     quantity = spins[0] if spins else "speed" if "speed" in arguments else arguments[0]
-    entry, shown = _ENTRIES.get(quantity, quantity), numbers[quantity]
+    entry, number = _ENTRIES.get(quantity, quantity), numbers[quantity]
     kind = "scale" if name in _SCALES else "number"
     span = "within a double's range" if most == math.inf else f"from {least:g} to {most:g}"
-    raise InputError(entry, shown, f"quantities whose {name.replace('_', ' ')} {kind} is {span}", "is too far off")
+    raise InputError(entry, number, f"quantities whose {name.replace('_', ' ')} {kind} is {span}", "is too far off")
 
 
 def groups_and_scales(scene: System, speed: float, angle: float) -> tuple[dict[str, float], dict[str, float]]:

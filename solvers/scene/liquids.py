@@ -71,9 +71,9 @@ class Liquid:
         apart = ((other, abs(math.log(other.viscosity / first.viscosity))) for other in self.values[1:])
         return tuple(
             f'liquid.viscosity = "{self.text}" is {first.viscosity:.4g} Pa s by {first.source} and '
-            f"{other.viscosity:.4g} Pa s by {other.source}: they differ by {part:.0%}"
-            for other, part in apart
-            if part > AGREED
+            f"{other.viscosity:.4g} Pa s by {other.source}: they differ by {share:.0%}"
+            for other, share in apart
+            if share > AGREED
         )
 
 
@@ -94,7 +94,7 @@ def liquid(text: str, label: str = "liquid.viscosity") -> Liquid:
         raise InputError(label, text, ACCEPTED, "names no liquid at a temperature")
     kelvin = float(read["number"]) + (0 if read["unit"] == "K" else _ZERO)
     name, fraction = _named(read["what"], text, label)
-    found: list[Value] = []
+    values: list[Value] = []
     refused: list[str] = []
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # of how `chemicals` reads its tables, and at the edges of CoolProp's
@@ -102,27 +102,27 @@ def liquid(text: str, label: str = "liquid.viscosity") -> Liquid:
     for source, low, high, value, at in sources:
         span = f"{low - _ZERO:.4g} to {high - _ZERO:.4g} degC{at}"
         if low <= kelvin <= high and math.isfinite(number := value(kelvin)):
-            found.append(Value(number, source, span))
+            values.append(Value(number, source, span))
         else:
             refused.append(f"{span} ({source})")
-    if not found:
+    if not values:
         problem = f"is known at {'; '.join(refused)} only" if refused else "is a liquid whose viscosity no source has"
         raise InputError(label, text, ACCEPTED, problem)
-    return Liquid(text.strip(), tuple(found))
+    return Liquid(text.strip(), tuple(values))
 
 
 def _named(what: str, text: str, label: str) -> tuple[str, float | None]:
     """Name and mass fraction in water; None of a pure liquid."""
-    part = _PART.search(what)
-    name = re.sub(r"\s*(?:\bin\b|[-/+]|)\s*water\s*$", "", _PART.sub(" ", what), flags=re.IGNORECASE) if part else what
+    share = _PART.search(what)
+    name = re.sub(r"\s*(?:\bin\b|[-/+]|)\s*water\s*$", "", _PART.sub(" ", what), flags=re.IGNORECASE) if share else what
     name = " ".join(name.replace("aqueous", "").split()).lower() or "water"
     name = _ALIASES.get(name, name)
-    if part is None:
+    if share is None:
         return name, None
-    if part["kind"] in ("vol", "v/v", "mol"):
-        by = "amount" if part["kind"] == "mol" else "volume"
+    if share["kind"] in ("vol", "v/v", "mol"):
+        by = "amount" if share["kind"] == "mol" else "volume"
         raise InputError(label, text, ACCEPTED, f"is a fraction by {by}, not by mass")
-    fraction = float(part["number"]) / 100
+    fraction = float(share["number"]) / 100
     if not 0 <= fraction <= 1:
         raise InputError(label, text, "a mass fraction of 0 to 100 %", "is no such fraction")
     return name, None if fraction == 1 else fraction
@@ -135,8 +135,8 @@ _Source = tuple[str, float, float, Callable[[float], float], str]
 def _sources(name: str, fraction: float | None, text: str, label: str) -> Iterator[_Source]:
     library, tables = _extra(text, label)
     if name == "glycerol":
-        part = 1.0 if fraction is None else fraction
-        yield "Cheng 2008", _ZERO, _ZERO + 100, lambda kelvin: cheng(part, kelvin - _ZERO), ", 0 to 100 %"
+        share = 1.0 if fraction is None else fraction
+        yield "Cheng 2008", _ZERO, _ZERO + 100, lambda kelvin: cheng(share, kelvin - _ZERO), ", 0 to 100 %"
     if fraction is not None and name not in _SOLUTIONS:
         raise InputError(label, text, f"one of {', '.join(_SOLUTIONS)}, or a pure liquid", "is not known in water")
     if fraction is not None:
@@ -195,14 +195,14 @@ def _pure(library: Any, tables: Any, name: str) -> Iterator[_Source]:
     perry = tables.viscosity.mu_data_Perrys_8E_2_313
     if number in perry.index:
         row = perry.loc[number]
-        constants = [float(row[each]) for each in ("C1", "C2", "C3", "C4", "C5")]
+        constants = [float(row[column]) for column in ("C1", "C2", "C3", "C4", "C5")]
         low, high = max(float(row["Tmin"]), melts), min(float(row["Tmax"]), boils)
         source = f"Perry's handbook, 8th ed. ({row['Chemical'].strip()})"
         yield source, low, high, lambda kelvin: float(tables.dippr.EQ101(kelvin, *constants)), ""
     vdi = tables.viscosity.mu_data_VDI_PPDS_7
     if number in vdi.index:
         row = vdi.loc[number]
-        values = [float(row[each]) for each in "ABCDE"]
+        values = [float(row[column]) for column in "ABCDE"]
         source = f"VDI heat atlas ({row['Chemical'].strip()})"
         yield source, melts, boils, lambda kelvin: float(tables.viscosity.PPDS9(kelvin, *values)), ""
 

@@ -162,8 +162,8 @@ def coating_fraction(ratio: float | None) -> float:
 
 def _shadow(ratio: Any) -> Any:
     """(1 - sqrt(1 - s^2))/2 with s = R_2/(R_1 + R_2), written without a difference of nearly equal numbers."""
-    part = ratio / (1 + ratio)
-    return part * part / (2 * (1 + (1 - part * part) ** 0.5))
+    s = ratio / (1 + ratio)
+    return s * s / (2 * (1 + (1 - s * s) ** 0.5))
 
 
 def _from_coating(entries: Mapping[str, Any], radius: Any, ratio: Any) -> Any:

@@ -59,13 +59,13 @@ class Scene(System):
         if self.package is not None:
             entries = self.package.completed(entries)
         rules.check_entries(entries, self.package)
-        known = fields(self.package)
-        values = {name: known[name].read(raw) for name, raw in entries.items()}
+        schema = fields(self.package)
+        values = {name: schema[name].read(raw) for name, raw in entries.items()}
         rules.check_complete(entries)
-        entries = {name: self._kept(known[name], raw) for name, raw in entries.items()}
+        entries = {name: self._canonical(schema[name], raw) for name, raw in entries.items()}
         rules.check_ways(entries, values)
         ways = Ways.of(entries)
-        kept = {
+        chosen = {
             "given": tuple(entries.items()),
             "ways": ways,
             "comments": tuple((name, text) for name, text in self.comments if name in entries),
@@ -77,7 +77,7 @@ class Scene(System):
                 for table in (Liquid, Bridge, Attraction, Pendulum, Model, Impact)
             },
         }
-        for name, value in kept.items():
+        for name, value in chosen.items():
             object.__setattr__(self, name, value)
         rules.check_together(self)
 
@@ -151,12 +151,12 @@ class Scene(System):
 
     def __str__(self) -> str:
         """The scene as a table: entries with their units, defaults and assumptions, and what follows from them."""
-        from .shown import text
+        from .listing import text
 
         return text(self)
 
     def _repr_html_(self) -> str:
-        from .shown import html
+        from .listing import html
 
         return html(self)
 
@@ -165,11 +165,11 @@ class Scene(System):
         """Quantities declared by a user's model: name -> value with its unit, given or default."""
         return {name.partition(".")[2]: value for name, value in self.given if name.startswith("custom.")}
 
-    def _kept(self, entry: Field, raw: object) -> Raw:
+    def _canonical(self, entry: Field, raw: object) -> Raw:
         """A value as a scene stores it; a quantity of a user's model with its unit."""
-        kept = entry.kept(raw)
-        with_unit = entry.name not in FIELDS and entry.unit and not isinstance(kept, str)
-        return f"{kept!r} {entry.unit}" if with_unit else kept
+        value = entry.canonical(raw)
+        with_unit = entry.name not in FIELDS and entry.unit and not isinstance(value, str)
+        return f"{value!r} {entry.unit}" if with_unit else value
 
     @property
     def guesses(self) -> tuple[tuple[str, str], ...]:
@@ -215,10 +215,10 @@ class Scene(System):
             InputError: no such model, a stale one, or a scene without the table that a law needs.
         """
         package = open_package(model, "model")
-        kept = {
+        old = {
             name: value for name, value in self.given if name.partition(".")[0] != "custom" or package == self.package
         }
-        entries = {**kept, **package.chosen(kept)}
+        entries = {**old, **package.chosen(old)}
         return type(self)(self.name, tuple(entries.items()), self.comments, package, self.held)
 
     def with_entries(self, changes: Mapping[str, Any], hold: str | None = None) -> Self:
@@ -273,7 +273,7 @@ class Scene(System):
         """A number or array as `si` has the entry, in a form that says what it is."""
         if name != "bridge.volume" or self.ways.volume != "absolute":
             return value
-        return f"{value!r} m^3" if isinstance(value, float) else [f"{float(each)!r} m^3" for each in value]
+        return f"{value!r} m^3" if isinstance(value, float) else [f"{float(number)!r} m^3" for number in value]
 
     def with_impact(
         self,
@@ -295,11 +295,11 @@ class Scene(System):
         changes = {name: value for name, value in impact.items() if value is not None}
         if not changes:
             return self
-        read, known = rules.check_entries(changes, self.package), fields(self.package)
+        read, schema = rules.check_entries(changes, self.package), fields(self.package)
         replaced = {*SPEEDS} - {*changes} if {*changes} - {"impact.angle"} else set()
         entries = {name: value for name, value in self.given if name not in replaced}
         again = changes.keys() <= entries.keys()  # then the order is the same
-        entries |= {name: self._kept(known[name], raw) for name, raw in changes.items()}
+        entries |= {name: self._canonical(schema[name], raw) for name, raw in changes.items()}
         return self._at_impact(
             tuple(entries.items() if again else _in_order({**dict(self.given), **changes}, entries)),
             read,

@@ -190,7 +190,7 @@ class Field:
         except OverflowError:
             return math.inf
 
-    def kept(self, raw: object) -> Raw:
+    def canonical(self, raw: object) -> Raw:
         """Return a value accepted by `read` as a scene stores it: text as given, numbers as plain floats."""
         if self.flag:
             return True
@@ -309,7 +309,7 @@ def unknown_entry(name: str, value: object) -> InputError:
     here = TABLES.get(table, ())
     if here and not key:
         return InputError(name, value, ", ".join(here), "is given to a table, not to one of its entries")
-    elsewhere = [known for known in FIELDS if known.endswith("." + (key or table))]
+    elsewhere = [entry for entry in FIELDS if entry.endswith("." + (key or table))]
     hint = f", did you mean {elsewhere[0]}?" if elsewhere else did_you_mean(name, here) or did_you_mean(name, FIELDS)
     accepted = ", ".join(here) if here else "entries TABLE.KEY of the tables " + ", ".join(TABLES)
     return InputError(name, value, accepted, "has an unknown name" + hint)

@@ -235,8 +235,8 @@ def _pint_factor(unit: str, si: str, value: object, field: str, accepted: str) -
         size, root, zero = _judged(unit)
         our_size, ours, _ = _judged(si)
     except _PINT_SAYS_NO:
-        known = [name for name, (kind, _) in COMMON.items() if kind == si]
-        hint = did_you_mean(unit, known) if nearest(unit, known) else did_you_mean(unit, COMMON)
+        names = [name for name, (kind, _) in COMMON.items() if kind == si]
+        hint = did_you_mean(unit, names) if nearest(unit, names) else did_you_mean(unit, COMMON)
         raise InputError(field, value, accepted, f'has the unknown unit "{unit}"{hint}') from None
     # Compare root units, not dimensionality: for pint both an angle and a percentage are dimensionless.
     if root != ours:
@@ -270,7 +270,7 @@ def _judged(unit: str) -> tuple[float, Powers, float]:
     import hashlib
     from importlib.metadata import version
 
-    from ..host.user_cache import kept
+    from ..host.user_cache import fetch
 
     content = json.dumps(["pint", version("pint"), unit, "zero"])
 
@@ -282,7 +282,7 @@ def _judged(unit: str) -> tuple[float, Powers, float]:
         zero = float(registry.Quantity(0.0, parsed).to_root_units().magnitude)
         return json.dumps([float(size), dict(registry.Quantity(1, root).unit_items()), zero]).encode()
 
-    size, powers, zero = json.loads(kept(f"unit-{hashlib.sha256(content.encode()).hexdigest()[:32]}.json", ask_pint))
+    size, powers, zero = json.loads(fetch(f"unit-{hashlib.sha256(content.encode()).hexdigest()[:32]}.json", ask_pint))
     return size, powers, zero
 
 

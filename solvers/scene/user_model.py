@@ -71,7 +71,7 @@ class OwnEvent:
         from ...generated.automaton import Event  # imported here because `generate` must run without emitted code
 
         fields = {name: entry[name] for name in Event._fields}
-        fields |= {"where": tuple((part, value) for part, value in entry["where"])}
+        fields |= {"where": tuple((component, value) for component, value in entry["where"])}
         fields |= {name: tuple(entry[name]) for name in ("functions", "words", "actions")}
         own_fields = ("mark", "meaning", "reach", "takes", "harmless", "rotates", "turns", "spins")
         return cls(Event(**fields), **{name: entry[name] for name in own_fields})
@@ -162,10 +162,10 @@ class Package:
         for slot, entry in ENTRIES.items():
             names = tuple(law["name"] for law in self.manifest["laws"] if law["slot"] == slot)
             if names and entry in result:
-                known = result[entry]
-                result[entry] = Field(entry, known.what, known.example, known.range, None, (*known.choices, *names))
-        for one in self.manifest["quantities"]:
-            result[f"{TABLE}.{one['name']}"] = _field(one)
+                base = result[entry]
+                result[entry] = Field(entry, base.what, base.example, base.range, None, (*base.choices, *names))
+        for quantity in self.manifest["quantities"]:
+            result[f"{TABLE}.{quantity['name']}"] = _field(quantity)
         return result
 
     @property
@@ -175,12 +175,12 @@ class Package:
 
     @property
     def quantities(self) -> tuple[str, ...]:
-        return tuple(one["name"] for one in self.manifest["quantities"])
+        return tuple(quantity["name"] for quantity in self.manifest["quantities"])
 
     @property
     def defaults(self) -> dict[str, Raw]:
         """Entries of `[custom]` that have defaults."""
-        values = {f"{TABLE}.{one['name']}": one["default"] for one in self.manifest["quantities"]}
+        values = {f"{TABLE}.{quantity['name']}": quantity["default"] for quantity in self.manifest["quantities"]}
         return {name: value for name, value in values.items() if value is not None}
 
     def completed(self, entries: Mapping[str, Any]) -> dict[str, Any]:
@@ -188,7 +188,7 @@ class Package:
 
     def demand(self, entries: Mapping[str, Any]) -> None:
         """Raise InputError for a missing quantity without a default, or an event that the scene cannot have."""
-        turning = next((each.word for each in self.events if each.rotates), None)
+        turning = next((event.word for event in self.events if event.rotates), None)
         if turning is not None and entries.get("partner.wall"):
             accepted = f"another partner, or a model without the event {turning}"
             raise InputError("partner.wall", True, accepted, "has no rotation, of which this event speaks")
@@ -245,7 +245,7 @@ class Package:
 
     def touched(self, groups: Mapping[str, float]) -> str:
         """The word of the gap at which the solids meet by roughness or by a declared criterion, at these groups."""
-        own = max(self.criteria, key=lambda known: groups[known.group], default=None)
+        own = max(self.criteria, key=lambda criterion: groups[criterion.group], default=None)
         return own.word if own is not None and 0 < groups["rough_gap"] <= groups[own.group] else "rough"
 
     @property
@@ -272,17 +272,17 @@ class Package:
     def events_in(self, structure: str) -> tuple[OwnEvent, ...]:
         """The events that a structure can have: it needs their rotations, and the spin as a state if they change it."""
         head_on = structure.startswith("head_on")
-        wall, reduced = (part in structure.split("_") for part in ("wall", "reduced"))
+        wall, reduced = (word in structure.split("_") for word in ("wall", "reduced"))
         return tuple(
-            one
-            for one in self.events
-            if not ((one.turns and head_on) or (one.rotates and wall) or (one.spins and reduced))
+            event
+            for event in self.events
+            if not ((event.turns and head_on) or (event.rotates and wall) or (event.spins and reduced))
         )
 
     @property
     def words(self) -> tuple[str, ...]:
         """Words by which results report the declared events; in the kernel they follow the library's."""
-        return tuple(one.row.words[0] for one in self.events)
+        return tuple(event.row.words[0] for event in self.events)
 
     def automaton_headers(self) -> tuple[str, str]:
         """C headers of the automaton with the declared events, for the kernel; derived on first use."""
@@ -333,7 +333,7 @@ class Package:
         return self._derived(f"{kind}{slot}_{name}.h", "user_law_header_text", slot, name, slopes)
 
     def _derived(self, file: str, function: str, *arguments: str | bool) -> str:
-        """Text of a file that was not emitted, by a function of `derive.emit.one` that takes a model."""
+        """Text of a file that was not emitted, by a function of `derive.emit.first_use` that takes a model."""
         return derived_once(f"{self.digest[:16]}-{file}", function, self.source, self.name, *arguments)
 
     @cached_property
@@ -347,7 +347,7 @@ class Package:
     @property
     def plain(self) -> tuple[str, ...]:
         """Quantities of the model that are dimensionless groups as they are."""
-        return tuple(one["name"] for one in self.manifest["quantities"] if one["group"] == one["name"])
+        return tuple(item["name"] for item in self.manifest["quantities"] if item["group"] == item["name"])
 
     @property
     def source(self) -> str:
@@ -386,24 +386,24 @@ def _module(package: Package, path: str) -> ModuleType:
     content = package._verified(path)  # noqa: SLF001 # the same room
     dotted = path.removesuffix(".py").replace("/", ".")
     module = executed(f"wetdoublet_model_{package.digest[:12]}.{dotted}", content)
-    known = package.manifest["structures"].get(dotted)
-    if known is not None and known != module.DIGEST:
+    digest = package.manifest["structures"].get(dotted)
+    if digest is not None and digest != module.DIGEST:
         raise InputError(path, module.DIGEST, package.remedy, "comes from other equations than the manifest says")
     return module
 
 
-def _field(one: Mapping[str, Any]) -> Field:
-    bounds = one["bounds"]
+def _field(quantity: Mapping[str, Any]) -> Field:
+    bounds = quantity["bounds"]
     low = -math.inf if bounds["low"] is None else bounds["low"]
     high = math.inf if bounds["high"] is None else bounds["high"]
     interval = Range(bounds["text"], low, high, bounds["low_open"], bounds["high_open"])
-    unit = None if one["unit"] == "1" else one["unit"]
-    default = one["default"]
+    unit = None if quantity["unit"] == "1" else quantity["unit"]
+    default = quantity["default"]
     example = f'"{default}"' if isinstance(default, str) else "1" if default is None else str(default)
     if unit and default is None:
         example = f'"1 {unit}"'
-    what = f"the {one['meaning']}" if unit else f"a number ({one['meaning']})"
-    return Field(f"{TABLE}.{one['name']}", what, example, interval, unit=unit)
+    what = f"the {quantity['meaning']}" if unit else f"a number ({quantity['meaning']})"
+    return Field(f"{TABLE}.{quantity['name']}", what, example, interval, unit=unit)
 
 
 def features(package: Package | None, slot: str, name: str) -> tuple[str, ...]:
@@ -430,6 +430,6 @@ def unknown(name: str, value: object, package: Package | None) -> InputError | N
     if package is None or package.table != TABLE:
         accepted = "a scene without [custom], or its model: --model DIR, Scene.load(..., model=DIR)"
         return InputError(name, value, accepted, "is a model's, and no model is given")
-    known = tables(package)[TABLE]
-    accepted = ", ".join(known) or f"nothing: the model {package.name} declares no quantity"
-    return InputError(name, value, accepted, "has an unknown name" + did_you_mean(name, known))
+    names = tables(package)[TABLE]
+    accepted = ", ".join(names) or f"nothing: the model {package.name} declares no quantity"
+    return InputError(name, value, accepted, "has an unknown name" + did_you_mean(name, names))

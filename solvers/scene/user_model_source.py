@@ -33,7 +33,7 @@ def open_package(source: str | Path | Package, label: str = "--model") -> Packag
 @lru_cache(maxsize=8)
 def liquid_package(law: str) -> Package:
     """The library's laws for a law of liquids, as a model; derived on first use, then cached."""
-    from ..host.user_cache import kept
+    from ..host.user_cache import fetch
 
     def derived() -> bytes:
         from .user_model_derived import liquid_package  # imports sympy
@@ -41,7 +41,7 @@ def liquid_package(law: str) -> Package:
         with DERIVING:
             return json.dumps(dict(liquid_package(law).files or {})).encode()
 
-    files = json.loads(kept(f"liquid-{law}-{derivation()[:16]}-{library_digest()[:16]}.json", derived))
+    files = json.loads(fetch(f"liquid-{law}-{derivation()[:16]}-{library_digest()[:16]}.json", derived))
     return Package(files["manifest.json"], Path(law), files)
 
 
@@ -76,12 +76,12 @@ def _read(path: Path, label: str) -> bytes:
 def _of_folder(folder: Path, label: str) -> Package:
     try:
         package = Package(bounded.text(folder / "manifest.json"), folder)
-        known = (
+        current = (
             package.manifest["kind"] == "wetdoublet model" and package.manifest["format"] == 1 and _is_whole(package)
         )
     except (OSError, ValueError, LookupError, AttributeError, TypeError, bounded.NotRead):
-        known = False
-    if not known:
+        current = False
+    if not current:
         raise InputError(label, str(folder), ACCEPTED, "holds no emitted model")
     if package.manifest["library"] != library_digest():
         problem = "was emitted for other equations of the library than these"
@@ -105,7 +105,7 @@ def key_of(content: bytes, origin: str = "") -> str:
 
 
 def _of_file(path: Path, label: str) -> Package:
-    from ..host.user_cache import kept
+    from ..host.user_cache import fetch
 
     content = _read(path, label)
 
@@ -118,5 +118,5 @@ def _of_file(path: Path, label: str) -> Package:
             raise CheckFailed(f"{path}: {package.failed}")
         return json.dumps(dict(package.files)).encode()
 
-    files = json.loads(kept(key_of(content), derived))
+    files = json.loads(fetch(key_of(content), derived))
     return Package(files["manifest.json"], path, files)

@@ -84,13 +84,13 @@ def _listed(values: list[Any] | tuple[Any, ...], entry: Entry, label: str, level
     if level > _DEEPEST:
         raise InputError(label, values, "numbers (SI)", "is nested too deeply")
 
-    def part(value: Any) -> np.ndarray | float:
+    def member(value: Any) -> np.ndarray | float:
         if isinstance(value, (list, tuple)):
             return _listed(value, entry, label, level + 1)
         return array(value, entry, label) if getattr(value, "ndim", 0) else entry.number(value, label=label)
 
     try:
-        return np.array([part(value) for value in values], dtype=float)
+        return np.array([member(value) for value in values], dtype=float)
     except InputError:
         raise
     except ValueError:

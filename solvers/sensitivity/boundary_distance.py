@@ -166,8 +166,8 @@ def along_speed(courses: Courses, ladder: Sequence[float]) -> Near | None:
     if not changes.size:
         return None
     closest = np.argsort(np.maximum(np.abs(changes.low), np.abs(changes.high)))[:2]  # one to either side
-    closed = enclose(labels, changes.part(closest), _width, at_once=_SAMPLES, unknown=-1)
-    nearest = closed.part(np.argmin(np.abs(closed.place), keepdims=True))
+    closed = enclose(labels, changes.subset(closest), _width, at_once=_SAMPLES, unknown=-1)
+    nearest = closed.subset(np.argmin(np.abs(closed.place), keepdims=True))
     distance = max(abs(nearest.place[0]), nearest.error[0])  # beside a course that is not decided it is the error
     return Near(_name(courses, nearest), float(distance), "impact.stokes")
 

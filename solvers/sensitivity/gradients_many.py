@@ -183,7 +183,7 @@ def _stretch(request: _Gradients, which: np.ndarray) -> np.ndarray:
     ) -> kernel.Along | None:
         order = (order_backward if backward else order_for)(request.rtol)
         return kernel.gradients_by_kernel(
-            request.part(part), request.kind, request.wrt, request.of, rtol, order, budget, backward, nearest
+            request.subset(part), request.kind, request.wrt, request.of, rtol, order, budget, backward, nearest
         )
 
     answered = run_part(which, request.rtol, _SOON, back, NEAR)  # what is nearer is repeated
@@ -242,7 +242,7 @@ def _boundary(measures: np.ndarray) -> tuple[str, float, str]:
 
 def _without(request: _Gradients, which: np.ndarray, rtol: float, factor: float = 1.0) -> Carried:
     """The collisions without derivatives, by the same kernel."""
-    part, oblique = request.part(which), bool(request.angle[which[0]] > 0)
+    part, oblique = request.subset(which), bool(request.angle[which[0]] > 0)
     answered = run_tangent(
         replace(part, speed=part.speed * factor), oblique, rtol, "rotation" in request.of, (), order_for(request.rtol)
     )

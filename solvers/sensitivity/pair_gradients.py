@@ -99,7 +99,7 @@ def pair_gradients(
             reason[k] = refused[k]
             continue
         try:
-            outcome[k], results = _of_one_pair(pairs.part(np.array([k])), entries, [*vectors], rtol)
+            outcome[k], results = _of_one_pair(pairs.subset(np.array([k])), entries, [*vectors], rtol)
         except WetDoubletError as error:
             reason[k] = str(error)
             continue

@@ -236,7 +236,7 @@ class Search(Question):
             at = np.clip(at, 0, place.size - 1)
             far = np.abs(end - self.value) > _REACH * np.abs(end - result[at])
             near |= ~np.isnan(end) & ~(far & (label[at] // _SIDES == regime // _SIDES))
-        return brackets.part(near)
+        return brackets.subset(near)
 
     def _samples(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Samples over the range, finer about extrema towards the value that do not reach it."""

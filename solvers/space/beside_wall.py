@@ -45,9 +45,9 @@ class Planar:
 
 def _by_kernel(impacts: Impacts, rtol: float, threads: int, ledger: bool) -> Planar:
     """Planar collisions by the kernel."""
-    books = np.zeros(impacts.size, OWN_LEDGER) if ledger else None
-    answers = run_kernel(impacts, rtol, False, threads, ledgers=books)
-    terms = np.full((answers.size, len(TERMS)), np.nan) if books is None else of_kernel(books)
+    ledgers = np.zeros(impacts.size, OWN_LEDGER) if ledger else None
+    answers = run_kernel(impacts, rtol, False, threads, ledgers=ledgers)
+    terms = np.full((answers.size, len(TERMS)), np.nan) if ledgers is None else of_kernel(ledgers)
     opening, slide, _, roll = answers["shown"].T[:4]
     outcome, certified = answers["outcome"].astype(int), answers["certified"] != 0
     reason = np.full(answers.size, "", object)
@@ -109,9 +109,9 @@ def beside_wall(pairs: Pairs, engine: str, rtol: float, threads: int, ledger: bo
     ends = Ends.blank(pairs.size)
     for name in ("outcome", "certified", "reason"):
         getattr(ends, name)[:] = getattr(slides, name)
-    for part in parts[1:]:  # of one that has spent its steps the others are not known
-        lost = (ends.outcome != FAILED) & (part.outcome == FAILED)
-        ends.outcome[lost], ends.certified[lost], ends.reason[lost] = FAILED, False, part.reason[lost]
+    for motion in parts[1:]:  # of one that has spent its steps the others are not known
+        lost = (ends.outcome != FAILED) & (motion.outcome == FAILED)
+        ends.outcome[lost], ends.certified[lost], ends.reason[lost] = FAILED, False, motion.reason[lost]
     thickness = float(pairs.scene.material["film_thickness"])
     ends.time[:] = slides.time * thickness / speed
     ends.gap[:] = slides.gap * thickness
@@ -120,7 +120,7 @@ def beside_wall(pairs: Pairs, engine: str, rtol: float, threads: int, ledger: bo
     ends.turning[:] = 0.0
     alone = slides.slide[:, None], slides.roll[:, None]
     more = (both.slide - slides.slide)[:, None], (both.roll - slides.roll)[:, None]
-    later = [one * sliding + other * rolling for one, other in zip(alone, more, strict=True)]
+    later = [value * sliding + other * rolling for value, other in zip(alone, more, strict=True)]
     ends.sliding[:] = later[0]
     twist = dot(pairs.spins[:, 0], pairs.normal) * pairs.normal
     ends.spins[:, 0] = np.cross(later[1], pairs.normal) / radius + twist
@@ -128,7 +128,7 @@ def beside_wall(pairs: Pairs, engine: str, rtol: float, threads: int, ledger: bo
     with np.errstate(all="ignore"):
         ends.slip[:] = np.where((first > 0) & (ends.outcome > 0), last / first, np.nan)
     if ledger:
-        ends.energy[:] = _energies(pairs, sliding, rolling, [part.energy for part in parts])
+        ends.energy[:] = _energies(pairs, sliding, rolling, [motion.energy for motion in parts])
         wrong = is_open(ends.energy, ends.outcome > 0, rtol)
         ends.outcome[wrong], ends.reason[wrong] = FAILED, OPEN
     return ends

@@ -42,9 +42,9 @@ def by_kernel(pairs: Pairs, rtol: float, threads: int, ledger: bool = False) -> 
     ends = Ends.blank(pairs.size)
     planar, axis, along = planes(pairs)
     if (which := np.flatnonzero(planar)).size:
-        ends.put(which, _in_planes(pairs.part(which), axis[which], along[which], rtol, threads, ledger))
+        ends.put(which, _in_planes(pairs.subset(which), axis[which], along[which], rtol, threads, ledger))
     if (which := np.flatnonzero(~planar)).size:
-        ends.put(which, _in_space(pairs.part(which), rtol, threads, ledger))
+        ends.put(which, _in_space(pairs.subset(which), rtol, threads, ledger))
     if ledger:  # where it is open the trajectory is wrong
         wrong = is_open(ends.energy, ends.outcome > 0, rtol)
         ends.outcome[wrong], ends.reason[wrong] = FAILED, OPEN
@@ -52,11 +52,11 @@ def by_kernel(pairs: Pairs, rtol: float, threads: int, ledger: bool = False) -> 
 
 
 def _in_space(pairs: Pairs, rtol: float, threads: int, ledger: bool) -> Ends:
-    books = np.zeros(pairs.size, OWN_LEDGER) if ledger else None
-    answers = run_kernel(pairs.impacts, rtol, False, threads, ledgers=books)
+    ledgers = np.zeros(pairs.size, OWN_LEDGER) if ledger else None
+    answers = run_kernel(pairs.impacts, rtol, False, threads, ledgers=ledgers)
     states = load(select_model(pairs.scene, True, full=ledger, space=True)).state
-    ends = _of_answers(pairs, answers, books, tuple(states))
-    known = answers["status"] == Status.DECIDED
+    ends = _of_answers(pairs, answers, ledgers, tuple(states))
+    mask = answers["status"] == Status.DECIDED
     names = load(select_model(pairs.scene, True, space=True)).names("outputs")
     place = {name: k for k, name in enumerate(names)}
     rate = pairs.impacts.rates
@@ -66,11 +66,11 @@ def _in_space(pairs: Pairs, rtol: float, threads: int, ledger: bool) -> Ends:
         spins: np.ndarray = answers["shown"][:, first : first + 3]
         return spins
 
-    ends.normal[known] = vector("final_normal")[known]
-    ends.turning[known] = (vector("final_rotation_rate") * rate[:, None])[known]
+    ends.normal[mask] = vector("final_normal")[mask]
+    ends.turning[mask] = (vector("final_rotation_rate") * rate[:, None])[mask]
     for k, name in enumerate(("final_spin", "final_spin_partner")):
-        ends.spins[known, k] = (vector(name) * rate[:, None])[known]
-    ends.opening[known] = (-pairs.opening * answers["shown"][:, place["restitution"]])[known]
+        ends.spins[mask, k] = (vector(name) * rate[:, None])[mask]
+    ends.opening[mask] = (-pairs.opening * answers["shown"][:, place["restitution"]])[mask]
     return ends
 
 
@@ -83,11 +83,11 @@ def _in_planes(pairs: Pairs, axis: np.ndarray, along: np.ndarray, rtol: float, t
     sense = np.where(along[:, 0] < 0, -1.0, 1.0)  # the angle is not negative
     others = {"impact_spin": sense * along[:, 1], "impact_partner_spin": sense * along[:, 2]}
     impacts = Impacts(scene, -pairs.opening, angle, others)
-    books = np.zeros(pairs.size, OWN_LEDGER) if ledger else None
-    answers = run_kernel(impacts, rtol, True, threads, ledgers=books)
+    ledgers = np.zeros(pairs.size, OWN_LEDGER) if ledger else None
+    answers = run_kernel(impacts, rtol, True, threads, ledgers=ledgers)
     states = load(select_model(scene, not bool(pairs.head_on.all()), full=ledger)).state
-    ends = _of_answers(pairs, answers, books, tuple(states))
-    known = answers["status"] == Status.DECIDED
+    ends = _of_answers(pairs, answers, ledgers, tuple(states))
+    mask = answers["status"] == Status.DECIDED
     rest = pairs.spins - along[:, 1:, None] * axis[:, None]
     axis, rate, oblique = sense[:, None] * axis, impacts.rates, impacts.oblique
     ends.slip[:] = np.where(oblique, np.abs(ends.slip), np.nan)  # a ratio of lengths, as in space
@@ -96,10 +96,10 @@ def _in_planes(pairs: Pairs, axis: np.ndarray, along: np.ndarray, rtol: float, t
         name: np.where(oblique, values * rate, 0.0) for name, values in outputs.items() if name.startswith("final")
     }
     moved.setdefault("final_spin_partner", moved["final_spin"])
-    turned = np.where(known, answers["turned"], 0.0)[:, None]
+    turned = np.where(mask, answers["turned"], 0.0)[:, None]
     across = np.cross(axis, pairs.normal)
     ends.normal = np.cos(turned) * pairs.normal + np.sin(turned) * across
-    ends.opening[known] = (-pairs.opening * answers["shown"][:, 0])[known]
+    ends.opening[mask] = (-pairs.opening * answers["shown"][:, 0])[mask]
     ends.turning = moved["final_rotation_rate"][:, None] * axis
     ends.energy[:, :2] += spin_energy(pairs, rest)[:, None]
     for k, name in enumerate(("final_spin", "final_spin_partner")):
@@ -107,7 +107,7 @@ def _in_planes(pairs: Pairs, axis: np.ndarray, along: np.ndarray, rtol: float, t
     return ends
 
 
-def _of_answers(pairs: Pairs, answers: np.ndarray, books: np.ndarray | None, states: tuple[str, ...]) -> Ends:
+def _of_answers(pairs: Pairs, answers: np.ndarray, ledgers: np.ndarray | None, states: tuple[str, ...]) -> Ends:
     """Ends from the answers of any structure, whose model has these states."""
     ends = Ends.blank(pairs.size)
     touch = answers["status"] == Status.PROVED_AT_TOUCH
@@ -120,6 +120,6 @@ def _of_answers(pairs: Pairs, answers: np.ndarray, books: np.ndarray | None, sta
     for k in np.flatnonzero(answers["status"] > LAST_ANSWER):
         n = nondimensionalise(without_spins(pairs.scene), -float(pairs.opening[k]), 0.0)
         ends.outcome[k], ends.reason[k] = FAILED, str(n.in_si(undecided(answers[k], states)))
-    if books is not None:
-        ends.energy[:] = of_kernel(books) * (float(pairs.scene.material["reduced_mass"]) * pairs.opening**2)[:, None]
+    if ledgers is not None:
+        ends.energy[:] = of_kernel(ledgers) * (float(pairs.scene.material["reduced_mass"]) * pairs.opening**2)[:, None]
     return ends

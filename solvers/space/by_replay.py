@@ -33,7 +33,7 @@ def pairs_by_replay(pairs: Pairs, plugin: str, rtol: float, ledger: bool = False
     ends = Ends.blank(pairs.size)
     for k in range(pairs.size):
         try:
-            ends.put(np.array([k]), _end(pairs.part(np.array([k])), plugin, rtol, ledger))
+            ends.put(np.array([k]), _end(pairs.subset(np.array([k])), plugin, rtol, ledger))
         except WetDoubletError as error:
             ends.outcome[k], ends.reason[k] = FAILED, str(error)
     return ends

@@ -116,7 +116,7 @@ def collide_pair(
         warn(loaded)
         chosen = asked or "taylor"
         which = np.flatnonzero(sound)
-        ends.put(which, _ends(pairs.part(which), chosen, rtol, ledger))
+        ends.put(which, _ends(pairs.subset(which), chosen, rtol, ledger))
     until = ends.put_at_contact(pairs)
     with np.errstate(invalid="ignore"):
         motions = after(pairs, ends)
@@ -152,7 +152,7 @@ def refusals(pairs: Pairs) -> dict[int, str]:
     reasons: dict[int, str] = {}
     for k in np.flatnonzero(~(finite & approaches & near)).tolist():
         if not 0.5 < np.abs(pairs.normal[k]).max() <= 1.0:  # of a unit vector at least 1/sqrt(3)
-            given = ", ".join(f"{part:g}" for part in pairs.normal[k])
+            given = ", ".join(f"{number:g}" for number in pairs.normal[k])
             error = InputError("normal", f"({given})", "a finite vector that is not zero", "has no direction")
         elif finite[k] and approaches[k]:
             error = InputError(
@@ -194,12 +194,12 @@ def _validity(pairs: Pairs, ends: Ends, motions: Motions) -> list[str]:
     which = np.flatnonzero(ends.outcome != FAILED)
     if not which.size:
         return []
-    some = pairs.part(which)
+    some = pairs.subset(which)
     before, after = (velocities[:, 1] - velocities[:, 0] for velocities in (some.velocities, motions.velocities[which]))
     bent = np.arctan2(length(np.cross(before, after)), dot(before, after)[:, 0])
-    known: dict[str, Any] = si_values(some.scene, None, None)
+    table: dict[str, Any] = si_values(some.scene, None, None)
     touching = np.inf if some.scene.wall else sum(Bodies.of(some.scene).radius)
-    sliding = length(some.sliding) / (1 + known["film_thickness"] / touching)  # the planar angle's, of touching spheres
+    sliding = length(some.sliding) / (1 + table["film_thickness"] / touching)  # the planar angle's, of touching spheres
     angle = np.arctan2(sliding, -some.opening)
     course = {
         "rotation": np.pi - np.arctan2(length(some.sliding), -some.opening) + bent,
@@ -207,8 +207,8 @@ def _validity(pairs: Pairs, ends: Ends, motions: Motions) -> list[str]:
         "restitution": 1.0,
         "smallest_gap": np.nan,
     }
-    known |= {"speed": -some.opening, "angle": angle}
-    return sentences(some.scene, known | course | {"outcome": ends.outcome[which]})
+    table |= {"speed": -some.opening, "angle": angle}
+    return sentences(some.scene, table | course | {"outcome": ends.outcome[which]})
 
 
 def _dataset(

@@ -198,9 +198,9 @@ def angular_momentum(pairs: Pairs) -> np.ndarray:
     return momentum
 
 
-def of_kernel(books: np.ndarray) -> np.ndarray:
+def of_kernel(ledgers: np.ndarray) -> np.ndarray:
     """The terms of ledgers by the kernel, (collisions, terms)."""
-    return np.stack([books[name] for name in map(OF_KERNEL.get, TERMS)], axis=-1)
+    return np.stack([ledgers[name] for name in map(OF_KERNEL.get, TERMS)], axis=-1)
 
 
 def of_replay(model: Model, replay: Replay, p: np.ndarray) -> np.ndarray:

@@ -141,7 +141,7 @@ class Pairs:
         mask: np.ndarray = np.max(length(across), axis=1) <= TURNLESS * fastest
         return mask
 
-    def part(self, which: np.ndarray) -> Pairs:
+    def subset(self, which: np.ndarray) -> Pairs:
         rows = (self.normal[which], self.velocities[which], self.spins[which])
         return Pairs(self.scene, rows[0].shape[:1], *rows)
 

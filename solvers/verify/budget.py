@@ -70,12 +70,12 @@ def budgeted(
     for j, theta in enumerate(angle):
         for k, number in enumerate(stokes):
             try:
-                one = collide(scene, stokes=float(number), angle=float(theta), rtol=rtol)
+                collision = collide(scene, stokes=float(number), angle=float(theta), rtol=rtol)
             except WetDoubletError as failure:
                 reason[j, k] = str(failure)
                 continue
-            outcome[j, k] = OUTCOMES.index(one.outcome)
-            for name, value in terms(one).items():
+            outcome[j, k] = OUTCOMES.index(collision.outcome)
+            for name, value in terms(collision).items():
                 values[name][j, k] = value
     data = {name: (("angle", "stokes"), array) for name, array in values.items()}
     coordinates = {"angle": ("angle", np.asarray(angle, float), {"units": "rad"}), "stokes": np.asarray(stokes, float)}
@@ -86,17 +86,17 @@ def budgeted(
     )
 
 
-def terms(one: Collision) -> dict[str, float]:
+def terms(collision: Collision) -> dict[str, float]:
     """The terms of one collision, rotation from the rates at separation; for a stick only the restitution."""
-    shares = dict(one.budget or ())
+    shares = dict(collision.budget or ())
     if not shares:
-        return {"restitution": one.restitution}
+        return {"restitution": collision.restitution}
     budget = {
-        "restitution": one.restitution,
-        "excess": one.restitution**2 - 1,
-        "rotation_released": _released(one),
+        "restitution": collision.restitution,
+        "excess": collision.restitution**2 - 1,
+        "rotation_released": _released(collision),
         "residual": -shares["residual"],
-        "ceiling": ceiling(one),
+        "ceiling": ceiling(collision),
     } | {name: 0.0 - shares.get(name, 0.0) for name in LOSSES}
     budget["dry_contact"] -= shares.get("dry_friction", 0.0)  # all that the solids take
     more = sum(shares.get(name, 0.0) for name in ("attraction", "own_events"))
@@ -104,13 +104,13 @@ def terms(one: Collision) -> dict[str, float]:
     return budget | {"gap": budget["excess"] - budget["rotation_released"] + lost}
 
 
-def _released(one: Collision) -> float:
+def _released(collision: Collision) -> float:
     """Rotational energy at initial contact minus that at separation, from the rates, independent of the ledger."""
-    assert one.final_gap is not None
-    a, spin = one.scene.particles.reduced_radius, one.final_spin or 0.0
-    spins = spin, spin if one.final_spin_partner is None else one.final_spin_partner
-    last = ((4 * a + one.final_gap) * (one.final_rotation_rate or 0.0)) ** 2 + _spun(spins, a)
-    return first_rotation(one.scene, one.angle, one.speed) - last / one.speed**2
+    assert collision.final_gap is not None
+    a, spin = collision.scene.particles.reduced_radius, collision.final_spin or 0.0
+    spins = spin, spin if collision.final_spin_partner is None else collision.final_spin_partner
+    last = ((4 * a + collision.final_gap) * (collision.final_rotation_rate or 0.0)) ** 2 + _spun(spins, a)
+    return first_rotation(collision.scene, collision.angle, collision.speed) - last / collision.speed**2
 
 
 def first_rotation(scene: Scene, angle: float, speed: float) -> float:
@@ -130,13 +130,13 @@ def _spun(spins: tuple[float, float], a: float) -> float:
     return 3.2 * a**2 * (spins[0] ** 2 + spins[1] ** 2)
 
 
-def ceiling(one: Collision) -> float:
+def ceiling(impact: Collision) -> float:
     """Upper limit of e_n^2 if only the bridge dissipates energy; NaN for a lever arm of one's own and with strings."""
-    scene = one.scene
-    if one.energy is None or scene.pendulum is not None or not scene.law_has("arm", "balanced"):
+    scene = impact.scene
+    if impact.energy is None or scene.pendulum is not None or not scene.law_has("arm", "balanced"):
         return math.nan
     a, m = scene.particles.reduced_radius, scene.particles.reduced_mass
-    first, last = 4 + scene.liquid.film_thickness / a, 4 + (one.final_gap or 0.0) / a  # distances over a
-    momentum = first**2 * math.tan(one.angle) / 4 + 3.2 * a * sum(_first_spins(scene)) / one.speed  # L over m a v0
-    released = first_rotation(scene, one.angle, one.speed) - momentum**2 / (last**2 + 6.4)
-    return 1 + released - 2 * one.energy.capillary / (m * one.speed**2)
+    first, last = 4 + scene.liquid.film_thickness / a, 4 + (impact.final_gap or 0.0) / a  # distances over a
+    momentum = first**2 * math.tan(impact.angle) / 4 + 3.2 * a * sum(_first_spins(scene)) / impact.speed  # L/(m a v0)
+    released = first_rotation(scene, impact.angle, impact.speed) - momentum**2 / (last**2 + 6.4)
+    return 1 + released - 2 * impact.energy.capillary / (m * impact.speed**2)

@@ -183,7 +183,7 @@ def spin_relaxes(scene: Scene, engine: str, plain: Integrators = plain) -> tuple
     a, m, mu = bare.particles.reduced_radius, bare.particles.reduced_mass, bare.liquid.viscosity
     worst = (-1.0, "")
     outer, contact = min(edge, 1.0), contact_gap(n.groups)
-    for gap in (min(max(part * outer, contact), 0.9 * outer) for part in (0.5, 0.05)):  # as deep as the solids allow
+    for gap in (min(max(depth * outer, contact), 0.9 * outer) for depth in (0.5, 0.05)):  # as deep as the solids allow
         x = gap * n.length
         reach = n.length if bare.law_has("shear", "rim") else 2 * a
         r = 4 * a + x
@@ -213,8 +213,8 @@ def swinging(scene: Scene, engine: str, plain: Integrators = plain) -> tuple[flo
     swing = math.sqrt(scene.pendulum.gravity / scene.pendulum.length)  # rad/s
     sideways = n.speed * n.groups["obliquity"] * (4 + aspect) / 4
     worst = (-1.0, "")
-    for part in _INSTANTS.tolist():
-        phase = part * min(2.0, 2 * a * swing / math.hypot(n.speed, sideways))  # radians; stays in front of the pivots
+    for share in _INSTANTS.tolist():
+        phase = share * min(2.0, 2 * a * swing / math.hypot(n.speed, sideways))  # radians; stays in front of the pivots
         across = 4 * a + n.length * math.cos(phase) + n.speed / swing * math.sin(phase)
         aside = sideways / swing * math.sin(phase)
         y = _integrated(plain, flow, engine, n, start, phase / swing / n.time)

@@ -25,21 +25,21 @@ def conserved(sample: Sample) -> Iterator[Finding]:
     if not sample.all:
         return
     figure, worst = _worst(
-        sample.all, lambda one: abs(one.energy.residual) / one.energy.initial if one.energy else None
+        sample.all, lambda case: abs(case.energy.residual) / case.energy.initial if case.energy else None
     )
     statement = "T(0) = T(end) + losses + works: residual over T(0)"
     yield bounded("energy ledger", statement, figure, RESIDUAL, where(worst))
     statement = "L is conserved: |L/L(0) - 1| where the spin is integrated, not eliminated"
-    drifting = [one for one in sample.all if one.angular_momentum_drift is not None]
-    if sample.scene.pendulum is not None and any(one.angle for one in sample.all):
+    drifting = [collision for collision in sample.all if collision.angular_momentum_drift is not None]
+    if sample.scene.pendulum is not None and any(collision.angle for collision in sample.all):
         yield note("angular momentum", statement, "the strings exert a torque: L is not conserved")
     elif drifting:
-        figure, worst = _worst(drifting, lambda one: one.angular_momentum_drift)
+        figure, worst = _worst(drifting, lambda case: case.angular_momentum_drift)
         if sample.scene.law_has("arm", "balanced"):
             yield bounded("angular momentum", statement, figure, DRIFT, where(worst))
         else:
             yield note("angular momentum", statement, f"drift {figure:.1e}: the arm of the model file", where(worst))
-    for engine, reference in (*((each, REFERENCE) for each in ENGINES if each != REFERENCE), ("taylor", "cvodes")):
+    for engine, reference in (*((name, REFERENCE) for name in ENGINES if name != REFERENCE), ("taylor", "cvodes")):
         pairs = [
             (impact[engine], impact[reference])
             for impact in sample.impacts
@@ -51,28 +51,28 @@ def conserved(sample: Sample) -> Iterator[Finding]:
 
 def _worst(collisions: Sequence[Collision], figure: Callable[[Collision], float | None]) -> tuple[float, Collision]:
     """The largest figure, infinite where it is missing or not finite, and its collision."""
-    figures = [value if (value := figure(one)) is not None and math.isfinite(value) else math.inf for one in collisions]
+    figures = [value if (value := figure(run)) is not None and math.isfinite(value) else math.inf for run in collisions]
     largest = max(figures)
     return largest, collisions[figures.index(largest)]
 
 
 def agreement(name: str, pairs: Sequence[tuple[Collision, Collision]]) -> Finding:
     """Finding on collisions by one engine, each beside the same by another: the worst in outcome and e_n."""
-    judged = [(_apart(one, other), _allowed(one, other), one) for one, other in pairs]
-    figure, bound, one = max(judged, key=lambda entry: entry[0] / entry[1])
+    judged = [(_apart(first, other), _allowed(first, other), first) for first, other in pairs]
+    figure, bound, worst = max(judged, key=lambda entry: entry[0] / entry[1])
     statement = f"same outcome, and e_n apart by no more than {AGREEMENT:.0e} times its condition d ln e_n/d ln St"
-    return bounded(name, statement, figure, bound, where(one))
+    return bounded(name, statement, figure, bound, where(worst))
 
 
-def _apart(one: Collision, other: Collision) -> float:
-    if one.outcome != other.outcome:
+def _apart(collision: Collision, other: Collision) -> float:
+    if collision.outcome != other.outcome:
         return math.inf
-    return abs(one.restitution - other.restitution) / (abs(other.restitution) or 1.0)
+    return abs(collision.restitution - other.restitution) / (abs(other.restitution) or 1.0)
 
 
-def _allowed(one: Collision, other: Collision) -> float:
+def _allowed(collision: Collision, other: Collision) -> float:
     """The bound AGREEMENT; where exceeded, multiplied by the conditioning of e_n, which diverges towards a boundary."""
-    if not AGREEMENT < _apart(one, other) < math.inf:
+    if not AGREEMENT < _apart(collision, other) < math.inf:
         return AGREEMENT
     nudged = [other.stokes * (1 + side * _NUDGE) for side in (-1, 1)]
     try:

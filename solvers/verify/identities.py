@@ -96,13 +96,13 @@ def kept_verdicts(key: str, compute: Callable[[], Iterable[Finding]], recompute:
         recompute: compute them in any case.
     """
     name = f"verdicts-{key}.json"
-    content = None if recompute else user_cache.found(name)
+    content = None if recompute else user_cache.lookup(name)
     if content is not None:
-        yield from (replace(Finding(**{**one, "about": tuple(one["about"])}), kept=True) for one in json.loads(content))
+        yield from (replace(Finding(**{**row, "about": tuple(row["about"])}), kept=True) for row in json.loads(content))
         return
     findings = []
     for finding in compute():
         findings.append(finding)
         yield finding
     text = json.dumps([asdict(finding) for finding in findings])
-    user_cache.kept(name, text.encode)
+    user_cache.fetch(name, text.encode)

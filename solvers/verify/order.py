@@ -32,7 +32,7 @@ def convergence(
         tolerances: values of rtol, descending.
         collide: function that computes a collision at a tolerance.
     """
-    separating = [one for one in sample.separated if one.restitution > _SMALLEST and (one.contact_time or 0) > 0]
+    separating = [case for case in sample.separated if case.restitution > _SMALLEST and (case.contact_time or 0) > 0]
     if not separating:
         figure = sample.silent or f"no trajectory that separates with e_n > {_SMALLEST}"
         yield note("convergence", "error of e_n over rtol", figure)

@@ -99,18 +99,18 @@ def _region(scene: Scene, data: xarray.Dataset) -> Finding:
     j, k = np.unravel_index(int(np.nanargmax(e_n)), e_n.shape)
     lines_above = above_one(scene, data["angle"].values.tolist(), stokes, _RTOL)
     rim = float(stokes[0]), float(stokes[-1])
-    most = max(lines_above, key=lambda one: one.most)
+    most = max(lines_above, key=lambda line: line.most)
     best = f"{most.most:.4g} ({place(most.at, most.angle)})"
-    above = [one for one in lines_above if one.spans]
-    lines = [f"  {_name(one, rim)}" for one in above]
+    above = [line for line in lines_above if line.spans]
+    lines = [f"  {_name(line, rim)}" for line in above]
     if above:
         low, high = math.degrees(above[0].angle), math.degrees(above[-1].angle)
-        first, last = min(one.spans[0][0] for one in above), max(one.spans[-1][1] for one in above)
+        first, last = min(line.spans[0][0] for line in above), max(line.spans[-1][1] for line in above)
         ends = f"St {first:.3g}..{last:.3g}{' (the last looked at)' * (last == rim[1])}"
         figure = f"at {low:.0f}..{high:.0f} deg, {ends}; largest {best}"
     else:
         figure = f"nowhere; largest {best}"
-    failed = sum(one.failed for one in lines_above)
+    failed = sum(line.failed for line in lines_above)
     if failed:
         lines.append(f"  {failed} collisions of the scan were not completed and count as e_n < 1")
     statement = f"where more energy of rotation is released than is lost, looked at for St {rim[0]:.3g}..{rim[1]:.3g}"
@@ -171,13 +171,13 @@ def above_one(scene: Scene, angles: Sequence[float], stokes: np.ndarray, rtol: f
     return lines
 
 
-def _name(one: Above, rim: tuple[float, float]) -> str:
+def _name(line: Above, rim: tuple[float, float]) -> str:
     """The intervals of an angle in words; open where an interval reaches the end of the scan."""
     spans = []
-    for low, high in one.spans:
+    for low, high in line.spans:
         ends = ([f"from {low:.3g}"] if low > rim[0] else []) + ([f"to {high:.3g}"] if high < rim[1] else ["on"])
         spans.append(" ".join(ends) if low > rim[0] or high < rim[1] else "throughout")
-    return f"{math.degrees(one.angle):4.0f} deg: e_n > 1 for St {', '.join(spans)} (up to {one.most:.3f})"
+    return f"{math.degrees(line.angle):4.0f} deg: e_n > 1 for St {', '.join(spans)} (up to {line.most:.3f})"
 
 
 def table(data: xarray.Dataset, best: tuple[int, int]) -> list[str]:

@@ -63,14 +63,14 @@ class Report:
 
     def to_dict(self) -> dict[str, Any]:
         """Whether all checks hold, and every finding by its attributes."""
-        return {"ok": self.ok, "summary": self.headline, "findings": [asdict(one) for one in self.findings]}
+        return {"ok": self.ok, "summary": self.headline, "findings": [asdict(finding) for finding in self.findings]}
 
     def to_dataset(self) -> xarray.Dataset:
         """The findings over `check`; `ok` is 1, 0, or -1 for a note."""
         import xarray as xr
 
-        texts = {name: ("check", [getattr(one, name) for one in self.findings]) for name in _COLUMNS if name != "ok"}
-        held = [-1 if one.ok is None else int(one.ok) for one in self.findings]
+        texts = {name: ("check", [getattr(row, name) for row in self.findings]) for name in _COLUMNS if name != "ok"}
+        held = [-1 if finding.ok is None else int(finding.ok) for finding in self.findings]
         return xr.Dataset({**texts, "ok": ("check", held)})
 
     @property
@@ -104,8 +104,8 @@ class Report:
     def summary(self) -> str:
         """The last line: number of passed checks, names of failed ones, and how many are from an earlier run."""
         names = "; ".join(f"{finding.name} ({finding.group})" for finding in self.failed)
-        kept = sum(finding.kept for finding in self.findings)
-        earlier = f" ({kept} verdicts kept from an earlier run on the same equations)" if kept else ""
+        count = sum(finding.kept for finding in self.findings)
+        earlier = f" ({count} verdicts kept from an earlier run on the same equations)" if count else ""
         return f"{self._counted}{': ' if names else ''}{names}{earlier}"
 
     @property
@@ -126,18 +126,18 @@ def _section(title: str, members: tuple[Finding, ...], statements: bool = False)
     A bound with two dots is a range.
     """
     lines = [title, "-" * len(title)]
-    name = max(len(one.name) for one in members)
+    name = max(len(finding.name) for finding in members)
     held = {True: " in ", False: " <= "}
-    figures = [one.figure + (held[".." in one.bound] + one.bound if one.bound else "") for one in members]
-    beside = [len(text) for text, one in zip(figures, members) if one.where and len(text) <= _BESIDE]
+    figures = [row.figure + (held[".." in row.bound] + row.bound if row.bound else "") for row in members]
+    beside = [len(text) for text, finding in zip(figures, members) if finding.where and len(text) <= _BESIDE]
     indent = " " * (_MARK + name + 2)
-    for one, figure in zip(members, figures):
-        text = f"{figure:<{max(beside, default=0)}}  at {one.where}" if one.where else figure
-        lines += _wrapped(f"{_MARKS[one.ok]:<{_MARK}}{one.name:<{name}}  ", text, indent)
+    for finding, figure in zip(members, figures):
+        text = f"{figure:<{max(beside, default=0)}}  at {finding.where}" if finding.where else figure
+        lines += _wrapped(f"{_MARKS[finding.ok]:<{_MARK}}{finding.name:<{name}}  ", text, indent)
         if statements:
-            lines += _wrapped(indent, f"{one.group}: {one.statement}", indent)
+            lines += _wrapped(indent, f"{finding.group}: {finding.statement}", indent)
         else:
-            lines += [f"    {line}".rstrip() for line in one.about]
+            lines += [f"    {line}".rstrip() for line in finding.about]
     return [*lines, ""]
 
 

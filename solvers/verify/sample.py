@@ -52,7 +52,7 @@ class Sample:
 
     @property
     def all(self) -> list[Collision]:
-        return [one for impact in self.impacts for one in impact.values()]
+        return [collision for impact in self.impacts for collision in impact.values()]
 
     @property
     def separated(self) -> Iterator[Collision]:
@@ -65,7 +65,7 @@ class Sample:
         """The reason if no trajectory has a duration; empty if one has."""
         if not self.all:
             return "no collision was completed"
-        if not any(one.contact_time or one.until for one in self.all):
+        if not any(collision.contact_time or collision.until for collision in self.all):
             return "no trajectory lasts: all rebound at initial contact"
         return ""
 
@@ -78,12 +78,12 @@ def stokes_of(scene: Scene) -> float:
 def place(stokes: float, angle: float, engine: str = "", event: str = "") -> str:
     """Stokes number, angle and engine as text."""
     parts = [f"St {stokes:.4g}", f"{math.degrees(angle):.4g} deg", engine, event]
-    return ", ".join(part for part in parts if part)
+    return ", ".join(text for text in parts if text)
 
 
-def where(one: Collision) -> str:
+def where(collision: Collision) -> str:
     """The place of a collision as text."""
-    return place(one.stokes, one.angle, one.engine)
+    return place(collision.stokes, collision.angle, collision.engine)
 
 
 def collisions(

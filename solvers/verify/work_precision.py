@@ -127,7 +127,7 @@ class WorkPrecision:
             least = f"the least error reached is {min(reached):.1e}" if reached else "no setting has all outcomes right"
             why = f"no engine keeps {error:.1e} at a tolerance that was measured; {least}"
             return Recommendation(use, None, None, why)
-        priced.sort(key=lambda each: each[0])
+        priced.sort(key=lambda pair: pair[0])
         spent, best = priced[0]
         why = "all collisions of the sample stick, and all outcomes are right"
         if best.error is not None:
@@ -174,7 +174,7 @@ def work_precision(
         pairs = [pair for pair in zip(*references.values()) if pair[0].outcome == pair[1].outcome]
         if not pairs:
             raise ComputationError("no reference", advice="choose an impact farther from a boundary")
-        known = [Impact(one.stokes, one.angle) for one, _ in pairs]
+        places = [Impact(collision.stokes, collision.angle) for collision, _ in pairs]
         rows: list[Row] = []
         for engine in engines:
             expected = [
@@ -182,15 +182,15 @@ def work_precision(
             ]
             expensive = False
             for rtol in sorted(tolerances, reverse=True):
-                each = None if expensive else _batch(scene, impacts, engine, rtol)
-                expensive = expensive or (each is not None and each * batch > _DEAR)
-                rows.append(_row(scene, known, expected, engine, rtol, each))
+                cost = None if expensive else _batch(scene, impacts, engine, rtol)
+                expensive = expensive or (cost is not None and cost * batch > _DEAR)
+                rows.append(_row(scene, places, expected, engine, rtol, cost))
                 progress(1 + len(rows), total)
     differences = _errors(pairs)
-    separate = sum(one.outcome != "stick" for one, _ in pairs)
-    uncertainty, time_uncertainty = (max((each[k] for each in differences), default=0.0) for k in (0, 1))
+    separate = sum(collision.outcome != "stick" for collision, _ in pairs)
+    uncertainty, time_uncertainty = (max((pair[k] for pair in differences), default=0.0) for k in (0, 1))
     return WorkPrecision(
-        scene, sample, batch, tuple(known), separate, len(some) - len(known), tuple(tight.items()), uncertainty,
+        scene, sample, batch, tuple(places), separate, len(some) - len(places), tuple(tight.items()), uncertainty,
         time_uncertainty, tuple(rows),
     )  # fmt: skip
 
@@ -221,7 +221,7 @@ def _references(
     for engine in ("taylor", "rosenbrock", "cvodes"):
         for rtol in _TIGHTEST if engine in engines and len(references) < 2 else ():
             collisions = [
-                one for impact in impacts if (one := _one(scene, impact, engine, rtol)) and one.engine == engine
+                case for impact in impacts if (case := _one(scene, impact, engine, rtol)) and case.engine == engine
             ]
             if len(collisions) == len(impacts):
                 references[engine], tight[engine] = collisions, rtol
@@ -252,10 +252,10 @@ def _row(
 
     collided()  # builds
     taken, computed = _cheapest(collided)
-    done = [(one, truth) for one, truth in zip(computed, truths) if one is not None]
-    error, time_error = (max((each[k] for each in _errors(done)), default=None) for k in (0, 1))
-    wrong = sum(one.outcome != truth.outcome for one, truth in done)
-    handed_over = sum(one.engine != engine for one, _ in done)
+    done = [(collision, truth) for collision, truth in zip(computed, truths) if collision is not None]
+    error, time_error = (max((errors[k] for errors in _errors(done)), default=None) for k in (0, 1))
+    wrong = sum(collision.outcome != truth.outcome for collision, truth in done)
+    handed_over = sum(collision.engine != engine for collision, _ in done)
     failed = len(computed) - len(done)
     return Row(engine, rtol, error, time_error, taken / len(impacts), batch, wrong, failed, handed_over)
 
@@ -263,15 +263,15 @@ def _row(
 def _errors(pairs: Sequence[tuple[Collision, Collision]]) -> list[tuple[float, float]]:
     """Absolute error of e_n and relative error of the contact time, where both separate in the same way."""
     return [
-        (abs(one.restitution - truth.restitution), abs(one.contact_time / truth.contact_time - 1))
-        for one, truth in pairs
-        if one.outcome == truth.outcome and one.contact_time and truth.contact_time
+        (abs(collision.restitution - truth.restitution), abs(collision.contact_time / truth.contact_time - 1))
+        for collision, truth in pairs
+        if collision.outcome == truth.outcome and collision.contact_time and truth.contact_time
     ]
 
 
 def _batch(scene: Scene, impacts: Sequence[Impact], engine: str, rtol: float) -> float | None:
     """CPU time (s) per impact of one call for all; None if one fails."""
-    stokes, angle = (np.array([getattr(each, name) for each in impacts]) for name in ("stokes", "angle"))
+    stokes, angle = (np.array([getattr(impact, name) for impact in impacts]) for name in ("stokes", "angle"))
     collide_many(scene, stokes=stokes[:1], angle=angle[:1], rtol=rtol, engine=engine)  # builds
     taken, data = _cheapest(lambda: collide_many(scene, stokes=stokes, angle=angle, rtol=rtol, engine=engine))
     return None if (data["outcome"].values == FAILED).any() else taken / len(impacts)

@@ -38,12 +38,12 @@ def to_dict(bench: WorkPrecision, error: float) -> dict[str, Any]:
         "scene": name_of(bench.scene),
         "environment": environment(),
         **{name: getattr(bench, name) for name in ("sample", "batch", "separate", "left_out")},
-        "impacts": [asdict(each) for each in bench.impacts],
+        "impacts": [asdict(impact) for impact in bench.impacts],
         "references": [{"engine": engine, "rtol": rtol} for engine, rtol in bench.references],
         "uncertainty": {"restitution": bench.uncertainty, "contact_time": bench.time_uncertainty},
         "rows": rows,
         "error": error,
-        "recommended": [asdict(each) for each in bench.recommend(error)],
+        "recommended": [asdict(advice) for advice in bench.recommend(error)],
     }
 
 
@@ -52,8 +52,8 @@ def text(bench: WorkPrecision, error: float) -> str:
     head = ("engine", "rtol", "error in e_n", "in contact time", "CPU: one collision", f"one of {bench.batch}")
     rows = []
     for row in bench.rows:
-        errors = ["-" if each is None else f"{each:.1e}" for each in (row.error, row.time_error)]
-        costs = ["-" if each is None else duration(each) for each in (row.single, row.batch)]
+        errors = ["-" if value is None else f"{value:.1e}" for value in (row.error, row.time_error)]
+        costs = ["-" if cost is None else duration(cost) for cost in (row.single, row.batch)]
         rows.append([row.engine, f"{row.rtol:.0e}", *errors, *costs, str(row.wrong), str(row.failed)])
     counted = f"Errors of {len(bench.impacts)} of them, of which {bench.separate} separate."
     if bench.left_out:
@@ -72,9 +72,9 @@ def text(bench: WorkPrecision, error: float) -> str:
     if handed := sum(row.handed_over for row in bench.rows):
         lines.append(f"{handed} collisions were handed over to another engine, whose time and error they have.")
     lines += ["", f"Recommended for an error of {error:.1e} in e_n:"]
-    for each in bench.recommend(error):
-        setting = f"{each.engine}, rtol {each.rtol:.0e}" if each.engine else "none"
-        lines += [f"* {each.use}: {setting}", f"  {each.reason}"]
+    for advice in bench.recommend(error):
+        setting = f"{advice.engine}, rtol {advice.rtol:.0e}" if advice.engine else "none"
+        lines += [f"* {advice.use}: {setting}", f"  {advice.reason}"]
     return "\n".join(lines)
 
 
@@ -96,10 +96,10 @@ def draw(bench: WorkPrecision, error: float, path: str | Path | None = None) -> 
             colour, marker = _STYLES[engine]
             costs = [(row, row.single if axes is first else row.batch) for row in bench.rows if row.engine == engine]
             points = [(row.error, 1e3 * cost, row) for row, cost in costs if row.error and cost is not None]
-            bad = [each for each in points if not each[2].keeps(math.inf)]
-            ringed = [each for each in points if (engine, each[2].rtol) == (best.engine, best.rtol)]
+            bad = [point for point in points if not point[2].keeps(math.inf)]
+            ringed = [point for point in points if (engine, point[2].rtol) == (best.engine, best.rtol)]
             style: dict[str, Any] = {"color": colour, "marker": marker, "markersize": 6}
-            for part, more in (
+            for subset, more in (
                 (points, style | {"linewidth": 1.3, "label": engine}),
                 (bad, style | {"linestyle": "", "markerfacecolor": "white"}),
                 (
@@ -107,7 +107,7 @@ def draw(bench: WorkPrecision, error: float, path: str | Path | None = None) -> 
                     {"color": "black", "marker": "o", "markersize": 13, "linestyle": "", "markerfacecolor": "none"},
                 ),
             ):
-                axes.loglog([each[0] for each in part], [each[1] for each in part], **more)
+                axes.loglog([point[0] for point in subset], [point[1] for point in subset], **more)
         axes.set_title(title)
         axes.set_xlabel("largest absolute error of $e_n$")
         axes.grid(True, which="major", linewidth=0.4, color="#CCCCCC")

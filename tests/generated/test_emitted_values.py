@@ -12,13 +12,13 @@ import casadi
 import mpmath
 import pytest
 import sympy as sp
-from wetdoublet.derive.emit.one import structure_text
+from wetdoublet.derive.emit.first_use import structure_text
 from wetdoublet.derive.equations.model import Model, derive
 from wetdoublet.derive.physics.forces import FILM, SHEAR
 from wetdoublet.derive.laws import LAWS
 from wetdoublet.derive.physics.law import Law, LawFunction, fill
 from wetdoublet.derive.physics.scaling import group_definitions
-from wetdoublet.derive.physics.structure import Structure, committed, known, structures
+from wetdoublet.derive.physics.structure import Structure, all_structures, committed, structures
 from wetdoublet.derive.vocabulary.quantities import VOCABULARY
 from wetdoublet.generated import scaling
 from wetdoublet.generated.assemble import Laws, casadi_functions
@@ -47,7 +47,7 @@ RANGES = {
 @cache
 def emitted(name: str) -> ModuleType:
     """An emitted module: of `generated`, or of a structure that is derived when it is first asked for."""
-    if name in {structure.name for structure in set(known()) - set(committed())}:
+    if name in {structure.name for structure in set(all_structures()) - set(committed())}:
         return executed(name, structure_text(name).encode())
     return importlib.import_module(f"wetdoublet.generated.{name}")
 

@@ -14,7 +14,6 @@ from wetdoublet.derive.emit.write import GENERATED, check, emitted
 from wetdoublet.solvers.host.emitted import header, module, text
 from wetdoublet.solvers.host.files import write_all_in
 
-DERIVE = GENERATED.parent / "derive"
 # as committed, which is as emitted by the first test: nothing is derived to collect these tests
 TEXTS = {
     path.relative_to(GENERATED).as_posix(): path.read_text()
@@ -114,6 +113,7 @@ except ImportError:
 """
 
 
+@pytest.mark.slow
 def test_generated_and_solvers_live_without_sympy():
     """Every module of generated and solvers is imported where importing sympy raises (and derive is not)."""
     done = subprocess.run([sys.executable, "-c", _BLOCKED], capture_output=True, text=True, timeout=900, check=False)
@@ -147,17 +147,6 @@ def test_generated_imports_only_casadi_and_the_standard_library():
             assert level > 0 or top == "casadi" or top in sys.stdlib_module_names, (name, source)
 
 
-def test_derive_imports_nothing_downstream():
-    """No module of derive imports solvers, generated, casadi or numpy: the flow has one direction."""
-    sources = sorted(DERIVE.rglob("*.py"))
-    assert len(sources) > 15
-    for path in sources:
-        depth = len(path.relative_to(DERIVE).parts)  # that many dots reach derive itself
-        for level, source in _imports(path.read_text()):
-            top = source.split(".")[0]
-            own = source.startswith("wetdoublet.derive.")  # of a model file of the library
-            assert own or level or top not in {"casadi", "numpy", "wetdoublet"}, (path.name, source)
-            assert level <= depth, (path.name, source)
 
 
 def test_emitted_text_is_timeless_and_placeless():

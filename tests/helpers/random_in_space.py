@@ -63,13 +63,10 @@ def quantities(bodies: Bodies, arrival: Arrival, end: Outcome) -> Numbers:
     centre = plus(arrival.velocities[0], share, arrival.relative)
     velocities = plus(centre, -share, at(y, W)), plus(centre, 1 - share, at(y, W))
     return {
-        "restitution": np.array([end.restitution]),
-        "time": np.array([end.time]),
-        "gap": np.array([y[X]]),
-        "normal": np.array(at(y, N)),
-        "velocities": np.array(velocities[:moving]),
+        "restitution": np.array([end.restitution]), "time": np.array([end.time]), "gap": np.array([y[X]]),
+        "normal": np.array(at(y, N)), "velocities": np.array(velocities[:moving]),
         "spins": np.array([at(y, SPIN), at(y, PARTNER)][:moving]),
-    }
+    }  # fmt: skip
 
 
 def differences(bodies: Bodies, arrival: Arrival, one: Mapping[str, np.ndarray], other: Numbers) -> dict[str, float]:

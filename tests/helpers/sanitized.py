@@ -109,12 +109,9 @@ def enclose_random(preset: str, count: int) -> None:
 def process(what: list[Any], folder: Path) -> subprocess.CompletedProcess[str]:
     """Have a fresh process do it, with the sanitizers and a cache in this folder."""
     environment = os.environ | {
-        "LD_PRELOAD": " ".join(libraries()),
-        "ASAN_OPTIONS": "detect_leaks=0",
-        "UBSAN_OPTIONS": "print_stacktrace=1",
-        "WETDOUBLET_CFLAGS": FLAGS,
-        "WETDOUBLET_CACHE": str(folder),
-    }
+        "LD_PRELOAD": " ".join(libraries()), "ASAN_OPTIONS": "detect_leaks=0", "UBSAN_OPTIONS": "print_stacktrace=1",
+        "WETDOUBLET_CFLAGS": FLAGS, "WETDOUBLET_CACHE": str(folder),
+    }  # fmt: skip
     command = [sys.executable, __file__, json.dumps(what)]
     return subprocess.run(command, capture_output=True, text=True, check=False, env=environment)
 

@@ -242,12 +242,9 @@ def bodies_of(scene: Scene) -> Bodies:
     more = {}
     if bridge is not None:
         more = {
-            "law": str(bridge.law),
-            "tension": bridge.surface_tension,
-            "volume": bridge.volume * (2 * reduced) ** 3,
-            "wetting": bridge.contact_angle,
-            "own_rupture": bridge.rupture == "own",
-        }
+            "law": str(bridge.law), "tension": bridge.surface_tension, "volume": bridge.volume * (2 * reduced) ** 3,
+            "wetting": bridge.contact_angle, "own_rupture": bridge.rupture == "own",
+        }  # fmt: skip
     if particles.youngs_modulus is not None and particles.poisson_ratio is not None:
         more |= {"modulus": particles.youngs_modulus, "poisson": particles.poisson_ratio}
     if liquid.glass_transition_pressure is not None:

@@ -35,19 +35,19 @@ def automaton_module() -> str:
     lines += [f'"""{_DOC}"""', "", "from __future__ import annotations", ""]
     lines += ["from enum import IntEnum", "from math import sqrt", "from typing import Any, NamedTuple", ""]
     lines += [f"CLOSING, OPENING = {automaton.CLOSING}, {automaton.OPENING}", ""]
-    for each in automaton.OUTCOMES:
-        lines.append(f'{each.name} = "{each.word}"  # {each.condition}')
-    lines.append(f"OUTCOMES = ({', '.join(each.name for each in automaton.OUTCOMES)})  # by number")
+    for outcome in automaton.OUTCOMES:
+        lines.append(f'{outcome.name} = "{outcome.word}"  # {outcome.condition}')
+    lines.append(f"OUTCOMES = ({', '.join(outcome.name for outcome in automaton.OUTCOMES)})  # by number")
     lines += ["", *_numbers("EventKind", "Number of an event in a report; KINDS has its word.",
                             [(word.name, word.meaning) for word in automaton.WORDS])]  # fmt: skip
     lines += ["", "KINDS = (", *(f"    {_text(word.word)}," for word in automaton.WORDS), ")"]
     lines += _criteria()
     lines += _numbers("Status", "Status returned by the kernel; up to LAST_ANSWER the outcome is valid.",
-                      [(each.name, each.meaning) for each in automaton.STATUSES])  # fmt: skip
-    last = [each.name for each in automaton.STATUSES if each.answers][-1]
+                      [(status.name, status.meaning) for status in automaton.STATUSES])  # fmt: skip
+    last = [status.name for status in automaton.STATUSES if status.answers][-1]
     lines += ["", "", f"LAST_ANSWER = Status.{last}", ""]
     lines += _numbers("Purpose", "Part of a trajectory that the kernel integrates.",
-                      [(each.name, each.meaning) for each in automaton.PURPOSES])  # fmt: skip
+                      [(purpose.name, purpose.meaning) for purpose in automaton.PURPOSES])  # fmt: skip
     lines += ["", ""]
     for constant in automaton.CONSTANTS:
         lines += [f"{constant.name} = {constant.value!r}  # {constant.meaning}"]
@@ -59,8 +59,8 @@ def _criteria() -> list[str]:
     doc = "A rebound criterion; `derive/equations/automaton.py` explains the fields."
     lines = ["", "", *_named_tuple("Criterion", doc, _CRITERION_FIELDS), "", ""]
     lines += ["CRITERIA = {  # by word, in the order in which they apply on entry"]
-    for each in automaton.CRITERIA:
-        lines += [f'    "{each.word}": Criterion(', *_members(each, _CRITERION_FIELDS), "    ),"]
+    for criterion in automaton.CRITERIA:
+        lines += [f'    "{criterion.word}": Criterion(', *_members(criterion, _CRITERION_FIELDS), "    ),"]
     return [*lines, "}", ""]
 
 
@@ -82,7 +82,7 @@ def _tests() -> list[str]:
     """Functions of the conditions of the rules."""
     lines = []
     for name, meaning, test in (test for rule in automaton.RULES for test in rule.tests):
-        passed = ", ".join(f"{each}: float" for each in automaton.arguments(test))
+        passed = ", ".join(f"{argument}: float" for argument in automaton.arguments(test))
         lines += ["", f"def {name}({passed}) -> bool:", f'    """True if {meaning}."""', f"    return {test}", ""]
     return lines
 
@@ -90,7 +90,7 @@ def _tests() -> list[str]:
 def _events() -> list[str]:
     doc = "An event: its guard and its effect; docs/reference/events.md explains them."
     lines = ["", *_named_tuple("Event", doc, EVENT_FIELDS)]
-    void = {each.name: each.void_without for each in automaton.COMPONENTS if each.void_without}
+    void = {component.name: component.void_without for component in automaton.COMPONENTS if component.void_without}
     ignored = "# Component of the mode -> event; conditions on it are ignored in structures without that event."
     lines += [
         "",
@@ -112,6 +112,6 @@ def _text(value: object) -> str:
     if isinstance(value, str):
         return f'"{value}"'
     if isinstance(value, tuple):
-        inside = ", ".join(_text(each) for each in value)
+        inside = ", ".join(_text(item) for item in value)
         return f"({inside}{',' if len(value) == 1 else ''})"
     return repr(value)

@@ -47,7 +47,7 @@ def law_module(law: Law) -> str:
         if function.kinks:
             body += _kinks(function, arguments, printer)
     doc = f"{law.slot} law `{law.name}`: {law.meaning}.\n\nSource: {law.source}."
-    falls = any(each.falls and each.name in ("force", "log_factor") for each in law.functions)  # with the gap
+    falls = any(formula.falls and formula.name in ("force", "log_factor") for formula in law.functions)  # with the gap
     counts = {function.name: len(function.kinks) for function in law.functions if function.kinks}
     kinks = ["", f"KINKS = {counts}".replace("'", '"'), ""] if counts else []
     body = [*_validity(law), *(["", "FALLS = True", ""] if falls else []), *kinks, *body]
@@ -83,12 +83,12 @@ def _kinks(function: LawFunction, arguments: str, printer: Printer) -> list[str]
 
 def _validity(law: Law) -> list[str]:
     """The constant VALIDITY of a law: quantity to (least, largest), None for no known bound."""
-    known = dict(law.validity)
-    if not known:
+    intervals = dict(law.validity)
+    if not intervals:
         return []
     lines = ["", "VALIDITY: dict[str, tuple[float | None, float | None]] = {"]
     for quantity in RANGES:
-        bounds = ", ".join("None" if x is None else repr(float(x)) for x in known.get(quantity, (None, None)))
+        bounds = ", ".join("None" if x is None else repr(float(x)) for x in intervals.get(quantity, (None, None)))
         lines.append(f'{_INDENT}"{quantity}": ({bounds}),')
     return [*lines, "}", f'VALIDITY_SOURCE = "{law.source}"', ""]
 
@@ -105,7 +105,7 @@ def structure_module(model: Model, additions: Own | None = None, shared: Mapping
         shared: the structure that defines a function, by its text (`shared.homes`); the others import it.
     """
     printer = Printer()
-    functions = [each for each in model.functions if not each.certificate]
+    functions = [formula for formula in model.functions if not formula.certificate]
     body: list[str] = ["", "Values = Mapping[str, Any]", ""]
     for constant, names in (
         ("STATES", [s.name for s in model.states]),
@@ -170,7 +170,7 @@ def function_lines(model: Model, name: str, printer: Printer) -> list[str]:
 
 def scaling_digest() -> str:
     """Digest of the groups and scales."""
-    return digest(*(part for pair in _scaling().items() for part in pair))
+    return digest(*(term for pair in _scaling().items() for term in pair))
 
 
 def _scaling() -> dict[sp.Symbol, sp.Expr]:
@@ -181,8 +181,8 @@ def _scaling() -> dict[sp.Symbol, sp.Expr]:
 
 def scaling_module() -> str:
     """Text of the module with the groups as functions of SI quantities, and the quantities that each takes."""
-    known = {name: (quantity.unit, quantity.meaning) for name, quantity in VOCABULARY.items()}
-    return groups_module(_scaling(), known, scaling_digest(), _GROUPS_DOC)
+    meanings = {name: (quantity.unit, quantity.meaning) for name, quantity in VOCABULARY.items()}
+    return groups_module(_scaling(), meanings, scaling_digest(), _GROUPS_DOC)
 
 
 _GROUPS_DOC = (
@@ -191,12 +191,12 @@ _GROUPS_DOC = (
 )
 
 
-def groups_module(definitions: Mapping[sp.Symbol, sp.Expr], known: Own, source: str, doc: str) -> str:
-    """Text of a module with groups as functions of quantities; `known` maps their names to (unit, meaning)."""
+def groups_module(definitions: Mapping[sp.Symbol, sp.Expr], meanings: Own, source: str, doc: str) -> str:
+    """Text of a module with groups as functions of quantities; `meanings` maps their names to (unit, meaning)."""
     printer = Printer()
     body: list[str] = ["", "ARGUMENTS: dict[str, tuple[str, ...]] = {"]
     arguments = {
-        group.name: tuple(name for name in known if name in {s.name for s in expression.free_symbols})
+        group.name: tuple(name for name in meanings if name in {s.name for s in expression.free_symbols})
         for group, expression in definitions.items()
     }
     for name, wanted in arguments.items():
@@ -205,8 +205,8 @@ def groups_module(definitions: Mapping[sp.Symbol, sp.Expr], known: Own, source: 
     for group, expression in definitions.items():
         names = arguments[group.name]
         body += ["", f"def {group.name}({', '.join(f'{name}: Any' for name in names)}) -> Any:"]
-        units = "\n".join(f"- {name} [{known[name][0]}]: {known[name][1]}" for name in names)
-        unit, meaning = known[group.name]
+        units = "\n".join(f"- {name} [{meanings[name][0]}]: {meanings[name][1]}" for name in names)
+        unit, meaning = meanings[group.name]
         body += _docstring(f"{meaning} [{unit}].\n\n{units}", _INDENT)
         body += [f"{_INDENT}return {printer(expression)}", ""]
     return _module(header(source), doc, ["from typing import Any", "", *_casadi(printer)], body)

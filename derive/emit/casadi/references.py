@@ -15,7 +15,7 @@ _FIELDS = {
 
 def of_law(law: Law) -> dict[str, tuple[Reference, ...]]:
     """Publications of a law, and of the rupture distance that it has."""
-    ruptures = (each.references for each in law.functions if each.name == "rupture_distance")
+    ruptures = (function.references for function in law.functions if function.name == "rupture_distance")
     return {f"{law.slot} {law.name}": law.references} | {f"rupture {law.name}": published for published in ruptures}
 
 
@@ -37,8 +37,8 @@ def references_module() -> str:
     lines += ["from typing import NamedTuple", "", "", "class Reference(NamedTuple):"]
     lines += ['    """An article in a journal."""', "", *(f"    {name}: {kind}" for name, kind in _FIELDS.items())]
     lines += ["", "", "REFERENCES = {"]
-    for one in dict.fromkeys(each for references in uses.values() for each in references):
-        lines += [f'    "{one.key}": Reference(', *(f"        {getattr(one, name)!r}," for name in _FIELDS), "    ),"]
+    for work in dict.fromkeys(entry for references in uses.values() for entry in references):
+        lines += [f'    "{work.key}": Reference(', *(f"        {getattr(work, name)!r}," for name in _FIELDS), "    ),"]
     lines += ["}", "CITED: dict[str, tuple[str, ...]] = {"]
-    lines += [f'    "{use}": {tuple(one.key for one in references)!r},' for use, references in uses.items()]
+    lines += [f'    "{use}": {tuple(work.key for work in references)!r},' for use, references in uses.items()]
     return "\n".join([*lines, "}", ""])

@@ -91,25 +91,25 @@ def document(
 def _of_event(event: OwnEvent, user: UserModel | None) -> Iterator[Equation]:
     """Guard, jump and release of a declared event, in SI."""
     assert user is not None
-    one, group = event.proposed, "Declared events"
-    yield Equation(group, "0", unfolded(one.guard, user.declarations), f"before the event {one.word}", "<")
-    for target, value in one.jump:
-        yield Equation(group, f"{latex(target)}^+", unfolded(value, user.declarations), f"just after {one.word}")
-    if one.releases != 0:
-        yield Equation(group, "W", unfolded(one.releases, user.declarations), f"that {one.word} may give to the motion")
+    rule, group, declarations = event.proposed, "Declared events", user.declarations
+    yield Equation(group, "0", unfolded(rule.guard, declarations), f"before the event {rule.word}", "<")
+    for target, value in rule.jump:
+        yield Equation(group, f"{latex(target)}^+", unfolded(value, declarations), f"just after {rule.word}")
+    if rule.releases != 0:
+        yield Equation(group, "W", unfolded(rule.releases, declarations), f"that {rule.word} may give to the motion")
 
 
 def _events(user: UserModel | None) -> tuple[tuple[str, ...], ...]:
     """Rows on the declared events, which come after the library's where they coincide."""
     events = [event.proposed for event in (user.events if user else ())]
-    effects = [EFFECTS[one.ends] + ("; the motion jumps" if one.jump else "") for one in events]
-    each = zip(events, effects, strict=True)
-    return tuple((one.word, watched(one.row), effect, one.meaning, one.source) for one, effect in each)
+    effects = [EFFECTS[event.ends] + ("; the motion jumps" if event.jump else "") for event in events]
+    rows = zip(events, effects, strict=True)
+    return tuple((event.word, watched(event.row), effect, event.meaning, event.source) for event, effect in rows)
 
 
 def watched(event: Event) -> str:
     """Where an event is watched, in words."""
-    names = {(each.name, value): name for each in COMPONENTS for value, name in each.values}
+    names = {(component.name, value): name for component in COMPONENTS for value, name in component.values}
     return ", ".join(names[condition] for condition in event.where) or "always"
 
 
@@ -132,16 +132,16 @@ def _without(lines: Sequence[Equation], absent: Sequence[str]) -> list[Equation]
     headings = {_ABSENT[slot][0] for slot in absent if slot in _ABSENT}
     nothing = {force: 0 for slot in absent if slot in _ABSENT for force in _ABSENT[slot][1]}
     glass = latex(p_gt) if "glass" in absent else None
-    kept = [line for line in lines if line.group not in headings and line.left != glass]
-    return [replace(line, expression=line.expression.subs(nothing)) if nothing else line for line in kept]
+    selection = [line for line in lines if line.group not in headings and line.left != glass]
+    return [replace(line, expression=line.expression.subs(nothing)) if nothing else line for line in selection]
 
 
 def _quantities(user: UserModel | None) -> tuple[tuple[str, ...], ...]:
     if user is None:
         return ()
     return tuple(
-        (one.name, f"${one.latex}$", one.unit, str(one.default or "-"), one.bounds.text, one.meaning)
-        for one in user.declarations.quantities.values()
+        (entry.name, f"${entry.latex}$", entry.unit, str(entry.default or "-"), entry.bounds.text, entry.meaning)
+        for entry in user.declarations.quantities.values()
     )
 
 

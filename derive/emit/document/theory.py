@@ -68,7 +68,7 @@ def theory(
         _course(laws),
     )
     rubbing = tuple(_friction(laws)) if friction else ()
-    return (*(line for part in parts for line in part), *rubbing, *_groups())
+    return (*(line for section in parts for line in section), *rubbing, *_groups())
 
 
 def _rate(symbol: sp.Symbol) -> str:
@@ -80,13 +80,13 @@ def _motion(laws: Mapping[str, Law], terms: Terms | None) -> Iterator[Equation]:
     masses, forces = dict[sp.Symbol, sp.Expr](), dict[sp.Symbol, sp.Expr]()
     heavier, more = dict.fromkeys(_ADDED, sp.S.Zero), dict.fromkeys(_ADDED, sp.S.Zero)
     for on, parts in terms.parts.items() if terms else ():
-        for symbol, part, named, into in zip(_ADDED[on], parts, (masses, forces), (heavier, more), strict=True):
-            if part != 0:
-                named[symbol] = part
+        for symbol, term, named, into in zip(_ADDED[on], parts, (masses, forces), (heavier, more), strict=True):
+            if term != 0:
+                named[symbol] = term
                 into[on] = symbol
     opened = motion.separation_acceleration.subs({} if "attraction" in laws else {mechanics.F_w: 0})
     radial = sp.collect(sp.expand(q.m * opened), q.omega**2, evaluate=False)
-    balance = sp.Add(*(sp.factor(part) * power if power != 1 else part for power, part in radial.items()))
+    balance = sp.Add(*(sp.factor(term) * power if power != 1 else term for power, term in radial.items()))
     lever = sp.expand(fill(force_laws()[mechanics.arm], laws))
     turning = sp.simplify(mechanics.sphere_inertia() * motion.spin_acceleration).subs(mechanics.arm, lever)
     yield Equation(group, _rate(q.x), q.u, "gap; the paper's $v_n$ is $-u$")
@@ -189,9 +189,9 @@ def _course(laws: Mapping[str, Law]) -> Iterator[Equation]:
     yield Equation(group, rf"{latex(q.xi)}(0)", start[q.xi], "spin before the collision, 0 if none is given")
     yield Equation(group, latex(q.omega0), scaling.initial_rate())
     printed = {"glass": pressure, "elastic": sp.Pow(sp.sqrt(cubed), _TWO_FIFTHS, evaluate=False)}  # as in the paper
-    for number, each in zip(_ROMAN, CRITERIA, strict=False):
-        limit = printed.get(each.word, q.x0 * scaling.group_definitions()[q.VOCABULARY[each.limit].symbol])
-        yield Equation(group, latex(q.x if each.contact else q.p_gt), limit, f"({number}) {each.name}", r"\leq")
+    for number, row in zip(_ROMAN, CRITERIA, strict=False):
+        limit = printed.get(row.word, q.x0 * scaling.group_definitions()[q.VOCABULARY[row.limit].symbol])
+        yield Equation(group, latex(q.x if row.contact else q.p_gt), limit, f"({number}) {row.name}", r"\leq")
         if limit.has(_COMPLIANCE):
             yield Equation(group, latex(_COMPLIANCE), scaling.elastic_compliance())
     after = rebound((q.normal_velocity,))[q.normal_velocity].subs(q.normal_velocity, q.u)

@@ -36,25 +36,25 @@ def refused(structure: Structure) -> str:
 def law_header(law: Law) -> str:
     """The C header of a law: its constants, its recurrences, and its functions of constants."""
     lines = [*comment(header(law_digest(law))), "", *comment(f"{law.slot} law `{law.name}`: {law.meaning}."), ""]
-    for each in law.functions:
-        if each.name == "suction":
+    for entry in law.functions:
+        if entry.name == "suction":
             raise EmissionError("the force has another form while opening")
-        if each.for_proof or each.name == "potential":
+        if entry.for_proof or entry.name == "potential":
             continue
-        name, intermediates = f"{law.slot}_{each.name}", needed([each.result], each.definitions)[0]
-        moving = tuple(a for a, moved in zip(each.arguments, moves(each.arguments), strict=True) if moved)
-        fixed = [argument for argument in each.arguments if argument not in moving]
+        name, intermediates = f"{law.slot}_{entry.name}", needed([entry.result], entry.definitions)[0]
+        moving = tuple(a for a, moved in zip(entry.arguments, moves(entry.arguments), strict=True) if moved)
+        fixed = [argument for argument in entry.arguments if argument not in moving]
         if not moving:
             body = [f"dual {s.name} = {dual(value, lambda symbol: symbol.name)};" for s, value in intermediates]
             head = f"static dual {name}({', '.join(f'dual {argument.name}' for argument in fixed)})"
-            lines += documented(each.doc, head, [*body, f"return {dual(each.result, lambda symbol: symbol.name)};"])
+            lines += documented(entry.doc, head, [*body, f"return {dual(entry.result, lambda symbol: symbol.name)};"])
             continue
-        if (law.slot, each.name) in COMPARED:
-            expression, intermediates, fixed = clearance(each, intermediates, moving)[0], [], [*fixed, LIMIT]
+        if (law.slot, entry.name) in COMPARED:
+            expression, intermediates, fixed = clearance(entry, intermediates, moving)[0], [], [*fixed, LIMIT]
         else:
-            expression = each.result
+            expression = entry.result
         program, result = cheapest(expression, intermediates, moving)
-        lines += _law_function(name, each.doc, program, result, moving, fixed)
+        lines += _law_function(name, entry.doc, program, result, moving, fixed)
     return "\n".join(lines).rstrip() + "\n"
 
 
@@ -73,11 +73,11 @@ def _law_function(
     elif result in given:
         raise EmissionError(f"{name} is its own argument")
     own = [operation.name for operation in program.operations if operation.name != result]
-    members = [f"dual {each};" for each in (*(a.name for a in fixed), *constants.prepared)]
+    members = [f"dual {member};" for member in (*(a.name for a in fixed), *constants.prepared)]
     series = "".join(f", const series *{argument.name}" for argument in moving)
     return [
         *struct(f"{name}_constants", members or ["dual none;"]),
-        *struct(f"{name}_series", [f"series {each};" for each in own] or ["char none;"]),
+        *struct(f"{name}_series", [f"series {entry};" for entry in own] or ["char none;"]),
         *function(
             f"static void {name}_prepare({name}_constants *c{''.join(f', dual {a.name}' for a in fixed)})",
             ["(void)c;", *(f"c->{argument.name} = {argument.name};" for argument in fixed), *constants.assignments()],
@@ -116,7 +116,7 @@ def structure_header(model: Model) -> str:
     for name, rate in results.items():
         source = f"{where(rate)}, NULL" if isinstance(rate, str) else f"NULL, &{constants.name(rate)}"
         flow.append(f"s_advance({places[name]}, {source}, k);")
-    calls = {each.name: each.call for each in program.operations if each.kind == "call"}
+    calls = {operation.name: operation.call for operation in program.operations if operation.kind == "call"}
     prepare = []
     for name, (slot, call, arguments) in calls.items():
         still = "".join(f", {constants.name(a)}" for a in arguments if not isinstance(a, str))
@@ -129,7 +129,7 @@ def structure_header(model: Model) -> str:
     lines += ['#include "series.h"', ""]
     values = _values(model, constants)
     members = [
-        f"dual {each};" for each in (*(g.name for g in model.groups), FILM.name, SHEAR.name, *constants.prepared)
+        f"dual {member};" for member in (*(g.name for g in model.groups), FILM.name, SHEAR.name, *constants.prepared)
     ]
     members += [f"{slot}_{call}_constants {name}_constants;" for name, (slot, call, _) in calls.items()]
     lines += struct("constants", [*members, "glass_pressure_constants glass;"])
@@ -139,7 +139,7 @@ def structure_header(model: Model) -> str:
         "static void prepare(constants *c)",
         [*constants.assignments(), *prepare],
     )
-    series = [f"series {each.name};" for each in program.operations]
+    series = [f"series {operation.name};" for operation in program.operations]
     series += [f"{slot}_{call}_series {name}_parts;" for name, (slot, call, _) in calls.items()]
     lines += struct(
         "flow", ["series state[STATES];", *series, "series approach, clearance;", "glass_pressure_series glass;"]
@@ -165,10 +165,10 @@ def _scale(model: Model) -> list[str]:
     expressions = group_expressions(model, {})
     symbols = group_quantities(expressions)
     places = {symbol: f"q[SI_{symbol.name.upper()}]" for symbol in symbols}
-    known = {group for group, expression in expressions.items() if group != expression}
+    members = {group for group, expression in expressions.items() if group != expression}
 
     def name(symbol: sp.Symbol) -> str:
-        return f"c->{symbol.name}" if symbol in known else places[symbol]
+        return f"c->{symbol.name}" if symbol in members else places[symbol]
 
     body = []
     for group, expression in expressions.items():
@@ -196,7 +196,7 @@ def _over_larger(ratio: sp.Expr, groups: Mapping[sp.Symbol, sp.Expr]) -> sp.Expr
     largest = groups.get(under, under)
     if not (isinstance(largest, sp.Max) and over in largest.args):
         return ratio
-    return 1 / sp.Max(*(each / over for each in largest.args))
+    return 1 / sp.Max(*(size / over for size in largest.args))
 
 
 def _values(model: Model, constants: Constants) -> list[str]:
@@ -243,8 +243,8 @@ def _value(
 ) -> list[str]:
     """A C function of the states `y`, by C text of each target, or "return"; `further` definitions are its own."""
     places = {state: f"y[{state.name.upper()}]" for state in model.states}
-    known = needed(list(wanted.values()), (*model.definitions, *further))[0]
-    definitions = [each for each in known if each[0] not in constants]
+    intermediates = needed(list(wanted.values()), (*model.definitions, *further))[0]
+    definitions = [definition for definition in intermediates if definition[0] not in constants]
     local = {symbol: symbol.name for symbol, _ in definitions}
 
     def name(symbol: sp.Symbol) -> str:

@@ -31,11 +31,11 @@ def dual(node: sp.Basic, names: Callable[[sp.Symbol], str]) -> str:
         EmissionError: a function that is not enclosed, or a number that is not an exact rational.
     """
 
-    def text(part: sp.Basic) -> str:
-        return dual(part, names)
+    def text(argument: sp.Basic) -> str:
+        return dual(argument, names)
 
     def folded(operation: str, parts: Iterable[sp.Basic]) -> str:
-        first, *others = (text(part) for part in parts)
+        first, *others = (text(argument) for argument in parts)
         for other in others:
             first = f"{operation}({first}, {other})"
         return first
@@ -115,30 +115,30 @@ def recurrences(program: Program, constants: Constants, where: Callable[[str], s
     """
     constants.named(program)
     lines = []
-    for each in program.operations:
-        target, parts = where(each.name), [where(part) for part in each.series]
-        if each.kind == "linear" and len(parts) == 1 and each.factors[1] == 0:
-            lines.append(f"s_scaled({target}, {parts[0]}, &{constants.name(each.factors[0])}, k);")
-        elif each.kind == "linear":
-            factors = ", ".join(f"&{constants.name(factor)}" for factor in each.factors[:-1])
-            offset = f"&{constants.name(each.factors[-1])}" if each.factors[-1] != 0 else "NULL"
+    for step in program.operations:
+        target, parts = where(step.name), [where(name) for name in step.series]
+        if step.kind == "linear" and len(parts) == 1 and step.factors[1] == 0:
+            lines.append(f"s_scaled({target}, {parts[0]}, &{constants.name(step.factors[0])}, k);")
+        elif step.kind == "linear":
+            factors = ", ".join(f"&{constants.name(factor)}" for factor in step.factors[:-1])
+            offset = f"&{constants.name(step.factors[-1])}" if step.factors[-1] != 0 else "NULL"
             lines.append(
                 f"s_linear({target}, {len(parts)}, (const series *[]){{{', '.join(parts)}}}, "
                 f"(const dual *[]){{{factors}}}, {offset}, k);"
             )
-        elif each.kind == "product":
-            factor = "NULL" if each.factors[0] == 1 else f"&{constants.name(each.factors[0])}"
+        elif step.kind == "product":
+            factor = "NULL" if step.factors[0] == 1 else f"&{constants.name(step.factors[0])}"
             lines.append(f"s_product({target}, {parts[0]}, {parts[1]}, {factor}, k);")
-        elif each.kind == "sine":
-            lines.append(f"s_circular({target}, {where(f'cosine_of_{each.series[0]}')}, {parts[0]}, k);")
-        elif each.kind == "call":
-            slot, function, arguments = each.call
+        elif step.kind == "sine":
+            lines.append(f"s_circular({target}, {where(f'cosine_of_{step.series[0]}')}, {parts[0]}, k);")
+        elif step.kind == "call":
+            slot, function, arguments = step.call
             passed = "".join(f", {where(a)}" for a in arguments if isinstance(a, str))
             lines.append(
-                f"{slot}_{function}_next(&s->{each.name}_parts, {target}, &c->{each.name}_constants{passed}, k);"
+                f"{slot}_{function}_next(&s->{step.name}_parts, {target}, &c->{step.name}_constants{passed}, k);"
             )
-        elif each.kind in _PLAIN:
-            lines.append(f"{_PLAIN[each.kind]}({', '.join([target, *parts])}, k);")
-        elif each.kind != "cosine":  # comes with its sine
-            raise EmissionError(f"no recurrence over intervals for {each.kind}")
+        elif step.kind in _PLAIN:
+            lines.append(f"{_PLAIN[step.kind]}({', '.join([target, *parts])}, k);")
+        elif step.kind != "cosine":  # comes with its sine
+            raise EmissionError(f"no recurrence over intervals for {step.kind}")
     return lines

@@ -44,8 +44,8 @@ class Adjoint:
     @property
     def cost(self) -> float:
         """Products of series of a step backwards, without those of the flow and of the laws."""
-        calls = sum(len(each.series) for each in self._operations if each.kind == "call")
-        return calls + sum(TRANSPOSED.get(each.kind, 0.0) for each in self._operations)
+        calls = sum(len(operation.series) for operation in self._operations if operation.kind == "call")
+        return calls + sum(TRANSPOSED.get(operation.kind, 0.0) for operation in self._operations)
 
     def lines(self) -> list[str]:
         """The emitted declarations and functions."""
@@ -66,17 +66,17 @@ class Adjoint:
     def _contributing(self) -> list[Operation]:
         """Operations that the rates of the states depend on, in order."""
         wanted = {rate for rate in self._rates.values() if isinstance(rate, str)}
-        kept = []
+        selection = []
         for operation in reversed(self._header.flow.operations):
             if operation.kind == "sine" and f"cosine_of_{operation.series[0]}" in wanted:
                 wanted.add(operation.name)
             if operation.name in wanted:
-                kept.append(operation)
+                selection.append(operation)
                 wanted.update(operation.series)
-        return kept[::-1]
+        return selection[::-1]
 
     def _law_slopes(self) -> list[str]:
-        calls = [(each.name, *each.call) for each in self._operations if each.kind == "call"]
+        calls = [(operation.name, *operation.call) for operation in self._operations if operation.kind == "call"]
         prepare, expand = ["(void)c; (void)v;"], ["(void)s; (void)c; (void)of; (void)v;"]
         for name, slot, call, arguments in calls:
             passed = "".join(f", {self._array(a)}" for a in arguments if isinstance(a, str))
@@ -165,11 +165,11 @@ class Adjoint:
             return lines + self._call(operation)
         if kind in ("sqrt", "log", "power"):
             return self._divided(operation, total)
-        part = operation.series[0]
+        operand = operation.series[0]
         factors = {  # the series that a change is correlated with, and what of it goes to the operand
-            "square": (part, f"2.0*by_{name}"),
-            "sine": (f"cosine_of_{part}", f"by_{name}"),
-            "cosine": (f"sine_of_{part}", f"(-by_{name})"),
+            "square": (operand, f"2.0*by_{name}"),
+            "sine": (f"cosine_of_{operand}", f"by_{name}"),
+            "cosine": (f"sine_of_{operand}", f"(-by_{name})"),
             "exp": (name, f"by_{name}"),
             "arctangent": (operation.series[-1], f"by_{name}"),
             "reciprocal": (name, f"(-by_{name})"),
@@ -181,13 +181,13 @@ class Adjoint:
             self._arrays.append(f"once_{name}")
             lines.append(f"bar->once_{name}[k] = {self._correlated(self._array(name), adjoint)};")
             adjoint = f"bar->once_{name}"
-        self._pull(part, term)
+        self._pull(operand, term)
         return [*lines, f"vec by_{name} = {self._correlated(self._array(beside), adjoint)};"]
 
     def _divided(self, operation: Operation, total: str) -> list[str]:
         """Of a root, a logarithm or a power: a change of its operand over a series, 2 q, a, or a/(r q)."""
-        name, (part,) = operation.name, operation.series
-        adjoint, lines, under, twice = f"bar->{name}", list[str](), part, ""
+        name, (operand,) = operation.name, operation.series
+        adjoint, lines, under, twice = f"bar->{name}", list[str](), operand, ""
         if operation.kind == "sqrt":
             under, twice = name, "2.0*"
         if operation.kind == "power":
@@ -198,16 +198,16 @@ class Adjoint:
             whole = self._correlated(self._array(name), f"bar->once_{name}")
             total = f"{self._flow.factors[name][0]}*{whole}"
         beyond = self._correlated(self._array(under), adjoint, "beyond")
-        self._pull(part, f"{adjoint}[k]")
+        self._pull(operand, f"{adjoint}[k]")
         return [*lines, f"{adjoint}[k] = ({total} - {twice}{beyond})*of->over_{name};"]
 
     def _linear(self, operation: Operation, total: str) -> list[str]:
         weight = f"by_{operation.name}"
         lines = [f"vec {weight} = {total};"]
         texts = self._flow.factors[operation.name]
-        for part, factor, text in zip(operation.series, operation.factors, texts, strict=False):
-            self._pull(part, _scaled(text, weight))
-            lines += self._accumulate(factor, f"{self._array(part)}[k]*{weight}")
+        for operand, factor, text in zip(operation.series, operation.factors, texts, strict=False):
+            self._pull(operand, _scaled(text, weight))
+            lines += self._accumulate(factor, f"{self._array(operand)}[k]*{weight}")
         return lines + self._accumulate(operation.factors[-1], weight, first=True)
 
     def _product(self, operation: Operation) -> list[str]:
@@ -215,9 +215,9 @@ class Adjoint:
         text = self._flow.factors[name][0]
         first, second = operation.series
         lines = []
-        for part, other in ((first, second), (second, first)):
-            lines.append(f"vec {part}_by_{name} = {self._correlated(self._array(other), adjoint)};")
-            self._pull(part, _scaled(text, f"{part}_by_{name}"))
+        for operand, other in ((first, second), (second, first)):
+            lines.append(f"vec {operand}_by_{name} = {self._correlated(self._array(other), adjoint)};")
+            self._pull(operand, _scaled(text, f"{operand}_by_{name}"))
         return lines + self._accumulate(operation.factors[0], f"{self._array(first)}[k]*{first}_by_{name}")
 
     def _call(self, operation: Operation) -> list[str]:
@@ -279,10 +279,10 @@ def contraction(tangent: LinearFlow) -> list[str]:
         while constants.keys() & slopes[place].free_symbols:
             slopes[place] = slope = slope.xreplace(constants)
     # the slope of a law that depends on a rate is only available in the tangent
-    known = [slope for slope in slopes if not any(symbol.name in tangent.slopes for symbol in slope.free_symbols)]
-    trace = sp.Add(*known)
+    terms = [slope for slope in slopes if not any(symbol.name in tangent.slopes for symbol in slope.free_symbols)]
+    trace = sp.Add(*terms)
     calls = {node: tangent.header.flow.series(node) for node in slot_calls(trace)}
-    shown = {node: sp.Symbol(f"{name}.result", real=True) for node, name in calls.items()}
+    results = {node: sp.Symbol(f"{name}.result", real=True) for node, name in calls.items()}
     moving = {f"{name}.result" for name in calls.values()} | tangent.flow
 
     def name(symbol: sp.Symbol) -> str:
@@ -290,7 +290,7 @@ def contraction(tangent: LinearFlow) -> list[str]:
 
     body = [
         "(void)of; (void)v; (void)film; (void)shear;",
-        f"return {Text(name).vector(sp.factor_terms(-trace.xreplace(shown)))};",
+        f"return {Text(name).vector(sp.factor_terms(-trace.xreplace(results)))};",
     ]
     head = "static inline vec contraction(const series *of, const constants *v, vec film, vec shear)"
     doc = "Contraction rate of a volume of states at the start of a step, dominated by the fast modes."

@@ -46,13 +46,13 @@ def automaton_header(provenance: str, user_events: Sequence[Event] = (), meaning
     words += [(own_kind(event), meaning) for event, meaning in zip(user_events, meanings, strict=True)]
     lines += _described(words)
     lines += ["", *comment("How a collision ends.")]
-    lines += _described((each.name, each.condition) for each in automaton.OUTCOMES)
-    last = [each.name for each in automaton.STATUSES if each.answers][-1]
+    lines += _described((outcome.name, outcome.condition) for outcome in automaton.OUTCOMES)
+    last = [status.name for status in automaton.STATUSES if status.answers][-1]
     lines += ["", *comment(f"What is said of a collision; up to {last} the outcome stands.")]
-    lines += _described((each.name, each.meaning) for each in automaton.STATUSES)
+    lines += _described((status.name, status.meaning) for status in automaton.STATUSES)
     lines += [f"enum {{ LAST_ANSWER = {last} }};"]
     lines += ["", *comment("What a collision is integrated for.")]
-    lines += _described((each.name, each.meaning) for each in automaton.PURPOSES)
+    lines += _described((purpose.name, purpose.meaning) for purpose in automaton.PURPOSES)
     lines.append("")
     for constant in automaton.CONSTANTS:
         if isinstance(constant.value, int):
@@ -61,7 +61,7 @@ def automaton_header(provenance: str, user_events: Sequence[Event] = (), meaning
             lines.append(f"static const double {constant.name} = {constant.value!r}; /* {constant.meaning} */")
     for rule in automaton.RULES:
         for name, meaning, test in rule.tests:
-            passed = ", ".join(f"double {each}" for each in automaton.arguments(test))
+            passed = ", ".join(f"double {argument}" for argument in automaton.arguments(test))
             test = test.replace(" and ", " && ").replace(" or ", " || ").replace("abs(", "fabs(")
             lines += ["", *comment(f"Whether {meaning}.")]
             lines += function(f"static inline int {name}({passed})", [f"return {test};"])
@@ -73,13 +73,13 @@ def proofs_header() -> str:
     proofs = [proof for row in CERTIFICATES for proof in row.proofs]
     origin = f"{PROVENANCE}\nStick certificates sha256 {digest(*proofs)}"
     lines = comment(f"{origin}\n\nInequalities of stick certificates. Included where `vec` and `mask` are known.")
-    for each in proofs:
+    for inequality in proofs:
         passed = ", ".join(
-            f"{'double' if name == 'margin' else 'vec'} {name}" for name in automaton.arguments(each.test)
+            f"{'double' if name == 'margin' else 'vec'} {name}" for name in automaton.arguments(inequality.test)
         )
-        body = [f"return {_in_lanes(ast.parse(each.test, mode='eval').body)};"]
-        lines += ["", *comment(f"Lanes in which {each.meaning}.")]
-        lines += function(f"static inline mask {each.name}({passed})", body)
+        body = [f"return {_in_lanes(ast.parse(inequality.test, mode='eval').body)};"]
+        lines += ["", *comment(f"Lanes in which {inequality.meaning}.")]
+        lines += function(f"static inline mask {inequality.name}({passed})", body)
     return "\n".join(lines) + "\n"
 
 
@@ -92,8 +92,8 @@ def _in_lanes(node: ast.expr) -> str:
 
 def criteria_header(provenance: str) -> str:
     """Text of `generated/taylor/criteria.h`: the contact gaps as functions of a collision's constants."""
-    groups = [f"c->{each.limit}" for each in automaton.CONTACTS]
-    kinds = [_KIND[each.word] for each in automaton.CONTACTS]
+    groups = [f"c->{criterion.limit}" for criterion in automaton.CONTACTS]
+    kinds = [_KIND[criterion.word] for criterion in automaton.CONTACTS]
     *first, last = zip(groups, kinds, automaton.CONTACTS, strict=True)
     lines = comment(f"{provenance}\n\nRebound criteria that are met at a gap. Included where `constants` is known.")
     lines += ["", *comment("The gap at which the solids meet: the largest at which a criterion is met.")]
@@ -136,8 +136,8 @@ def criteria_header(provenance: str) -> str:
     )
     lines += ["", "#if GRADIENTS", *comment("Lanes whose contact gap is this group.")]
     body = ["vec contact = contact_gap(c);", "mask before = splat_mask(0);"]
-    for group, _, each in first:
-        body += [f"if (group == BY_{each.limit.upper()})", f"    return ({group} == contact) & NOT(before);"]
+    for group, _, criterion in first:
+        body += [f"if (group == BY_{criterion.limit.upper()})", f"    return ({group} == contact) & NOT(before);"]
         body.append(f"before |= {group} == contact;")
     body.append(f"return group == BY_{last[2].limit.upper()} ? NOT(before) : splat_mask(0);")
     lines += function("static inline mask contact_moves_with(const constants *c, int group)", body)

@@ -294,22 +294,22 @@ class Recurrences:
 
     def _line(self, operation: Operation) -> str:
         name, kind = operation.name, operation.kind
-        series = [self.array(part) for part in operation.series]
+        series = [self.array(operand) for operand in operation.series]
         factors = self.factors[name]
         place = self._place(name)
         whole = f"{place}{name}"
         target = f"{whole}[{'PASSING(k)' if name in self._passing else 'k'}]"
         if kind == "linear":
-            terms = _terms(factors[:-1], [self.coefficient(part) for part in operation.series])
+            terms = _terms(factors[:-1], [self.coefficient(operand) for operand in operation.series])
             offset = factors[-1]
             if offset == "0.0":
                 return f"{target} = {terms};"
             return f"{target} = k == 0 ? {terms} + {offset} : {terms};"
         if kind == "product":
             ages = {
-                each.name: age for age, each in enumerate(self.program.operations)
+                op.name: age for age, op in enumerate(self.program.operations)
             }  # series that the program does not compute come first
-            older, newer = (self.array(part) for part in sorted(operation.series, key=lambda part: ages.get(part, -1)))
+            older, newer = (self.array(term) for term in sorted(operation.series, key=lambda term: ages.get(term, -1)))
             return f"{target} = {_times(factors[0])}product({older}, {newer}, k);"
         if kind in _RECURRENCES:
             inner = f"{place}slope_of_{operation.series[0]}"
@@ -335,12 +335,12 @@ class Recurrences:
             results: the names that are used; the value of a cosine needed only by the recurrence of its sine is left
                 out.
         """
-        read = {*results, *(part for op in self.program.operations for part in op.series)}
+        read = {*results, *(name for op in self.program.operations for name in op.series)}
         return [f"vec {op.name} = {self._value(op)};" for op in self.program.operations if op.name in read]
 
     def _value(self, operation: Operation) -> str:
         kind, factors = operation.kind, self.factors[operation.name]
-        series = [part if part in self._own else self._where(part) for part in operation.series]
+        series = [name if name in self._own else self._where(name) for name in operation.series]
         if kind == "linear":
             terms = _terms(factors[:-1], series)
             return terms if factors[-1] == "0.0" else f"{terms} + {factors[-1]}"
@@ -358,9 +358,9 @@ def _times(factor: str) -> str:
 
 def _terms(factors: list[str], series: list[str]) -> str:
     text = ""
-    for factor, part in sorted(zip(factors, series, strict=True), key=lambda pair: pair[0].startswith("(-")):
+    for factor, name in sorted(zip(factors, series, strict=True), key=lambda pair: pair[0].startswith("(-")):
         negative = factor.startswith("(-")
         bare = factor[2:-1] if negative else factor
-        body = part if bare == "1.0" else f"{bare}*{part}"
+        body = name if bare == "1.0" else f"{bare}*{name}"
         text += (" - " if negative else " + ") + body if text else ("-" if negative else "") + body
     return text

@@ -29,18 +29,18 @@ def margins(model: Model, constants: Constants, prepared: Mapping[tuple[str, str
     lines = []
     moving = {state: f"y[{state.name.upper()}]" for state in model.states}
     for row in CERTIFICATES:
-        functions = [each for each in model.functions if each.certificate == row.name]
+        functions = [entry for entry in model.functions if entry.certificate == row.name]
         if not functions:
             continue
         body: list[str] = []
         required = set(row.premises(model.structure))
-        for each in functions:
-            definitions, _ = needed(list(each.by_name.values()), model.definitions)
-            calls = [slot_calls(sp.sympify(value)) for _, value in (*definitions, *each.outputs)]
+        for entry in functions:
+            definitions, _ = needed(list(entry.by_name.values()), model.definitions)
+            calls = [slot_calls(sp.sympify(value)) for _, value in (*definitions, *entry.outputs)]
             names = {tuple(call.func.__name__.split(".")) for several in calls for call in several}
             optional = {name for name in names - prepared.keys() if any(moves(places()[".".join(name)].arguments))}
             required |= {"_".join(name).upper() for name in optional}
-            body += margin_function(each.name, each.doc, definitions, each.by_name, moving, constants, prepared)
+            body += margin_function(entry.name, entry.doc, definitions, entry.by_name, moving, constants, prepared)
         holds = ["MIDGAP_ARM"] * ("arm" in model.slots) + ["LIBRARY_LAWS"] * row.library_only
         condition, macro = " && ".join(f"defined({name})" for name in sorted(required)), f"{row.name.upper()}_MARGINS"
         body = [f"#define {macro} ({' && '.join(holds) or 1})", *body, ""]

@@ -36,13 +36,13 @@ class Chain:
         """Derivative of `expression` by `variable`, with all other states and groups held."""
         calls = {node: sp.Dummy(positive=True) for node in slot_calls(expression)}
         hidden = expression.xreplace(calls)
-        shown = {dummy: node for node, dummy in calls.items()}
+        nodes = {dummy: node for node, dummy in calls.items()}
         total = sp.diff(hidden, variable)
         for symbol in sorted(hidden.free_symbols & self._definitions.keys(), key=str):
             total += sp.diff(hidden, symbol) * self._of(symbol, variable)
         for node, dummy in calls.items():
             total += sp.diff(hidden, dummy) * self._of_call(node, variable)
-        return _expanded(total).xreplace(shown)
+        return _expanded(total).xreplace(nodes)
 
     def _of(self, symbol: sp.Symbol, variable: sp.Symbol) -> sp.Expr:
         key = symbol, variable
@@ -65,8 +65,8 @@ class Chain:
 
     def _name(self, derivative: sp.Expr, name: str) -> sp.Expr:
         """A derivative under its own name if it is a sum or a product of varying factors; quotients are cancelled."""
-        moving = [part for part in sp.Mul.make_args(derivative) if part.free_symbols - set(self._constant)]
-        several = len(moving) > 1 and not any(part.is_Pow and part.exp.is_negative for part in moving)
+        moving = [factor for factor in sp.Mul.make_args(derivative) if factor.free_symbols - set(self._constant)]
+        several = len(moving) > 1 and not any(factor.is_Pow and factor.exp.is_negative for factor in moving)
         if not (isinstance(derivative, sp.Add) or several):
             return derivative
         symbol = sp.Symbol(name, real=True)
@@ -84,8 +84,8 @@ class Chain:
             inner = self.by(base, variable)
             if inner == 0:
                 continue
-            kept = base.is_Symbol and base.is_positive and (power != 1 or base in self._constant)
-            whole = symbol / base if kept else value / base
+            positive = base.is_Symbol and base.is_positive and (power != 1 or base in self._constant)
+            whole = symbol / base if positive else value / base
             total += power * whole * inner
         return _expanded(total)
 

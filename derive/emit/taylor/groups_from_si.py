@@ -52,14 +52,14 @@ def group_expressions(model: Model, user_groups: Mapping[sp.Symbol, sp.Expr]) ->
 
 def _place(constants: str, expressions: Mapping[sp.Symbol, sp.Expr]) -> Callable[[sp.Symbol], str]:
     """The C text of a symbol: a group that has a formula, or a quantity in SI."""
-    known = {group for group, expression in expressions.items() if group != expression}
-    return lambda symbol: f"{constants}->{symbol.name}" if symbol in known else f"q[SI_{symbol.name.upper()}]"
+    members = {group for group, expression in expressions.items() if group != expression}
+    return lambda symbol: f"{constants}->{symbol.name}" if symbol in members else f"q[SI_{symbol.name.upper()}]"
 
 
 def group_quantities(expressions: Mapping[sp.Symbol, sp.Expr]) -> list[sp.Symbol]:
     """The quantities in groups: those of the vocabulary in its order, then those declared by a user."""
     used = set().union(*(expression.free_symbols for expression in expressions.values())) - {q.obliquity}
-    result = [one.symbol for one in q.VOCABULARY.values() if one.symbol in used]
+    result = [quantity.symbol for quantity in q.VOCABULARY.values() if quantity.symbol in used]
     return result + sorted(used - set(result), key=lambda symbol: str(symbol.name))
 
 

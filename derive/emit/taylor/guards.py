@@ -202,7 +202,7 @@ def _derivatives() -> list[str]:
 
 def _film() -> list[str]:
     """The lanes inside the film and beyond it; all lanes in structures in which conditions on the film are void."""
-    (void,) = (each.void_without for each in COMPONENTS if each.name == "film")
+    (void,) = (component.void_without for component in COMPONENTS if component.name == "film")
     (edge,) = (event for event in EVENTS if event.name == void)
     inside, beyond = (
         "const mask inside = l->film != 0.0, beyond = NOT(inside);",
@@ -213,7 +213,7 @@ def _film() -> list[str]:
 
 def _structures(event: Event) -> str:
     """The condition of the preprocessor for the structures that have an event."""
-    return " && ".join(each.upper().replace("NOT ", "!") for each in event.structures)
+    return " && ".join(feature.upper().replace("NOT ", "!") for feature in event.structures)
 
 
 def _present(event: Event, lines: list[str]) -> list[str]:
@@ -246,6 +246,6 @@ def check_differentiable(model: Model) -> None:
     """Raise EmissionError if a structure has an event that goes on and whose derivative the kernel does not take."""
     for event in EVENTS:
         rests = ("resting", 1) in event.where  # resting contact is a boundary, where no derivative exists
-        known = rests or event.ends or set(event.series) <= set(_DIFFERENTIATED)
-        if not known and model.structure.has(*event.structures):
+        derivable = rests or event.ends or set(event.series) <= set(_DIFFERENTIATED)
+        if not derivable and model.structure.has(*event.structures):
             raise EmissionError(f"the event {event.name} has no derivatives in C")

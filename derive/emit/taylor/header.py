@@ -290,9 +290,9 @@ class Header:
         total = [("energy", sp.Add(*escape.by_name.values()))]
         head = "static inline vec stored_energy(const constants *c, const vec *y)"
         lines += self._valued(total, head, {"energy": "return"}, escape.doc + " Their sum.")
-        shown = {key: f"shown[{position}]" for position, key in enumerate(model["outputs"].by_name)}
-        lines.append(f"enum {{ OUTPUTS = {len(shown)} }};")
-        lines += self._vector("outputs", "shown", shown)
+        outputs = {key: f"shown[{position}]" for position, key in enumerate(model["outputs"].by_name)}
+        lines.append(f"enum {{ OUTPUTS = {len(outputs)} }};")
+        lines += self._vector("outputs", "shown", outputs)
         if "effective_potential" in model:
             lines += ["#define POTENTIAL 1"]
             for key in ("energy", "slope"):

@@ -32,43 +32,43 @@ def law_header(law: Law, groups: AbstractSet[sp.Symbol] = frozenset()) -> str:
     """The C header of a law; `groups` are a user's."""
     lines = comment(header(law_digest(law)))
     lines += ["", *comment(f"{law.slot} law `{law.name}`: {law.meaning}.\n\nSource: {law.source}."), ""]
-    for each in law.functions:
-        if each.name == "suction":
+    for formula in law.functions:
+        if formula.name == "suction":
             lines += ["#define FILM_CAVITATES 1 /* no force while opening */", ""]
-        elif each.for_proof:
-            name = f"{law.slot}_{each.name}"
-            lines += [f"#define {name.upper()} 1", *_plain(name, each)]
-        elif each.name != "potential":  # serves `_closed_integral` only
-            lines += _function(law, each, moves(each.arguments, groups))
+        elif formula.for_proof:
+            name = f"{law.slot}_{formula.name}"
+            lines += [f"#define {name.upper()} 1", *_plain(name, formula)]
+        elif formula.name != "potential":  # serves `_closed_integral` only
+            lines += _function(law, formula, moves(formula.arguments, groups))
     return "\n".join(lines).rstrip() + "\n"
 
 
-def _plain(name: str, each: LawFunction) -> list[str]:
+def _plain(name: str, formula: LawFunction) -> list[str]:
     """A C function of values, without series: constant along a trajectory, or called by a stick certificate only."""
     text = Text(lambda symbol: symbol.name)
-    intermediates, used = needed([each.result], each.definitions)
-    body = [f"(void){argument.name};" for argument in each.arguments if argument not in used]
+    intermediates, used = needed([formula.result], formula.definitions)
+    body = [f"(void){argument.name};" for argument in formula.arguments if argument not in used]
     body += [f"vec {symbol.name} = {text.vector(value)};" for symbol, value in intermediates]
-    arguments = ", ".join(f"vec {argument.name}" for argument in each.arguments) or "void"
+    arguments = ", ".join(f"vec {argument.name}" for argument in formula.arguments) or "void"
     head = f"static inline vec {name}({arguments})"
-    return documented(each.doc, head, [*body, f"return {text.vector(each.result)};"])
+    return documented(formula.doc, head, [*body, f"return {text.vector(formula.result)};"])
 
 
-def _function(law: Law, each: LawFunction, series: tuple[bool, ...]) -> list[str]:
-    moving = tuple(argument for argument, moved in zip(each.arguments, series, strict=True) if moved)
-    fixed = tuple(argument for argument in each.arguments if argument not in moving)
-    name = f"{law.slot}_{each.name}"
-    intermediates, _ = needed([each.result, *(kink for kink, _ in each.kinks)], each.definitions)
+def _function(law: Law, formula: LawFunction, series: tuple[bool, ...]) -> list[str]:
+    moving = tuple(argument for argument, moved in zip(formula.arguments, series, strict=True) if moved)
+    fixed = tuple(argument for argument in formula.arguments if argument not in moving)
+    name = f"{law.slot}_{formula.name}"
+    intermediates, _ = needed([formula.result, *(kink for kink, _ in formula.kinks)], formula.definitions)
     if not moving:
-        return _plain(name, each)
-    if (law.slot, each.name) in COMPARED:
-        return _clearance(name, each, intermediates, moving, fixed)
-    program, result = cheapest(each.result, intermediates, moving)
+        return _plain(name, formula)
+    if (law.slot, formula.name) in COMPARED:
+        return _clearance(name, formula, intermediates, moving, fixed)
+    program, result = cheapest(formula.result, intermediates, moving)
     constants = Constants({argument: f"c->{argument.name}" for argument in fixed})
-    lines = _recurrences(name, each.doc, program, result, constants, moving, [kink for kink, _ in each.kinks])
-    if each.falls:
+    lines = _recurrences(name, formula.doc, program, result, constants, moving, [kink for kink, _ in formula.kinks])
+    if formula.falls:
         lines += [f"#define {name.upper()}_FALLS 1 /* never increases with its first argument */", ""]
-    integral = _closed_integral(law, each, intermediates, moving, constants)
+    integral = _closed_integral(law, formula, intermediates, moving, constants)
     if integral is not None:
         lines += work_lines(name, integral, constants, moving[0])
     # later lines may hoist more constants, so the struct is written last
@@ -129,22 +129,22 @@ def _recurrences(
 
 
 def _closed_integral(
-    law: Law, each: LawFunction, intermediates: list[Definition], moving: tuple[sp.Symbol, ...], constants: Constants
+    law: Law, formula: LawFunction, intermediates: list[Definition], moving: tuple[sp.Symbol, ...], constants: Constants
 ) -> sp.Expr | None:
     """Antiderivative of a force (its work) or of the film's resistance (momentum taken), in closed form.
 
     It is the law's potential or follows by rules, else None; constants that it needs are added to `constants`.
     """
-    if each.name not in ("force", "resistance") or len(moving) != 1:
+    if formula.name not in ("force", "resistance") or len(moving) != 1:
         return None
     for other in law.functions:
-        if (other.name, other.arguments) == ("potential", each.arguments):
+        if (other.name, other.arguments) == ("potential", formula.arguments):
             potential = other(*other.arguments)
-            if sp.simplify(potential.diff(moving[0]) - each(*each.arguments)) == 0:
+            if sp.simplify(potential.diff(moving[0]) - formula(*formula.arguments)) == 0:
                 return potential
-    if each.kinks:  # no rule has them
+    if formula.kinks:  # no rule has them
         return None
-    force, change = each.result, {moving[0]}  # what changes with the gap, directly or by another intermediate
+    force, change = formula.result, {moving[0]}  # what changes with the gap, directly or by another intermediate
     for symbol, value in intermediates:
         if value.free_symbols & change:
             change.add(symbol)
@@ -168,7 +168,7 @@ def work_lines(name: str, integral: sp.Expr, constants: Constants, moving: sp.Sy
 
 def _clearance(
     name: str,
-    each: LawFunction,
+    formula: LawFunction,
     intermediates: list[Definition],
     moving: tuple[sp.Symbol, ...],
     fixed: tuple[sp.Symbol, ...],
@@ -178,26 +178,26 @@ def _clearance(
     Of a law with kinks it is the difference as it is, since expanded guards lose their digits. Sides stay within a
     step: no state's series has them, so nothing else makes steps as short as a rounded side needs them.
     """
-    sides = {side: sp.sign(kink) for kink, side in each.kinks}
-    expression, positive = (LIMIT - each.result, False) if sides else clearance(each, intermediates, moving)
+    sides = {side: sp.sign(kink) for kink, side in formula.kinks}
+    expression, positive = (LIMIT - formula.result, False) if sides else clearance(formula, intermediates, moving)
     definitions = [(symbol, sides.get(symbol, value)) for symbol, value in intermediates] if sides else []
     program, series = cheapest(expression, definitions, moving)
     constants = Constants({argument: f"c->{argument.name}" for argument in (*fixed, LIMIT)})
     doc = f"Limit minus value{', times the positive denominator' if positive else ''}: the sign of the event function."
-    kinks = [kink for kink, _ in each.kinks]
+    kinks = [kink for kink, _ in formula.kinks]
     lines = _recurrences(f"{name}_clearance", doc, program, series, constants, moving, kinks)
     return [*_constants(f"{name}_clearance", constants, (*fixed, LIMIT)), *lines]
 
 
 def clearance(
-    each: LawFunction, intermediates: list[Definition], moving: tuple[sp.Symbol, ...]
+    formula: LawFunction, intermediates: list[Definition], moving: tuple[sp.Symbol, ...]
 ) -> tuple[sp.Expr, bool]:
     """`limit - value` times the positive denominator of the value: same sign, without division along a trajectory.
 
     Returns:
         The expression, and whether the denominator is positive; without one it is the difference itself.
     """
-    result = each.result
+    result = formula.result
     for symbol, value in reversed(intermediates):
         result = result.subs(symbol, value)
     over, under = sp.fraction(sp.together(result))
@@ -210,10 +210,10 @@ def antiderivative(force: sp.Expr, variable: sp.Symbol) -> sp.Expr | None:
     """The antiderivative of `force` in `variable`, verified by differentiation; None if no rule applies to a term."""
     total = sp.Integer(0)
     for term in sp.Add.make_args(sp.expand(force, power_exp=False, power_base=False, log=False, trig=False)):
-        part = _of_term(term, variable)
-        if part is None:
+        integral = _of_term(term, variable)
+        if integral is None:
             return None
-        total += part
+        total += integral
     residue = sp.simplify(sp.expand(total.diff(variable) - force))
     return total if residue == 0 else None
 
@@ -236,7 +236,7 @@ def _of_term(term: sp.Expr, variable: sp.Symbol) -> sp.Expr | None:
 
 def _gap_over_root(constant: sp.Expr, moving: sp.Expr, variable: sp.Symbol) -> sp.Expr | None:
     """The rule h/sqrt(q) -> 2 sqrt(q)/(q'/h), for q' proportional to h."""
-    roots = [part for part in sp.Mul.make_args(moving) if part.is_Pow and part.exp == -sp.Rational(1, 2)]
+    roots = [factor for factor in sp.Mul.make_args(moving) if factor.is_Pow and factor.exp == -sp.Rational(1, 2)]
     if len(roots) != 1 or sp.simplify(moving * sp.sqrt(roots[0].base)) != variable:
         return None
     share = sp.simplify(roots[0].base.diff(variable) / variable)

@@ -36,30 +36,30 @@ def slopes_header(law: Law, groups: AbstractSet[sp.Symbol] = frozenset()) -> str
     """The C header with the derivatives of a law; `groups` are a user's."""
     lines = comment(header(law_digest(law)))
     lines += ["", *comment(f"Slopes of the {law.slot} law `{law.name}`."), ""]
-    for each in law.functions:
-        if each.for_proof or each.name in ("suction", "potential"):  # no force, nor the work of one
+    for formula in law.functions:
+        if formula.for_proof or formula.name in ("suction", "potential"):  # no force, nor the work of one
             continue
-        name = f"{law.slot}_{each.name}"
-        moved = moves(each.arguments, groups)
-        moving = tuple(argument for argument, does in zip(each.arguments, moved, strict=True) if does)
-        if (law.slot, each.name) in COMPARED:
-            lines += _clearance(name, each)
+        name = f"{law.slot}_{formula.name}"
+        moved = moves(formula.arguments, groups)
+        moving = tuple(argument for argument, does in zip(formula.arguments, moved, strict=True) if does)
+        if (law.slot, formula.name) in COMPARED:
+            lines += _clearance(name, formula)
         elif moving:
-            lines += _series(name, each, moving)
+            lines += _series(name, formula, moving)
         else:
-            lines += _plain(name, each)
+            lines += _plain(name, formula)
     return "\n".join(lines).rstrip() + "\n"
 
 
-def _plain(name: str, each: LawFunction) -> list[str]:
+def _plain(name: str, formula: LawFunction) -> list[str]:
     """Derivatives of a function that is constant along a trajectory."""
-    chain, text = Chain(each.definitions), Text(lambda symbol: symbol.name)
-    head = ", ".join(f"vec {argument.name}" for argument in each.arguments) or "void"
+    chain, text = Chain(formula.definitions), Text(lambda symbol: symbol.name)
+    head = ", ".join(f"vec {argument.name}" for argument in formula.arguments) or "void"
     lines = []
-    for argument in each.arguments:
-        slope = sp.simplify(chain.by(each.result, argument))
-        definitions, _ = needed([slope], (*each.definitions, *chain.named))
-        body = [f"(void){other.name};" for other in each.arguments]
+    for argument in formula.arguments:
+        slope = sp.simplify(chain.by(formula.result, argument))
+        definitions, _ = needed([slope], (*formula.definitions, *chain.named))
+        body = [f"(void){other.name};" for other in formula.arguments]
         body += [f"vec {symbol.name} = {text.vector(value)};" for symbol, value in definitions]
         lines += function(f"static inline vec {name}_{_by(argument)}({head})", [*body, f"return {text.vector(slope)};"])
         lines += [""]
@@ -97,27 +97,27 @@ def factored(expression: sp.Expr) -> tuple[sp.Expr, ...]:
 
 
 def slope_program(
-    each: LawFunction, moving: tuple[sp.Symbol, ...]
+    formula: LawFunction, moving: tuple[sp.Symbol, ...]
 ) -> tuple[Program, str | sp.Expr, Program, dict[sp.Symbol, str | sp.Expr]]:
     """The program of a function and its result, its continuation by the slopes, and these by argument."""
-    definitions, _ = needed([each.result, *(kink for kink, _ in each.kinks)], each.definitions)
-    value, result = cheapest(each.result, definitions, moving)
+    definitions, _ = needed([formula.result, *(kink for kink, _ in formula.kinks)], formula.definitions)
+    value, result = cheapest(formula.result, definitions, moving)
     program, chain = value.continued(), Chain(definitions)
-    slopes = {argument: chain.by(each.result, argument) for argument in each.arguments}
+    slopes = {argument: chain.by(formula.result, argument) for argument in formula.arguments}
     for symbol, expression in chain.named:
         program.define(symbol, expression)
     rounds = any(
         value.is_Number for _, value in definitions
     )  # a kink's width: sympy factors such expressions for minutes
     forms = {argument: (slope,) if rounds else (slope, sp.factor(slope)) for argument, slope in slopes.items()}
-    results = {argument: shortest(program, each, _by(argument)) for argument, each in forms.items()}
+    results = {argument: shortest(program, form, _by(argument)) for argument, form in forms.items()}
     return value, result, program, results
 
 
-def _series(name: str, each: LawFunction, moving: tuple[sp.Symbol, ...]) -> list[str]:
-    value, _, program, results = slope_program(each, moving)
+def _series(name: str, formula: LawFunction, moving: tuple[sp.Symbol, ...]) -> list[str]:
+    value, _, program, results = slope_program(formula, moving)
     law_series = {operation.name for operation in value.operations}
-    places = {symbol: f"v->{symbol.name}" for symbol in (*each.arguments, *value.named) if symbol not in moving}
+    places = {symbol: f"v->{symbol.name}" for symbol in (*formula.arguments, *value.named) if symbol not in moving}
     constants = Constants(places)
     recurrences = Recurrences(program, constants, lambda series: f"of->{series}" if series in law_series else series)
     ending, fields = [], recurrences.fields()
@@ -152,14 +152,14 @@ def _series(name: str, each: LawFunction, moving: tuple[sp.Symbol, ...]) -> list
     ]
 
 
-def _clearance(name: str, each: LawFunction) -> list[str]:
+def _clearance(name: str, formula: LawFunction) -> list[str]:
     """Derivatives of `limit - value`: on the event surface, those of the clearance up to its positive denominator."""
-    chain, text = Chain(each.definitions), Text(lambda symbol: symbol.name)
-    head = ", ".join(f"vec {argument.name}" for argument in (*each.arguments, LIMIT))
-    body = [f"(void){argument.name};" for argument in (*each.arguments, LIMIT)]
-    result = LIMIT - each.result
-    slopes = {argument: chain.by(result, argument) for argument in (*each.arguments, LIMIT)}
-    definitions, _ = needed(list(slopes.values()), (*each.definitions, *chain.named))
+    chain, text = Chain(formula.definitions), Text(lambda symbol: symbol.name)
+    head = ", ".join(f"vec {argument.name}" for argument in (*formula.arguments, LIMIT))
+    body = [f"(void){argument.name};" for argument in (*formula.arguments, LIMIT)]
+    result = LIMIT - formula.result
+    slopes = {argument: chain.by(result, argument) for argument in (*formula.arguments, LIMIT)}
+    definitions, _ = needed(list(slopes.values()), (*formula.definitions, *chain.named))
     body += [f"vec {symbol.name} = {text.vector(value)};" for symbol, value in definitions]
     body += [f"*by_{argument.name} = {text.vector(slope)};" for argument, slope in slopes.items()]
     outputs = ", ".join(f"vec *by_{argument.name}" for argument in slopes)

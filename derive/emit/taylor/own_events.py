@@ -23,28 +23,28 @@ def own_event_functions(
     Raises:
         EmissionError: a guard has an operation without a recurrence.
     """
-    present = [each for each in events if each.there(model.structure)]
+    present = [event for event in events if event.fits(model.structure)]
     if not present:
         return [], []
     guards = model["events"].by_name
-    program = Program.for_outputs(model.states, (guards[each.name] for each in present), model.definitions)
-    result = {each.name: program.series(sp.sympify(guards[each.name]), f"guard_of_{each.name}") for each in present}
+    program = Program.for_outputs(model.states, (guards[event.name] for event in present), model.definitions)
+    result = {event.name: program.series(sp.sympify(guards[event.name]), f"guard_of_{event.name}") for event in present}
     recurrences = Recurrences(program, constants, lambda name: f"m->{name}")
     body = ["(void)c; (void)m;", *recurrences.lines()]
-    body += [f"s->guard[{k}][k] = {recurrences.array(result[each.name])}[k];" for k, each in enumerate(present)]
+    body += [f"s->guard[{k}][k] = {recurrences.array(result[event.name])}[k];" for k, event in enumerate(present)]
     lines = comment("Series of the guards of declared events.")
     lines += struct("own_series", [*recurrences.fields(), "vec guard[OWN_EVENTS][TERMS];"])
     head = "static inline void own_coefficients(own_series *s, const series *m, const constants *c, int k)"
     lines += [*function(head, body), ""]
     lines += valued(
-        [(each.name, guards[each.name]) for each in present],
+        [(event.name, guards[event.name]) for event in present],
         "static inline void own_guards(const constants *c, const vec *y, vec *guard)",
-        {each.name: f"guard[{k}]" for k, each in enumerate(present)},
+        {event.name: f"guard[{k}]" for k, event in enumerate(present)},
         "Guards of declared events, positive before them.",
     )
     cases = []
-    for k, each in enumerate(present):
-        jump, release = model[f"jump_{each.name}"], model[f"release_{each.name}"]
+    for k, event in enumerate(present):
+        jump, release = model[f"jump_{event.name}"], model[f"release_{event.name}"]
         after = {state.name: f"after[{state.name.upper()}]" for state in model.states}
         head = f"static inline void {jump.name}(const constants *c, const vec *y, vec *after)"
         lines += valued(jump.outputs, head, after, jump.doc)
@@ -64,10 +64,10 @@ def own_event_functions(
                      "guard's slopes.")  # fmt: skip
     table += [f"static const struct {{ int {_FIELDS}; }} OWN[OWN_EVENTS] = {{"]
     everywhere = list(events)
-    for each in present:
-        where, reach, place = dict(each.proposed.row.where), each.reach(model.structure), everywhere.index(each)
+    for event in present:
+        where, reach, place = dict(event.proposed.row.where), event.reach(model.structure), everywhere.index(event)
         numbers = [len(EVENTS) + place, len(WORDS) + place, where.get("motion", 0), where.get("film", -1)]
         signs = [sign or 0 for sign in (reach.by_gap, reach.opening, reach.closing)]
-        texts = [*map(str, numbers), each.mark.name.upper(), *map(str, signs)]
-        table.append(f"    {{{', '.join([*texts, str(int(reach.known)), str(int(each.harmless))])}}},")
+        texts = [*map(str, numbers), event.mark.name.upper(), *map(str, signs)]
+        table.append(f"    {{{', '.join([*texts, str(int(reach.is_known)), str(int(event.harmless))])}}},")
     return [*table, "};", ""], [*lines, ""]

@@ -86,9 +86,9 @@ class Program:
             beside: operations that are ignored.
         """
         counted = [operation for operation in self.operations if operation.name not in beside]
-        series = {part for operation in counted if operation.kind != "linear" for part in operation.series}
+        series = {term for operation in counted if operation.kind != "linear" for term in operation.series}
         plain = ("linear", "product", "square")  # coefficients of the other operations use all preceding ones
-        return frozenset(each.name for each in self.operations if each.kind in plain and each.name not in series)
+        return frozenset(step.name for step in self.operations if step.kind in plain and step.name not in series)
 
     def give(self, symbol: sp.Symbol) -> None:
         """Declare `symbol` as a series computed elsewhere."""
@@ -141,12 +141,12 @@ class Program:
         factors: tuple[sp.Expr, ...] = (),
         call: Call = ("", "", ()),
     ) -> str:
-        for known in (*self._before, *self.operations):
-            if (known.kind, known.series, known.factors, known.call) == (kind, series, factors, call):
-                return known.name
-            if kind == "product" and self._before and (known.kind, known.series) == (kind, series):
-                ratio = factors[0] / known.factors[0]  # equal up to its constant factor
-                return self._add("linear", (known.name,), name, hint, (ratio, sp.Integer(0)))
+        for operation in (*self._before, *self.operations):
+            if (operation.kind, operation.series, operation.factors, operation.call) == (kind, series, factors, call):
+                return operation.name
+            if kind == "product" and self._before and (operation.kind, operation.series) == (kind, series):
+                ratio = factors[0] / operation.factors[0]  # equal up to its constant factor
+                return self._add("linear", (operation.name,), name, hint, (ratio, sp.Integer(0)))
         chosen = self._free(name or hint)
         self.operations.append(Operation(chosen, kind, series, factors, call))
         return chosen
@@ -203,21 +203,21 @@ class Program:
     def _split(self, node: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
         """The constant factor of a product, and the remaining expression."""
         parts = node.as_ordered_factors()
-        still = [part for part in parts if not self.moves(part)]
-        return sp.Mul(*still), sp.Mul(*(part for part in parts if self.moves(part)))
+        still = [factor for factor in parts if not self.moves(factor)]
+        return sp.Mul(*still), sp.Mul(*(factor for factor in parts if self.moves(factor)))
 
     def _product(self, node: sp.Mul, name: str | None) -> str:
         factor, moving = self._split(node)
-        over = [part for part in moving.as_ordered_factors() if not _divides(part)]
-        under = [1 / part for part in moving.as_ordered_factors() if _divides(part)]
+        over = [operand for operand in moving.as_ordered_factors() if not _divides(operand)]
+        under = [1 / operand for operand in moving.as_ordered_factors() if _divides(operand)]
         plain = factor == 1
         if len(over) + len(under) == 1:
-            part = self.series(over[0] if over else 1 / under[0], name if plain else None)
-            return part if plain else self._add("linear", (part,), name, f"scaled_{part}", (factor, sp.Integer(0)))
-        names = [self.series(part) for part in over]
+            base = self.series(over[0] if over else 1 / under[0], name if plain else None)
+            return base if plain else self._add("linear", (base,), name, f"scaled_{base}", (factor, sp.Integer(0)))
+        names = [self.series(operand) for operand in over]
         # multiply by an existing inverse instead of dividing
-        names += [self._moving[1 / part] for part in under if 1 / part in self._moving]
-        under = [part for part in under if 1 / part not in self._moving]
+        names += [self._moving[1 / operand] for operand in under if 1 / operand in self._moving]
+        under = [operand for operand in under if 1 / operand not in self._moving]
         if not names:
             names, under = [self.series(1 / under[0])], under[1:]
         result = names[0]
@@ -227,8 +227,8 @@ class Program:
             factors = (factor if last else sp.Integer(1),)
             result = self._add("product", (result, other), name if last else None, hint, factors)
             plain = plain or last
-        for position, part in enumerate(under):
-            below = self.series(part)
+        for position, operand in enumerate(under):
+            below = self.series(operand)
             last = position == len(under) - 1 and plain
             result = self._add("quotient", (result, below), name if last else None, f"{result}_over_{below}")
         if not plain:
@@ -277,8 +277,8 @@ class Program:
         return self._add("call", series, None, f"{slot}_{function}_law", call=(slot, function, tuple(arguments)))
 
 
-def _divides(part: sp.Expr) -> bool:
-    return isinstance(part, sp.Pow) and bool(part.exp.is_number and part.exp.is_negative)
+def _divides(factor: sp.Expr) -> bool:
+    return isinstance(factor, sp.Pow) and bool(factor.exp.is_number and factor.exp.is_negative)
 
 
 def cheapest(

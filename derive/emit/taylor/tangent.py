@@ -116,13 +116,13 @@ class Tangent(LinearFlow):
         for (_, by), entry in self.sources.items():
             if isinstance(entry, str):
                 needs.setdefault(entry, set()).add(by)
-        sines = {each.series: each.name for each in self.program.operations if each.kind == "sine"}
+        sines = {step.series: step.name for step in self.program.operations if step.kind == "sine"}
         for operation in reversed(self.program.operations):
             made_with = (sines[operation.series],) if operation.kind == "cosine" and operation.series in sines else ()
-            for part in (*operation.series, *made_with):
+            for series in (*operation.series, *made_with):
                 if operation.name in always:
-                    always.add(part)
-                needs.setdefault(part, set()).update(needs.get(operation.name, ()))
+                    always.add(series)
+                needs.setdefault(series, set()).update(needs.get(operation.name, ()))
         entries = [*self.matrix.items(), *self.sources.items()]
         turning = {entry for (row, _), entry in entries if row == "turned"}
         turning -= {entry for (row, _), entry in entries if row != "turned"}
@@ -135,7 +135,7 @@ class Tangent(LinearFlow):
         rows.sort(key=lambda row: (bool(row[0]), -len(row[0]), row[0]))
         lines: list[str] = []
         for groups, some in groupby(rows, key=lambda row: row[0]):
-            inner = [line for _, each in some for line in each]
+            inner = [line for _, block in some for line in block]
             if groups:
                 test = f"if (asked & ({' | '.join(f'1u << BY_{group.upper()}' for group in groups)})) {{"
                 inner = [test, *(line if line.startswith("#") else _IN + line for line in inner), "}"]
@@ -246,7 +246,7 @@ class Tangent(LinearFlow):
                 else f"t[{state.name.upper()}]"
                 for state in self.model.states if moves and outputs[key].diff(state) != 0
             ]  # fmt: skip
-            terms += [f"({text(outputs[key].diff(each))})*moved" for each in moved if outputs[key].diff(each) != 0]
+            terms += [f"({text(outputs[key].diff(s))})*moved" for s in moved if outputs[key].diff(s) != 0]
             body.append(f"{target} = {' + '.join(terms) or 'splat(0.0)'};")
         cases = []
         for group in self.model.groups:

@@ -53,7 +53,7 @@ def definitions(structure: Structure) -> tuple[Definition, ...]:
         (pendulum.NEAREST, 4 + q.aspect * pendulum.CONTACT),
         (pendulum.FARTHEST, 4 + q.aspect * end),
         (pendulum.SPUN_UP, pendulum.rigid_momentum(MOMENTUM, pendulum.FARTHEST)),
-        (pendulum.LARGEST_MOMENTUM, sp.Max(*momenta, *(-each for each in momenta))),
+        (pendulum.LARGEST_MOMENTUM, sp.Max(*momenta, *(-momentum for momentum in momenta))),
         (LEAST, attractions(structure, end)),
         (HOLD, LEAST + pull - pendulum.outward_at(pendulum.LARGEST_MOMENTUM, pendulum.NEAREST)),
     )

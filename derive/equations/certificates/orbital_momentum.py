@@ -104,8 +104,8 @@ def functions(_structure: Structure) -> Functions:
 def enclosed(_structure: Structure) -> Enclosed:
     """G + slip energy: what a state has of it, and what its orbital momentum needs at a gap."""
     orbit = UNIT * orbital_momentum**2 / (2 * DISTANCE**2)
-    left = orbit - UNIT * clamped_slip_energy(DISTANCE, orbital_momentum, RIGID)
-    return normal_velocity**2 / 2 + orbit, left, ((RIGID, rigid_momentum(DISTANCE, orbital_momentum, spin)),)
+    rest = orbit - UNIT * clamped_slip_energy(DISTANCE, orbital_momentum, RIGID)
+    return normal_velocity**2 / 2 + orbit, rest, ((RIGID, rigid_momentum(DISTANCE, orbital_momentum, spin)),)
 
 
 ROW = Certificate(

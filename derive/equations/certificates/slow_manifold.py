@@ -61,8 +61,8 @@ def coefficients(model: Model) -> dict[str, sp.Expr] | None:
     centrifugal = push.diff(momentum, 2) / 2
     attractions = -push.subs({u: 0, momentum: 0})
     relaxation = -turn.diff(momentum)
-    left = (push - (centrifugal * momentum**2 - attractions - film * u), turn + relaxation * (momentum - rigid))
-    if any(sp.simplify(sp.expand(rest)) != 0 for rest in left):
+    residuals = (push - (centrifugal * momentum**2 - attractions - film * u), turn + relaxation * (momentum - rigid))
+    if any(sp.simplify(sp.expand(rest)) != 0 for rest in residuals):
         return None
     names = ("slowing", "relaxation", "rigid", "centrifugal", "attractions")
     values = (film, sp.factor(relaxation), rigid, sp.factor(centrifugal), attractions)

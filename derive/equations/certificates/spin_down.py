@@ -71,12 +71,12 @@ def decay(structure: Structure, near: sp.Expr, far: sp.Expr, logarithm: sp.Expr)
     """
     full = _full(structure)
     states = [q.spin, q.partner_spin] if structure.partner else [q.spin]
-    named, known = rates(full), dict(intermediates(full))
-    kept = {*slips(structure), DISTANCE, *(s for s in known if s.name in _SIZES)}
+    named, values = rates(full), dict(intermediates(full))
+    symbols = {*slips(structure), DISTANCE, *(s for s in values if s.name in _SIZES)}
 
     def opened(expression: sp.Expr) -> sp.Expr:
-        for symbol, value in reversed(list(known.items())):
-            if symbol not in kept:
+        for symbol, value in reversed(list(values.items())):
+            if symbol not in symbols:
                 expression = expression.subs(symbol, value)
         expression = filled(expression, MIDGAP).subs(SHEAR, 1)
         return sp.expand(expression.xreplace(dict.fromkeys(slot_calls(expression), logarithm)))
@@ -139,12 +139,12 @@ def functions(structure: Structure) -> Functions:
 
 def first_momentum(structure: Structure) -> sp.Expr:
     """|L| at initial contact over the sum of its parts, in excess of its rounding error."""
-    first, known = start(_full(structure)), dict(intermediates(_full(structure)))
-    (whole,) = (sp.expand(value) for symbol, value in known.items() if symbol.name == "momentum")
+    first, terms = start(_full(structure)), dict(intermediates(_full(structure)))
+    (whole,) = (sp.expand(value) for symbol, value in terms.items() if symbol.name == "momentum")
     parts = [
         whole.coeff(state) * first[state] for state in (q.orbital_momentum, q.spin, q.partner_spin) if whole.has(state)
     ]
-    size, sizes = (sp.Add(*(sp.Max(each, -each) for each in values)) for values in ((sp.Add(*parts),), parts))
+    size, sizes = (sp.Add(*(sp.Max(term, -term) for term in values)) for values in ((sp.Add(*parts),), parts))
     return sp.Max(size / sizes - ROUNDING, 0)
 
 

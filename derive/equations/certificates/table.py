@@ -46,4 +46,4 @@ CERTIFICATES = (
 
 def enclosed(structure: Structure) -> Enclosed | None:
     """The energies that the enclosing engine compares, where a certificate is sharper than the energy."""
-    return next((each.enclosed(structure) for each in CERTIFICATES if each.enclosed and each.admits(structure)), None)
+    return next((row.enclosed(structure) for row in CERTIFICATES if row.enclosed and row.admits(structure)), None)

@@ -52,5 +52,5 @@ class Rotation:
 
 def relative_change(momentum: sp.Expr, first: Sequence[sp.Expr]) -> sp.Expr:
     """1 + the change of an angular momentum over the sum of the magnitudes of its first parts."""
-    size = sp.Add(*(sp.Abs(part) for part in first))
+    size = sp.Add(*(sp.Abs(term) for term in first))
     return 1 + (momentum - sp.Add(*first)) / size

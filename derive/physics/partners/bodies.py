@@ -29,8 +29,8 @@ def radii() -> tuple[sp.Expr, sp.Expr]:
 def masses() -> tuple[sp.Expr, sp.Expr]:
     """M_1 and M_2 from m = M_1 M_2/(M_1 + M_2) and M_2 = mass_ratio M_1."""
     shape = {a: m, radius_ratio: mass_ratio}
-    one, other = radii()
-    return one.subs(shape), other.subs(shape)
+    radius, other = radii()
+    return radius.subs(shape), other.subs(shape)
 
 
 @cache
@@ -70,7 +70,7 @@ def equations_of_motion() -> PairMotion:
     apart = (CENTRES * a + q["x"]) * line
     first = centre - mass_2 / (mass_1 + mass_2) * apart
     second = centre + mass_1 / (mass_1 + mass_2) * apart
-    speeds = [each.diff(time) for each in (first, second)]
+    speeds = [position.diff(time) for position in (first, second)]
     translation = sum(mass * speed.dot(speed) for mass, speed in zip((mass_1, mass_2), speeds, strict=True)) / 2
     spins = ((inertia_1, "alpha_1"), (inertia_2, "alpha_2"))
     spinning = sp.Add(*(inertia * q[name].diff(time) ** 2 / 2 for inertia, name in spins))
@@ -86,6 +86,6 @@ def equations_of_motion() -> PairMotion:
         return sp.factor(expression.subs(plain).subs({q["x"]: x, **sizes}))
 
     motion = lagrange(energy, q, work)
-    settled = {name: [settle(part) for part in parts] for name, parts in motion.items()}
+    settled = {name: [settle(term) for term in parts] for name, parts in motion.items()}
     accelerations, momenta, rates = ({name: parts[k] for name, parts in settled.items()} for k in range(3))
     return PairMotion(accelerations, momenta, rates, settle(energy))

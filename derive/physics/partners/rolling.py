@@ -22,7 +22,7 @@ def pressure_strength() -> sp.Expr:
     """K of the pressure p = K X/h^2 that solves Reynolds' equation div(h^3 grad p) = 6 mu (U_1 + U_2) dh/dX."""
     thickness = x + (X**2 + Y**2) / (2 * a)
     pressure = _K * X / thickness**2
-    flux = [thickness**3 * pressure.diff(each) for each in (X, Y)]
+    flux = [thickness**3 * pressure.diff(axis) for axis in (X, Y)]
     balance = sp.simplify(flux[0].diff(X) + flux[1].diff(Y) - 6 * mu * (U_1 + U_2) * thickness.diff(X))
     (strength,) = sp.solve(balance, _K)
     return strength
@@ -48,7 +48,7 @@ def stresses() -> tuple[sp.Expr, sp.Expr]:
     couette = mu * (U_2 - U_1) / _h
     on_first = _logarithm(couette - _h * gradient / 2)
     on_second = _logarithm(-couette - _h * gradient / 2)
-    return tuple(sp.factor(each.subs(_K, pressure_strength())) for each in (on_first, on_second))
+    return tuple(sp.factor(force.subs(_K, pressure_strength())) for force in (on_first, on_second))
 
 
 @cache
@@ -68,7 +68,7 @@ def torque_matrix() -> sp.Matrix:
     velocities = {U_1: -slip[0] * R_1, U_2: slip[1] * R_2}
     first, second = stresses()
     torques = [(R_1 * first).subs(velocities), (-R_2 * second).subs(velocities)]
-    return sp.Matrix([[sp.factor(sp.expand(torque).coeff(one)) for one in slip] for torque in torques])
+    return sp.Matrix([[sp.factor(sp.expand(torque).coeff(rate)) for rate in slip] for torque in torques])
 
 
 @cache
@@ -77,4 +77,4 @@ def force_on_second() -> sp.Matrix:
     slip = sp.symbols("slip_1 slip_2", real=True)
     velocities = {U_1: -slip[0] * R_1, U_2: slip[1] * R_2}
     total = -(stresses()[1] + pressure_forces()[1]).subs(velocities)
-    return sp.Matrix([[sp.factor(sp.expand(total).coeff(one)) for one in slip]])
+    return sp.Matrix([[sp.factor(sp.expand(total).coeff(rate)) for rate in slip]])

@@ -63,8 +63,8 @@ def sizes() -> list[Definition]:
 
 
 def _momenta() -> list[Definition]:
-    each = zip(MOMENTA, q.orbital_momenta, q.spins, q.partner_spins, strict=True)
-    return [(name, orbital + SPIN_INERTIA * one + PARTNER_INERTIA * other) for name, orbital, one, other in each]
+    rows = zip(MOMENTA, q.orbital_momenta, q.spins, q.partner_spins, strict=True)
+    return [(name, orbital + SPIN_INERTIA * spin + PARTNER_INERTIA * other) for name, orbital, spin, other in rows]
 
 
 def _twists(eliminated: Eliminated) -> list[Definition]:
@@ -81,19 +81,19 @@ def definitions(eliminated: Eliminated = ()) -> tuple[Definition, ...]:
     log = SHEAR * slot_call("shear", "log_factor", q.x / q.x0, q.x0 / q.a)
     unit = 2 * sp.pi * q.mu * q.a**3
     result = [*sizes(), *(eliminated or _momenta())]
-    result += [(rate, part / DISTANCE**2) for rate, part in zip(RATES, q.orbital_momenta, strict=True)]
+    result += [(rate, momentum / DISTANCE**2) for rate, momentum in zip(RATES, q.orbital_momenta, strict=True)]
     result += [(MOMENTUM_SQUARE, dot(MOMENTA, MOMENTA)), (RATE_SQUARE, dot(RATES, RATES))]
     result.append((INERTIA_RATIO, DISTANCE**2 + SPIN_INERTIA + PARTNER_INERTIA))
-    result += [(slip, rate - part) for slip, rate, part in zip(SLIPS, RATES, q.spins, strict=True)]
-    result += [(slip, rate - part) for slip, rate, part in zip(PARTNER_SLIPS, RATES, q.partner_spins, strict=True)]
+    result += [(slip, rate - spin) for slip, rate, spin in zip(SLIPS, RATES, q.spins, strict=True)]
+    result += [(slip, rate - spin) for slip, rate, spin in zip(PARTNER_SLIPS, RATES, q.partner_spins, strict=True)]
     result += _twists(eliminated)
     result.append((DRAG, scaled(log * unit * q.rate_scale / (TANGENTIAL * q.a))))
     result.append((STRENGTH, DRAG * DISTANCE / CENTRES))
     result += list(zip((ALONG, PARTNER_ALONG), torques((TWIST, PARTNER_TWIST)), strict=True))
     across = [torques(both) for both in zip(SLIPS, PARTNER_SLIPS, strict=True)]
     for place, (symbols, along) in enumerate(((TORQUES, ALONG), (PARTNER_TORQUES, PARTNER_ALONG))):
-        each = zip(symbols, across, q.normal, strict=True)
-        result += [(symbol, STRENGTH * (both[place] - along * line)) for symbol, both, line in each]
+        rows = zip(symbols, across, q.normal, strict=True)
+        result += [(symbol, STRENGTH * (both[place] - along * line)) for symbol, both, line in rows]
     return tuple(result)
 
 
@@ -103,8 +103,8 @@ def rates() -> dict[sp.Symbol, sp.Expr]:
     pull, shear = sp.Symbol("F", real=True), named("S")  # on sphere 2: -F n - S x n, with r S = T_1 + T_2
     force = -pull * sp.Matrix(q.normal) - cross(shear, q.normal)
     by_force = dict(zip(FORCE, force, strict=True))
-    torque = [on_the_sphere(each.subs(by_force), q.normal, shear) for each in moved.orbital_momentum]
-    assert list(torque) == [-APART * each for each in shear]
+    torque = [on_the_sphere(component.subs(by_force), q.normal, shear) for component in moved.orbital_momentum]
+    assert list(torque) == [-APART * component for component in shear]
     opening = moved.opening.subs(by_force) - APART * dot(LINE_RATE, LINE_RATE) + pull / q.m
     assert on_the_sphere(opening, q.normal, shear) == 0
     turned = scaled(q.rate_scale * q.x0 / q.v0) * moved.normal.subs(dict(zip(LINE_RATE, RATES, strict=True)))
@@ -175,21 +175,21 @@ def outward_at_most() -> sp.Expr:
 def surface_slips() -> list[sp.Expr]:
     """Components of n x the relative velocity of the surfaces at the contact, over a Omega."""
     return [
-        DISTANCE / CENTRES * (RADIUS * (one - TWIST * line) + PARTNER_RADIUS * (other - PARTNER_TWIST * line))
-        for one, other, line in zip(SLIPS, PARTNER_SLIPS, q.normal, strict=True)
+        DISTANCE / CENTRES * (RADIUS * (slip - TWIST * line) + PARTNER_RADIUS * (other - PARTNER_TWIST * line))
+        for slip, other, line in zip(SLIPS, PARTNER_SLIPS, q.normal, strict=True)
     ]
 
 
 def surface_slip() -> sp.Expr:
     """Magnitude of the relative velocity of the surfaces at the contact, over a Omega."""
-    across = [each / (DISTANCE / CENTRES) for each in surface_slips()]
+    across = [component / (DISTANCE / CENTRES) for component in surface_slips()]
     return DISTANCE / CENTRES * sp.sqrt(dot(across, across))
 
 
 def drift() -> sp.Expr:
     """1 + |L - L(0)| over the sum of its parts at initial contact."""
     first = start()
-    vectors = [[first[each] for each in vector] for vector in (q.orbital_momenta, q.spins, q.partner_spins)]
+    vectors = [[first[symbol] for symbol in vector] for vector in (q.orbital_momenta, q.spins, q.partner_spins)]
     apart = sp.Matrix([name - value.subs(first, simultaneous=True) for name, value in _momenta()])
     weighted = zip(vectors, (1, SPIN_INERTIA, PARTNER_INERTIA), strict=True)
     return 1 + sp.sqrt(dot(apart, apart)) / sum(inertia * sp.sqrt(dot(vector, vector)) for vector, inertia in weighted)
@@ -198,7 +198,7 @@ def drift() -> sp.Expr:
 def _outputs() -> dict[str, sp.Expr]:
     names = ("final_normal", "final_rotation_rate", "final_spin", "final_spin_partner")
     vectors = zip(names, (q.normal, RATES, q.spins, q.partner_spins), strict=True)
-    return {f"{name}_{axis}": each for name, vector in vectors for axis, each in zip(q.AXES, vector, strict=True)}
+    return {f"{name}_{axis}": value for name, vector in vectors for axis, value in zip(q.AXES, vector, strict=True)}
 
 
 @cache
@@ -208,7 +208,7 @@ def rotation(reduced: bool) -> Rotation:
     Arguments:
         reduced: without the partner's spin, which `definitions` then take from what is conserved.
     """
-    each = rates()
+    values = rates()
     states = (*q.normal, *q.orbital_momenta, *q.spins, *(() if reduced else q.partner_spins))
     lost = dot(TORQUES, SLIPS) + dot(PARTNER_TORQUES, PARTNER_SLIPS)
     least = energy_unit() * MOMENTUM_SQUARE / (2 * INERTIA_RATIO)
@@ -216,7 +216,7 @@ def rotation(reduced: bool) -> Rotation:
         states=states,
         definitions=definitions(),
         centrifugal=centrifugal(RATE_SQUARE * DISTANCE**4),
-        rates={state: each[state] for state in states},
+        rates={state: values[state] for state in states},
         turning=None,
         kinetic=energy_unit() * energy(q.orbital_momenta, q.spins, q.partner_spins),
         power=scaled(TANGENTIAL * q.a * q.rate_scale * q.x0 / q.v0 / (q.m * q.v0**2)) * lost,

@@ -27,7 +27,7 @@ APART = sp.Symbol("r", positive=True)
 
 def dot(first: Vector | sp.Matrix, second: Vector | sp.Matrix) -> sp.Expr:
     """Scalar product."""
-    return sp.Add(*(one * other for one, other in zip(first, second, strict=True)))
+    return sp.Add(*(component * other for component, other in zip(first, second, strict=True)))
 
 
 def cross(first: Vector | sp.Matrix, second: Vector | sp.Matrix) -> sp.Matrix:
@@ -66,7 +66,7 @@ def relative_acceleration() -> sp.Matrix:
         work = dot(FORCE, (second - first).diff(coordinate))
         balance = sp.expand(energy.diff(coordinate.diff(time)).diff(time) - energy.diff(coordinate) - work)
         result += sp.solve(balance, coordinate.diff(time, 2))
-    reduced = sp.Matrix(result).applyfunc(lambda each: sp.simplify(each.subs(mass_2, m * mass_1 / (mass_1 - m))))
+    reduced = sp.Matrix(result).applyfunc(lambda entry: sp.simplify(entry.subs(mass_2, m * mass_1 / (mass_1 - m))))
     assert not reduced.has(mass_1)  # only the reduced mass remains
     return reduced
 
@@ -85,7 +85,7 @@ def spin_balance() -> sp.Matrix:
     by_rates = rates.jacobian([angle.diff(time) for angle in angles])  # work of T: T . w
     lagrange = sp.Matrix([energy.diff(angle.diff(time)).diff(time) - energy.diff(angle) for angle in angles])
     torque = by_rates.T.LUsolve(lagrange)
-    return (inertia * rates.diff(time) - torque).applyfunc(lambda each: sp.simplify(sp.expand(each)))
+    return (inertia * rates.diff(time) - torque).applyfunc(lambda entry: sp.simplify(sp.expand(entry)))
 
 
 @cache
@@ -114,7 +114,7 @@ def motion() -> SpaceMotion:
         {length: APART, **dict(zip(place, APART * sp.Matrix(n), strict=True))},
     ]
     for rule in rules:
-        derived = [each.subs(rule) for each in derived]
+        derived = [rate.subs(rule) for rate in derived]
     wanted = [chosen.opening, *chosen.normal, *chosen.orbital_momentum]
-    assert all(on_the_sphere(one - other) == 0 for one, other in zip(derived, wanted, strict=True))
+    assert all(on_the_sphere(rate - other) == 0 for rate, other in zip(derived, wanted, strict=True))
     return chosen

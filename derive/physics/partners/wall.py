@@ -32,8 +32,8 @@ SLOW_MODE, FAST_MODE = sp.symbols("slow_mode fast_mode", positive=True)
 def limit(expression: sp.Expr) -> sp.Expr:
     """An SI expression of the pair in the wall limit: omega = v/r, no spin of the partner, R_2 and M_2 to infinity."""
     at_rest = expression.subs(q.partner_spin_rate, 0).subs(q.omega, q.slide_rate / r)
-    one, other = radii()
-    in_ratios = at_rest.subs({R_1: one, R_2: other}).subs(CENTRES, centres())
+    radius, other = radii()
+    in_ratios = at_rest.subs({R_1: radius, R_2: other}).subs(CENTRES, centres())
     for ratio in (q.mass_ratio, q.radius_ratio):
         in_ratios = sp.limit(sp.factor(in_ratios), ratio, sp.oo)
     return sp.factor(in_ratios)
@@ -91,10 +91,10 @@ def modes(rates: Mapping[sp.Symbol, sp.Expr], start: Mapping[sp.Symbol, sp.Expr]
     numbers = (matrix / factor).applyfunc(sp.simplify)
     if (result + matrix * moving).applyfunc(sp.expand) != sp.zeros(2, 1) or numbers.free_symbols:
         raise ValueError(f"sliding and rolling are not damped by one constant matrix: {numbers}")
-    (slow, _, (one,)), (fast, _, (other,)) = sorted(numbers.eigenvects(), key=lambda each: each[0])
+    (slow, _, (mode,)), (fast, _, (other,)) = sorted(numbers.eigenvects(), key=lambda triple: triple[0])
     if not (slow.is_positive and fast.is_positive):
         raise ValueError(f"a mode of sliding and rolling does not decay: {slow}, {fast}")
-    vectors = sp.Matrix.hstack(one, other)
+    vectors = sp.Matrix.hstack(mode, other)
     weights = vectors * sp.diag(*vectors.LUsolve(moving.subs(start)))
     along, spun = (tuple(sp.expand(sp.radsimp(sp.simplify(weight))) for weight in weights.row(k)) for k in range(2))
     return Modes(factor * sp.together(slow), sp.expand(sp.radsimp(fast / slow)), along, spun)

@@ -54,7 +54,7 @@ def _title(collision: Outcome) -> str:
     impact = f"St {collision.stokes:.4g}, {math.degrees(collision.angle):.4g}°{_spins(collision)}"
     numbers = f"{impact}, $e_n$ = {collision.restitution:.4g}"
     parts = [reason(collision), stopped(collision) if collision.outcome == "stick" else ""]
-    why = re.sub(r"(?<=\d )us\b", "µs", "; ".join(part for part in parts if part))
+    why = re.sub(r"(?<=\d )us\b", "µs", "; ".join(text for text in parts if text))
     return f"{name}: {collision.outcome}   ({numbers})\n{why}"
 
 

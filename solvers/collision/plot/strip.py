@@ -60,7 +60,7 @@ def _draw(axes: Axes, collision: Outcome, frame: Frame, place: float, fastest: f
     """Draw one frame around (place, 0), lengths in sphere radii."""
     radius, scene = frame.radius, collision.scene
     centres = [(place + x / radius, y / radius) for x, y in frame.centres]
-    radii = [each / radius for each in frame.radii]
+    radii = [metres / radius for metres in frame.radii]
     film = scene.liquid.film_thickness / (2 * radius)
     if frame.wall:
         _draw_wall(axes, centres[1], film, frame.slid / radius)

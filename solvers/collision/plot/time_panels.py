@@ -81,8 +81,8 @@ def time_panels(figure: Figure, place: Any, collision: Outcome, rows: int, pictu
     for column in columns:
         figure.align_ylabels(column.panels)
     if rows == 4 and not collision.scene.wall:
-        shown = [(frame.time / whole.unit[0], math.degrees(frame.angle)) for frame in pictures if not frame.free]
-        whole.panels[3].plot(*zip(*shown), "o", color=INK, markersize=4, fillstyle="none")
+        dots = [(frame.time / whole.unit[0], math.degrees(frame.angle)) for frame in pictures if not frame.free]
+        whole.panels[3].plot(*zip(*dots), "o", color=INK, markersize=4, fillstyle="none")
 
 
 def _zoom(collision: Outcome, duration: float) -> float | None:
@@ -112,7 +112,7 @@ def _fill(column: Column, collision: Outcome, rows: int, last: bool) -> None:
     velocity.set_ylabel(f"normal\nvelocity ({micro(name + 'm/s')})")
     if rows == 4:
         rates, angle = column.panels[2:]
-        most = max(float(np.max(np.abs(data[each]))) for each in _RATES if each in data)
+        most = max(float(np.max(np.abs(data[rate]))) for rate in _RATES if rate in data)
         size, name = next((unit for unit in ((1e6, "M"), (1e3, "k")) if most > 10 * unit[0]), (1.0, ""))
         pair, wall = "spin_partner" in data, collision.scene.wall
         if not wall:
@@ -202,16 +202,16 @@ def _events(column: Column, collision: Outcome) -> None:
         for panel in column.panels:
             panel.axvline(time / factor, color=GREY, linewidth=0.8, linestyle="--", zorder=1)
     taken: list[float] = []  # right end of the last label on each level, inches
-    shown, near = [mark for mark in marks if column.shows(mark[0])], 0.02 * span
-    while len(_grouped(shown, near)) > _LABELS:
+    labels, near = [mark for mark in marks if column.shows(mark[0])], 0.02 * span
+    while len(_grouped(labels, near)) > _LABELS:
         near *= 2
-    for time, text in _grouped(shown, near):
+    for time, text in _grouped(labels, near):
         at = (time - column.start + 0.02 * span) / span * column.width
         size = _LETTER * len(text)
         side = "left" if at < 0.5 * column.width else "right"
-        left = at if side == "left" else at - size
-        level = next((k for k, end in enumerate(taken) if end < left), len(taken))
-        taken[level:] = [left + size + 0.08, *taken[level + 1 :]]
+        start = at if side == "left" else at - size
+        level = next((k for k, end in enumerate(taken) if end < start), len(taken))
+        taken[level:] = [start + size + 0.08, *taken[level + 1 :]]
         column.panels[0].annotate(
             text, (time / factor, 1), (0, 3 + 10 * level), xycoords=column.panels[0].get_xaxis_transform(),
             textcoords="offset points", ha=side, va="bottom", fontsize=8, color=INK,

@@ -66,7 +66,7 @@ class Confirmation(Run):
         parameters, states = np.append(self.p, float(phase.motion)), solution(POINTS)
         crossing = first_crossing(flow, parameters, step.duration, states, solution, rtol, step.event)
         if crossing is not None:
-            time = first + crossing.part * step.duration
+            time = first + crossing.fraction * step.duration
             raise Stopped(f"finds the event {crossing.event} inside a phase of the kernel", phase, time, self.at.y)
         if step.event is not None and not is_met(flow, parameters, states, step.event, self.rtol):
             raise Stopped(f"does not find the event {step.event} where the kernel does", phase, self.at.time, self.at.y)

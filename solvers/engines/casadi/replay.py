@@ -213,7 +213,7 @@ class Run:
             if self.model.kinks:  # first of all, as behind a kink the solution is another
                 kink = solution.crossing(remaining, solution.end(remaining)[1], step.event)
                 if kink is not None and kink.event in self.model.kinks:
-                    duration, y, _ = solution.onto(kink.event, kink.part * remaining, moved=True)
+                    duration, y, _ = solution.onto(kink.event, kink.fraction * remaining, moved=True)
                     self._record(phase, kink.event, flow, duration, y)
                     remaining -= duration
                     continue
@@ -222,7 +222,7 @@ class Run:
             )
             crossing = solution.crossing(duration, states, step.event)
             if crossing is not None:
-                time = self.at.time + crossing.part * duration
+                time = self.at.time + crossing.fraction * duration
                 raise Stopped(
                     f"passes the event {crossing.event} inside a phase, by {-crossing.value:.1e} of its size, where "
                     "the record has none",
@@ -345,7 +345,7 @@ class _Solution:
         scale, duration, nearer = self._scale(event), expected, np.inf
         y, states = self.end(duration)
         for _ in range(_TRIES):
-            landed, dt, miss = (np.asarray(part.full()).ravel() for part in land(y, parameters))
+            landed, dt, miss = (np.asarray(result.full()).ravel() for result in land(y, parameters))
             shift = float(dt[0])
             if not np.isfinite(shift) or duration + shift <= 0 or abs(shift) > expected + _ROUNDING:
                 break

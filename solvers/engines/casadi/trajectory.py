@@ -107,9 +107,9 @@ def dataset(
         integrals = [{"rotation": np.zeros(1)}]
     y, time = np.hstack(columns), np.concatenate(times) * n.time
     along = {
-        name: np.concatenate([each[name] for each in integrals])
+        name: np.concatenate([integral[name] for integral in integrals])
         for name in ("rotation", *TAKEN)
-        if all(name in each for each in integrals)
+        if all(name in integral for integral in integrals)
     }
     zero = np.zeros(time.size)
     values = {"gap": y[0] * n.length, "normal_velocity": y[1] * n.speed}

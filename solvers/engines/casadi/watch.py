@@ -29,10 +29,10 @@ Solution = Callable[[np.ndarray], np.ndarray]
 
 @dataclass(frozen=True)
 class Crossing:
-    """An event whose guard is negative inside a phase: name, part of the duration, and the guard over its size."""
+    """An event whose guard is negative inside a phase: name, fraction of the duration, and the guard over its size."""
 
     event: str
-    part: float
+    fraction: float
     value: float
 
 
@@ -95,7 +95,7 @@ def first_crossing(
             if dip is not None:
                 crossings.append(Crossing(name, dip[0], dip[1] / size))
                 break
-    return min(crossings, key=lambda crossing: crossing.part, default=None)
+    return min(crossings, key=lambda crossing: crossing.fraction, default=None)
 
 
 def is_met(flow: Flow, parameters: np.ndarray, states: np.ndarray, event: str, rtol: float) -> bool:

@@ -11,7 +11,7 @@ from ...host import emitted
 from ...host.compiler import CannotCompile, compiler, key, more_flags
 from ...host.compiler import library as compiled
 from ...host.thread_caches import once
-from ...host.user_cache import kept, loaded
+from ...host.user_cache import fetch, loaded
 from ...model.key import ModelKey
 from ..machine import here
 
@@ -103,7 +103,7 @@ def engine(choice: ModelKey, own_rupture: bool, parameters: int) -> Engine:
     flags = (*here()[0].flags, *FLAGS, *more_flags())
     try:
         name = f"interval-{choice.structure}-{key(text, flags)}.so"
-        library = loaded(kept(name, lambda: compiled(text, flags)), ctypes.CDLL)
+        library = loaded(fetch(name, lambda: compiled(text, flags)), ctypes.CDLL)
     except (CannotCompile, OSError) as error:
         raise NotProvable(f"{tool} cannot compile the enclosing engine ({error})") from None
     if not library.interval_start():

@@ -57,8 +57,8 @@ class Inputs:
         given = impact_quantity(scene)
         entries = {**scene.entries, "impact.angle": scene.need_impact()[1]}
         if within is not None and not isinstance(within, Mapping):
-            part = _relative(within, "within")
-            within = {name: part for name in (f"impact.{given}", "impact.angle") if entries[name]}
+            relative = _relative(within, "within")
+            within = {name: relative for name in (f"impact.{given}", "impact.angle") if entries[name]}
         ends = check_mapping(within or {}, "within", "ranges by dotted name")
         box = {name: _ends(scene, name, width) for name, width in ends.items()}
         if len(box) > MOST:
@@ -109,10 +109,10 @@ def _quantities(scene: Scene, entries: Mapping[str, float | str], corner: Mappin
 
 def _ends(scene: Scene, name: str, width: object) -> Range:
     """Low and high of an entry, SI, as the scene gives it; what reading them rounds is outward."""
-    known, label = scene.fields, f"within {name}"
-    if name not in known:
+    fields, label = scene.fields, f"within {name}"
+    if name not in fields:
         raise InputError("within", name, "entries of a scene file by dotted name", "is not an entry")
-    field, tables = known[name], {entry.partition(".")[0] for entry in scene.entries}
+    field, tables = fields[name], {entry.partition(".")[0] for entry in scene.entries}
     value = scene.entries.get(name, field.default if name.partition(".")[0] in tables else None)
     if isinstance(value, str) or field.choices or field.flag:
         raise InputError(label, width, "an entry that this scene gives as a number", "is no range of numbers")
@@ -133,9 +133,9 @@ def _ends(scene: Scene, name: str, width: object) -> Range:
     return max(low, field.range.low), min(high, field.range.high)
 
 
-def _outward(low: float, high: float, part: float) -> Range:
+def _outward(low: float, high: float, relative: float) -> Range:
     """The ends moved outward by a part of them; zero, which nothing rounds, stays."""
-    below, above = low - abs(low) * part, high + abs(high) * part
+    below, above = low - abs(low) * relative, high + abs(high) * relative
     return low and math.nextafter(below, -math.inf), high and math.nextafter(above, math.inf)
 
 

@@ -12,7 +12,7 @@ from ...host.compiler import library as compiled
 from ...host.cores import usable_cores
 from ...host.remarks import say_after
 from ...host.thread_caches import once
-from ...host.user_cache import found, has, kept, loaded
+from ...host.user_cache import fetch, has, loaded, lookup
 from ...model.model import select_model
 from ...scene.scene import Scene
 from ..machine import here
@@ -37,10 +37,10 @@ def kernel_supports(scene: Scene, obliquities: Collection[bool] = (True, False),
         gradients: with derivatives.
     """
     keys = [select_model(scene, oblique, fold=not gradients) for oblique in obliquities]
-    if not all(headers(each) and (tangents(each) if gradients else True) for each in keys):
+    if not all(headers(choice) and (tangents(choice) if gradients else True) for choice in keys):
         return False
-    variants = (Variant(each, order_for(RTOL), gradients=gradients) for each in keys)
-    return all(is_shipped(each) for each in variants) or compiler() is not None
+    variants = (Variant(choice, order_for(RTOL), gradients=gradients) for choice in keys)
+    return all(is_shipped(variant) for variant in variants) or compiler() is not None
 
 
 def is_compiled(variant: Variant) -> bool:
@@ -90,7 +90,7 @@ def _compiled(variant: Variant) -> bytes:
             raise no_kernel() if tool is None else ComputationError("a law or event of this scene has no Taylor series")
         text, flagged = source(variant, emitted), flags(variant, here()[0])
         try:
-            return kept(_entry(variant, text, flagged), lambda: compiled(text, flagged))
+            return fetch(_entry(variant, text, flagged), lambda: compiled(text, flagged))
         except (CannotCompile, OSError) as error:
             ours = "source.c:" in str(error)  # a place in the text that we emit, not a failure of the compiler
             what = (
@@ -141,5 +141,5 @@ def size_of(variant: Variant) -> int:
     content = shipped(variant)
     if content is None:
         entry = _expected(variant, flags(variant, here()[0]))
-        content = found(entry) if entry is not None else None
+        content = lookup(entry) if entry is not None else None
     return len(content or b"")

@@ -76,7 +76,7 @@ class Impacts:
         mask = self.oblique if not self.in_space else np.ones(self.size, bool)
         yield from ((kind, which) for kind in (True, False) if (which := np.flatnonzero(mask == kind)).size)
 
-    def part(self, which: np.ndarray | slice) -> Impacts:
+    def subset(self, which: np.ndarray | slice) -> Impacts:
         others = {name: values[which] for name, values in self.others.items()}
         return Impacts(self.scene, self.speed[which], self.angle[which], others)
 
@@ -130,16 +130,16 @@ def run_kernel(
 
         def chunk(first: int, library: Any = library, which: np.ndarray = which, terms_of: Any = terms_of) -> None:
             whole, last = which.size == answers.size, min(first + CHUNK, which.size)
-            part = slice(first, last) if whole else which[first:last]  # no copy of the whole
-            some, terms = answers[part], np.zeros(last - first if ledger else 0, terms_of)
-            call = task(library, impacts.part(part), rtol, steps, some, 0 if ledger else jumps)
+            rows = slice(first, last) if whole else which[first:last]  # no copy of the whole
+            some, terms = answers[rows], np.zeros(last - first if ledger else 0, terms_of)
+            call = task(library, impacts.subset(rows), rtol, steps, some, 0 if ledger else jumps)
             call.buffer("books", terms)
             call.run()
             if not whole:
-                answers[part] = some
+                answers[rows] = some
             if ledgers is not None:
                 for name in terms.dtype.names or ():
-                    ledgers[name][part] = terms[name]
+                    ledgers[name][rows] = terms[name]
 
         firsts = range(0, which.size, CHUNK)
         if threads == 1 or len(firsts) == 1:

@@ -30,7 +30,7 @@ def automaton(choice: ModelKey) -> dict[str, str]:
         assert choice.package is not None
         texts["automaton"], texts["effects"] = choice.package.automaton_headers()
     return {
-        f"{name}.h": "".join(["#pragma once\n", *(f'#include "{each}.h"\n' for each in includes[name]), text])
+        f"{name}.h": "".join(["#pragma once\n", *(f'#include "{header}.h"\n' for header in includes[name]), text])
         for name, text in texts.items()
     }
 

@@ -71,14 +71,14 @@ def run_recorded(
     log_room, step_room = room[0] * events, room[1] * size
     while True:
         answers, log = np.zeros(size, ANSWER), np.zeros((size, log_room), HAPPENING)
-        books = np.zeros(size if ledger else 0, OWN_LEDGER if books_own(wanted.choice) else LEDGER)
+        ledgers = np.zeros(size if ledger else 0, OWN_LEDGER if books_own(wanted.choice) else LEDGER)
         rows = np.empty(step_room, step_row(library)) if keep else None  # the kernel counts the rows that it fills
         call = task(library, impacts, rtol, budget, answers)
         call.number("purpose", purpose)
         call.number("until", until or 0.0)
         if events:
             call.buffer("log", log)
-        call.buffer("books", books)
+        call.buffer("books", ledgers)
         if rows is not None:
             call.buffer("rows", rows)
         if margins is not None:
@@ -89,7 +89,7 @@ def run_recorded(
         log_room, step_room = max(most, log_room), max(steps, step_room)
     turned = number(library, "row_turned") if trajectory else -1
     written = None if rows is None else Steps(rows[:steps], None if turned < 0 else turned)
-    return Recorded(answers, log, books if ledger else None, written, margins)
+    return Recorded(answers, log, ledgers if ledger else None, written, margins)
 
 
 def recorded_in_space(impact: Impacts, rtol: float) -> tuple[Any, np.ndarray]:

@@ -21,8 +21,8 @@ def shipped(variant: Variant) -> bytes | None:
     """The library of a variant for the widest instruction set of this machine that it was shipped for; None if none."""
     if more_flags() or not any(name.startswith(f"{stem(variant)}-") for name in _names()):
         return None
-    for each in here():
-        if (content := content_of(FOLDER, name_of(variant, each), SUFFIX)) is not None:
+    for instructions in here():
+        if (content := content_of(FOLDER, name_of(variant, instructions), SUFFIX)) is not None:
             return content
     return None
 

@@ -120,7 +120,7 @@ def files(variant: Variant, emitted: tuple[str, ...]) -> dict[str, str]:
 def _kinks(emitted: tuple[str, ...]) -> list[str]:
     """The guards of a structure's kinks, in the series of its laws: how many, and where."""
     counts = {name: guards.count(",") + 1 for text in emitted for name, guards in _GUARDS.findall(text)}
-    members = [each for text in emitted for block in _STRUCT.findall(text) for each in _MEMBER.findall(block)]
+    members = [member for text in emitted for block in _STRUCT.findall(text) for member in _MEMBER.findall(block)]
     laws = [(name, member) for name, member in members if name in counts]
     if not laws:
         return []

@@ -125,12 +125,12 @@ def _unmarked(text: str) -> str:
 def _reached(kernel: _Kernel, roots: Iterable[str]) -> list[Item]:
     """The items that the roots need, directly or not."""
     names, reached, waiting = kernel.names, set[int](), list(roots)
-    known: set[str] = set()
+    closure: set[str] = set()
     while waiting:
         name = waiting.pop()
-        if name in known:
+        if name in closure:
             continue
-        known.add(name)
+        closure.add(name)
         for item in names.get(name, ()):
             if id(item) not in reached:
                 reached.add(id(item))
@@ -197,7 +197,7 @@ def _renamer(kernel: _Kernel, parts: Sequence[Item]) -> Callable[[Item], str]:
         hidden = own_names(item) & defined
         text = item.code
 
-        def one(match: re.Match[str]) -> str:
+        def replacement(match: re.Match[str]) -> str:
             token = match[0]
             if token not in defined:
                 return token
@@ -207,7 +207,7 @@ def _renamer(kernel: _Kernel, parts: Sequence[Item]) -> Callable[[Item], str]:
                     return token
             return name_of(token)
 
-        return item.comment + _TOKENS.sub(one, text)
+        return item.comment + _TOKENS.sub(replacement, text)
 
     return renamed
 

@@ -41,24 +41,24 @@ class Conditions:
         for line in _logical(text):
             directive = _DIRECTIVE.match(line)
             word, rest = (directive[1], _without_comment(directive[2])) if directive else ("", "")
-            enclosing_kept = all(part.kept for part in stack[:-1])
+            enclosing_kept = all(condition.kept for condition in stack[:-1])
             if word in ("if", "ifdef", "ifndef"):
                 test = rest if word == "if" else f"{'' if word == 'ifdef' else '!'}defined({rest})"
-                reached = all(part.kept for part in stack)
+                reached = all(condition.kept for condition in stack)
                 stack.append(_Part(self.value(test) if reached else 0))
                 if reached and stack[-1].open:
                     yield line
             elif word in ("elif", "else", "endif"):
-                part = stack[-1]
-                if part.open and enclosing_kept:
+                branch = stack[-1]
+                if branch.open and enclosing_kept:
                     yield line
                 elif word == "elif":
-                    part.follow(self.value(rest) if enclosing_kept and not part.done else 0)
+                    branch.follow(self.value(rest) if enclosing_kept and not branch.done else 0)
                 elif word == "else":
-                    part.follow(1)
+                    branch.follow(1)
                 if word == "endif":
                     stack.pop()
-            elif all(part.kept for part in stack):
+            elif all(condition.kept for condition in stack):
                 if word == "pragma":
                     continue
                 self._note(word, rest)

@@ -65,7 +65,7 @@ def header(
             + [(word.upper(), KINDS.index(word), row.name) for word, row in CRITERIA.items()]
         ),
         *comment("Statuses: LAW_OK; UNDECIDED_...: no answer to this impact; from 100 on: bad input."),
-        *_enumeration([(one.name, one.number, one.message) for one in statuses]),
+        *_enumeration([(status.name, status.number, status.message) for status in statuses]),
         *comment("A status in words. The text is never null, and must not be freed."),
         "const char *law_message(int status);",
         "",
@@ -109,8 +109,8 @@ def header(
 def message_function(statuses: Sequence[Result]) -> str:
     """The C function with a text for every status."""
     lines = ["const char *law_message(int status)", "{", "    switch (status) {"]
-    for one in statuses:
-        lines += [f"    case LAW_{one.name}:", f'        return "{one.message}";']
+    for status in statuses:
+        lines += [f"    case LAW_{status.name}:", f'        return "{status.message}";']
     return "\n".join([*lines, "    }", '    return "no such status";', "}", ""])
 
 
@@ -148,8 +148,8 @@ def _frame(scene: Scene) -> str:
 
 def _structure(name: str, numbers: Iterable[Number]) -> list[str]:
     fields = [
-        f"    double {each.name}; /* {'' if each.unit == '1' else each.unit + ', '}{each.in_words}: {each.meaning} */"
-        for each in numbers
+        f"    double {item.name}; /* {'' if item.unit == '1' else item.unit + ', '}{item.in_words}: {item.meaning} */"
+        for item in numbers
     ]
     return ["typedef struct {", *fields, f"}} {name};", ""]
 

@@ -134,7 +134,7 @@ def _item(file: str, comment: str, code: str) -> Item:
         names = re.findall(r"struct (\w+)", bare)
         if not bare.startswith("struct"):
             inside = bare[bare.index("{") + 1 : bare.rindex("}")]
-            names = [part.split("=")[0].strip() for part in _parts(inside) if part.strip()]
+            names = [piece.split("=")[0].strip() for piece in _parts(inside) if piece.strip()]
     elif _is_function(bare):
         match = re.search(r"(\w+)\s*\(", bare)
         names, kind = ([match[1]] if match else []), "function"
@@ -150,7 +150,7 @@ def _item(file: str, comment: str, code: str) -> Item:
 
 
 def _declared(text: str) -> list[str]:
-    names = [re.search(r"(\w+)\s*(?:\[[^\]]*\]\s*)*$", part.split("=")[0].strip()) for part in _parts(text)]
+    names = [re.search(r"(\w+)\s*(?:\[[^\]]*\]\s*)*$", piece.split("=")[0].strip()) for piece in _parts(text)]
     return [name[1] for name in names if name]
 
 

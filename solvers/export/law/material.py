@@ -84,10 +84,10 @@ def material(scene: Scene, kernels: Iterable[Kernel]) -> tuple[Number, ...]:
 
     values = {"poisson_ratio": 0.0, **NEVER_MET, **si_values(scene, None, None)}
     names = {name for kernel in kernels for name in kernel.material}
-    known = [name for name in VOCABULARY if name in names]
+    words = [name for name in VOCABULARY if name in names]
     result = []
-    for name in [*known, *sorted(names - {*known})]:
-        if name in known:
+    for name in [*words, *sorted(names - {*words})]:
+        if name in words:
             unit, meaning = VOCABULARY[name].unit, meaning_of(name, scene)
         else:
             field = user_model.fields(scene.package)[f"{_table(scene)}.{name}"]
@@ -114,14 +114,14 @@ def impact(scene: Scene) -> tuple[Number, ...]:
     """The numbers of an impact."""
     still = Range("0", 0.0, 0.0, low_open=False, high_open=False)
     spins = "angular velocity before the impact about the normal of the plane, positive as the line of centres turns"
-    one, other = ("spin", "partner_spin")
-    meanings = {one: f"the sphere's {spins}", other: f"the partner's {spins}"}
-    ranges = {each: FIELDS[f"impact.{each}"].range for each in meanings}
+    sphere, other = ("spin", "partner_spin")
+    meanings = {sphere: f"the sphere's {spins}", other: f"the partner's {spins}"}
+    ranges = {name: FIELDS[f"impact.{name}"].range for name in meanings}
     if scene.pendulum is not None:
         ranges = dict.fromkeys(ranges, still)
         meanings = dict.fromkeys(meanings, "spheres on strings do not spin before the impact")
     elif scene.wall:
-        meanings[one] = "the sphere's angular velocity before the impact, positive as it rolls along its velocity"
+        meanings[sphere] = "the sphere's angular velocity before the impact, positive as it rolls along its velocity"
         ranges[other], meanings[other] = still, "a wall does not spin"
     return (
         Number("speed", "m/s", "normal approach speed at initial contact", FIELDS["impact.speed"].range, 1.0),
@@ -214,7 +214,7 @@ def _range(name: str, scene: Scene) -> Range:
     """The interval of a quantity, as the schema of a scene has it."""
     if name in ("radius_ratio", "mass_ratio"):
         return _RATIO
-    field = next((each for each in FIELDS.values() if each.quantity == name), None)
+    field = next((entry for entry in FIELDS.values() if entry.quantity == name), None)
     field = field or user_model.fields(scene.package).get(f"{_table(scene)}.{name}")
     if field is None:
         raise CheckFailed(f"no range of {name} is known")

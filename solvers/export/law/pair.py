@@ -34,8 +34,8 @@ def pair_entries(scene: Scene, of_material: Sequence[Number]) -> tuple[Number, .
     if not alone and _COATED in given:
         given.setdefault(_COATED_TOO, given[_COATED])
     needed = {*_SIZES, "", *(number.name for number in of_material)}
-    known = {*_SIZES, *(scene.fields[name].quantity for name in given)}
-    added = {number.name: number.value for number in of_material if number.name not in known}
+    names = {*_SIZES, *(scene.fields[name].quantity for name in given)}
+    added = {number.name: number.value for number in of_material if number.name not in names}
     package = scene.package
     own = {f"{package.table}.{name}" for name in package.quantities} if package else set[str]()
     numbers = []
@@ -56,7 +56,7 @@ def pair_entries(scene: Scene, of_material: Sequence[Number]) -> tuple[Number, .
 
 def pair_function(scene: Scene, entries: Sequence[Number], of_material: Sequence[Number]) -> str:
     """The C functions that return the scene's own pair, refuse entries, and compute the material of a pair."""
-    values = [f"e.{each.name} = {each.value!r};" for each in entries]
+    values = [f"e.{number.name} = {number.value!r};" for number in entries]
     head = "law_pair_entries law_default_pair_entries(void)"
     lines = c_function(head, ["law_pair_entries e;", *values, "return e;"])
     head = "static int check_pair_entries(const law_pair_entries *e)"
@@ -71,9 +71,9 @@ def pair_function(scene: Scene, entries: Sequence[Number], of_material: Sequence
 
 def _computed(scene: Scene, entries: Sequence[Number], of_material: Sequence[Number]) -> list[str]:
     """Lines of C that set the members of `m` from those of `e`; what is used more than once has a name."""
-    symbols = {each.name.replace("_", ".", 1): SX.sym(each.name) for each in entries}
+    symbols = {number.name.replace("_", ".", 1): SX.sym(number.name) for number in entries}
     values = quantities(symbols, Ways(scene.wall, scene.ways.volume))
-    function = Function("f", [*symbols.values()], [SX(values[each.name]) for each in of_material])
+    function = Function("f", [*symbols.values()], [SX(values[number.name]) for number in of_material])
     places: dict[int, int] = {}  # of the work vector, and the instruction whose result is there
     operands: list[tuple[int, ...]] = []
     for k in range(function.n_instructions()):
@@ -91,8 +91,8 @@ def _computed(scene: Scene, entries: Sequence[Number], of_material: Sequence[Num
         elif kind == casadi.OP_CONST:
             texts[k] = repr(function.instruction_constant(k))
         elif kind in _OPERATIONS:
-            texts[k] = f"({_OPERATIONS[kind].format(*(texts[each] for each in those))})"
-            if kind == casadi.OP_SQ or sum(each.count(k) for each in operands) > 1:
+            texts[k] = f"({_OPERATIONS[kind].format(*(texts[index] for index in those))})"
+            if kind == casadi.OP_SQ or sum(indices.count(k) for indices in operands) > 1:
                 lines.append(f"const double w{k} = {texts[k][1:-1]};")
                 texts[k] = f"w{k}"
         else:
@@ -107,7 +107,7 @@ def _read(function: Function, k: int) -> list[int]:
 
 def pair_header(scene: Scene, entries: Sequence[Number]) -> list[str]:
     """What the header says of pairs."""
-    members = {each.name for each in entries}
+    members = {number.name for number in entries}
     film = (
         "the sum of both coatings"
         if "liquid_coating_thickness" in members
@@ -115,17 +115,17 @@ def pair_header(scene: Scene, entries: Sequence[Number]) -> list[str]:
     )
     rules = [f"The film is {film}."]
     if scene.ways.volume == "coating":
-        part = (
+        share = (
             "the part bridge_coating_fraction"
             if "bridge_coating_fraction" in members
             else "what the other's shadow covers"
         )
-        rules.append(f"The bridge has of either coating {part}.")
+        rules.append(f"The bridge has of either coating {share}.")
     if scene.pendulum is not None:
         rules.append("The spheres on strings are equal.")
     rows = [
-        f"    double {each.name}; /* {'' if each.unit == '1' else each.unit + ', '}{each.in_words}: {each.meaning} */"
-        for each in entries
+        f"    double {item.name}; /* {'' if item.unit == '1' else item.unit + ', '}{item.in_words}: {item.meaning} */"
+        for item in entries
     ]
     return [
         *comment(

@@ -51,22 +51,22 @@ def vectors(scene: Scene, kernels: Sequence[Kernel]) -> list[Vector]:
     result: list[Vector] = []
     for impacts in _impacts(scene):
         oblique = bool(impacts["angle"][0] > 0)
-        one_kernel = next(one for one in kernels if (one.prefix != HEAD_ON) == oblique)
+        one_kernel = next(law for law in kernels if (law.prefix != HEAD_ON) == oblique)
         result += _computed(one_kernel, impacts)
-    by_outcome = {outcome: [one for one in result if one.codes[0] == outcome] for outcome in range(3)}
+    by_outcome = {outcome: [vector for vector in result if vector.codes[0] == outcome] for outcome in range(3)}
     present = [group for group in by_outcome.values() if group]
     if not present:
         raise ComputationError("no impact could be computed for the test vectors, or all are beside a boundary")
     share = -(-_WANTED // len(present))
-    chosen = [one for group in present for one in group[:share]]
-    return chosen + [one for one in result if one not in chosen][: max(0, _WANTED - len(chosen))]
+    chosen = [vector for group in present for vector in group[:share]]
+    return chosen + [vector for vector in result if vector not in chosen][: max(0, _WANTED - len(chosen))]
 
 
 def table(scene: Scene, kernels: Sequence[Kernel]) -> str:
     """The text of vectors.h."""
     rows = [
-        f"    {{{{{_list(one.impact)}}},\n     {{0, {', '.join(map(str, one.codes))}, {_list(one.numbers)}}}}},"
-        for one in vectors(scene, kernels)
+        f"    {{{{{_list(row.impact)}}},\n     {{0, {', '.join(map(str, row.codes))}, {_list(row.numbers)}}}}},"
+        for row in vectors(scene, kernels)
     ]
     lines = [
         "/* Impacts (SI) and what wetdoublet computed for them, in the order of the header's structures. */",
@@ -95,7 +95,7 @@ def table(scene: Scene, kernels: Sequence[Kernel]) -> str:
 
 
 def _list(numbers: Sequence[float]) -> str:
-    return ", ".join("NAN" if np.isnan(each) else repr(float(each)) for each in numbers)
+    return ", ".join("NAN" if np.isnan(number) else repr(float(number)) for number in numbers)
 
 
 def _impacts(scene: Scene) -> list[dict[str, np.ndarray]]:
@@ -139,7 +139,7 @@ def _computed(of_law: Kernel, impacts: dict[str, np.ndarray]) -> list[Vector]:
     sound = (codes[0] == codes[1]).all(axis=1) & np.logical_and(*(block["answered"] for block in answers))
     sound &= (np.isnan(plain) | (np.abs(plain - tight) <= 0.1 * TOLERANCE * np.abs(tight))).all(axis=1)
     inputs = np.column_stack([impacts[name] for name in IMPACT])
-    return [Vector(*(tuple(each[k].tolist()) for each in (inputs, codes[1], tight))) for k in np.flatnonzero(sound)]
+    return [Vector(*(tuple(values[k].tolist()) for values in (inputs, codes[1], tight))) for k in np.flatnonzero(sound)]
 
 
 def _by_kernel(library: ctypes.CDLL, impacts: Impacts, rtol: float) -> Block:
@@ -159,12 +159,12 @@ def pair_table(scene: Scene, rtol: float, tolerance: float) -> list[str]:
         scene_pairs["velocities"],
         scene_pairs["spins"][:, : 1 if scene.wall else 2],
     )
-    pairs, other = (collide_pair(scene, normal, velocities, spins, rtol=each) for each in (rtol, rtol / 3))
+    pairs, other = (collide_pair(scene, normal, velocities, spins, rtol=accuracy) for accuracy in (rtol, rtol / 3))
     rows = {name: pairs[name].values for name in pairs.data_vars}
     sound = (rows["outcome"] == other.outcome.values) & (rows["outcome"] >= 0)
     for name in ("time", "restitution", "velocities", "spins"):
-        one, two = (np.nan_to_num(each[name].values.reshape(_DRAWN, -1)) for each in (pairs, other))
-        sound &= np.abs(one - two).max(axis=1) <= 0.1 * tolerance * np.abs(one).max(axis=1)
+        loose, two = (np.nan_to_num(dataset[name].values.reshape(_DRAWN, -1)) for dataset in (pairs, other))
+        sound &= np.abs(loose - two).max(axis=1) <= 0.1 * tolerance * np.abs(loose).max(axis=1)
     chosen = [k for outcome in range(3) for k in np.flatnonzero(sound & (rows["outcome"] == outcome))[:_KEPT]]
     if not chosen:
         raise ComputationError("no pair in space could be computed for the test vectors")
@@ -206,4 +206,4 @@ def _braced(numbers: np.ndarray) -> str:
     """Numbers of any shape as C's initialisers."""
     if numbers.ndim == 0:
         return "NAN" if np.isnan(numbers) else repr(float(numbers))
-    return f"{{{', '.join(_braced(np.asarray(each)) for each in numbers)}}}"
+    return f"{{{', '.join(_braced(np.asarray(row)) for row in numbers)}}}"

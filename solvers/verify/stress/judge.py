@@ -65,15 +65,15 @@ def fast_kernel(scene: Scene) -> Variant:
 
 def chained(scene: Scene, rtol: float, plugin: str = "cvodes") -> Result:
     """Result as by `collide` with its ledger."""
-    one = by_replay(Problem.read(scene), rtol, plugin, True, False)
+    collision = by_replay(Problem.read(scene), rtol, plugin, True, False)
     more: dict[str, float] = {}
-    if one.energy is not None:
-        terms = one.energy.to_dict()
+    if collision.energy is not None:
+        terms = collision.energy.to_dict()
         more["residual"] = abs(terms["residual"]) / max(abs(value) for value in terms.values())
-    if one.angular_momentum_drift is not None:
-        more["drift"] = one.angular_momentum_drift
-    spins = _surface_speeds(scene, *(getattr(one, name) for name in _spins_of(scene)))
-    return Result(one.outcome, one.restitution, one.certified, more=more, spins=spins)
+    if collision.angular_momentum_drift is not None:
+        more["drift"] = collision.angular_momentum_drift
+    spins = _surface_speeds(scene, *(getattr(collision, name) for name in _spins_of(scene)))
+    return Result(collision.outcome, collision.restitution, collision.certified, more=more, spins=spins)
 
 
 Run = Callable[[Scene, float], Result]
@@ -93,7 +93,7 @@ def judge(case: Case, engines: dict[str, Run] | None = None) -> Verdict:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", ModelWarning)  # counted, and reported once for all cases
         verdict = judge_lines(case) if case.angles else _judged(case, runs() if engines is None else engines)
-    return replace(verdict, remarks=tuple(_PARTICULAR.sub(" ", each).strip() for each in remarks(case.scene)))
+    return replace(verdict, remarks=tuple(_PARTICULAR.sub(" ", remark).strip() for remark in remarks(case.scene)))
 
 
 def _judged(case: Case, engines: dict[str, Run]) -> Verdict:
@@ -103,30 +103,30 @@ def _judged(case: Case, engines: dict[str, Run]) -> Verdict:
         if CHATTERS in results[name].failure:
             break  # nothing is recorded that others could follow
     issues: list[Issue] = [
-        Issue("failure", (name,), each.failure, _physical(each.failure, name, case))
-        for name, each in results.items()
-        if each.failure
+        Issue("failure", (name,), result.failure, _physical(result.failure, name, case))
+        for name, result in results.items()
+        if result.failure
     ]
-    answers = {name: each for name, each in results.items() if not each.failure}
+    answers = {name: result for name, result in results.items() if not result.failure}
     first = next(iter(answers), None)
     error = slope = None
     if first is not None and len(answers) > 1:
         reference = answers[first]
         slope = _conditioning(engines[first], case.scene, reference)
         bound = (SHARE * RTOL + FLOOR) * slope
-        same = [each.restitution for each in answers.values() if each.outcome == reference.outcome]
+        same = [result.restitution for result in answers.values() if result.outcome == reference.outcome]
         error = max(same) - min(same)
-        for name, each in answers.items():
-            if each.outcome != reference.outcome:
-                kind, text = "outcome", f"{first} says {reference.outcome}, {name} {each.outcome}"
-            elif reference.apart(each) > bound:
-                kind = "restitution" if abs(reference.restitution - each.restitution) > bound else "spin"
-                text = f"e_n and spins {reference.numbers} by {first}, {each.numbers} by {name}"
+        for name, result in answers.items():
+            if result.outcome != reference.outcome:
+                kind, text = "outcome", f"{first} says {reference.outcome}, {name} {result.outcome}"
+            elif reference.apart(result) > bound:
+                kind = "restitution" if abs(reference.restitution - result.restitution) > bound else "spin"
+                text = f"e_n and spins {reference.numbers} by {first}, {result.numbers} by {name}"
             else:
                 continue
             issues.append(Issue(kind, (first, name), text, change_nearby(case, engines, first, name)))
-    for name, each in answers.items():
-        issues += _each(name, each, case)
+    for name, result in answers.items():
+        issues += _of_engine(name, result, case)
     if first is not None and answers[first].certified:
         issues += _audited(case, first)
     return Verdict(case, results, tuple(issues), error, slope)
@@ -173,29 +173,29 @@ def change_nearby(case: Case, engines: dict[str, Run], first: str, name: str) ->
     reach = SHARE * RTOL
     for who in dict.fromkeys((first, name)):
         values = [_result(engines[who], _at(case.scene, factor), RTOL) for factor in (1 - reach, 1.0, 1 + reach)]
-        outcomes = {each.outcome for each in values if not each.failure}
+        outcomes = {result.outcome for result in values if not result.failure}
         if len(outcomes) > 1:
             return f"a change of outcome lies within {reach:.0e} of St (seen by {who})"
-        ends = [each for each in values if not each.failure]
-        if ends and max(each.apart(ends[0]) for each in ends) > 1e-3:
+        ends = [result for result in values if not result.failure]
+        if ends and max(result.apart(ends[0]) for result in ends) > 1e-3:
             return f"e_n or a spin jumps within {reach:.0e} of St (seen by {who})"
     return ""
 
 
-def _each(name: str, each: Result, case: Case) -> list[Issue]:
+def _of_engine(name: str, result: Result, case: Case) -> list[Issue]:
     """Issues of one engine: a ledger that does not close, a drift of L, or the wrong outcome beside a boundary.
 
     Beside a boundary, the outcome is compared only at distances larger than the engine's error.
     """
     issues = []
-    if case.distance is not None and case.distance > SHARE * RTOL and each.outcome != case.expected:
+    if case.distance is not None and case.distance > SHARE * RTOL and result.outcome != case.expected:
         issues.append(
-            Issue("side", (name,), f"{name} says {each.outcome} where the traced boundary says {case.expected}")
+            Issue("side", (name,), f"{name} says {result.outcome} where the traced boundary says {case.expected}")
         )
-    if each.more.get("residual", 0.0) > OPEN:
-        issues.append(Issue("ledger", (name,), f"{name}'s ledger is open by {each.more['residual']:.1e}"))
-    if case.scene.law_has("arm", "balanced") and each.more.get("drift", 0.0) > DRIFT:
-        issues.append(Issue("drift", (name,), f"L drifts by {each.more['drift']:.1e} in {name}"))
+    if result.more.get("residual", 0.0) > OPEN:
+        issues.append(Issue("ledger", (name,), f"{name}'s ledger is open by {result.more['residual']:.1e}"))
+    if case.scene.law_has("arm", "balanced") and result.more.get("drift", 0.0) > DRIFT:
+        issues.append(Issue("drift", (name,), f"L drifts by {result.more['drift']:.1e} in {name}"))
     return issues
 
 

@@ -26,8 +26,8 @@ def judge_lines(case: Case) -> Verdict:
         if failure:
             issues.append(Issue("failure", ("boundary",), failure, physical_reason(failure)))
             continue
-        at = np.array([one.stokes for one in changes])
-        outcomes = [changes[0].before, *(one.after for one in changes)] if changes else None
+        at = np.array([change.stokes for change in changes])
+        outcomes = [changes[0].before, *(change.after for change in changes)] if changes else None
         apart = at.size < 2 or bool(np.min(np.diff(np.log(at))) > 4 * _ASIDE)  # no change lies within another's reach
         beside = np.concatenate([at * (1 - _ASIDE), at * (1 + _ASIDE)]) if apart else np.zeros(0)
         scans = [(FAST, np.concatenate([np.geomspace(*SPAN, SAMPLES), beside]))]
@@ -45,7 +45,7 @@ def _denied(
     seen = collide_many(scene, stokes=stokes, angle=angle, rtol=max(RTOL, SHARPEST), engine=engine)["outcome"].values
     if outcomes is None:
         outcomes = [OUTCOMES[max(int(seen.max()), 0)]]
-    expected = np.array([OUTCOMES.index(one) for one in outcomes])[np.searchsorted(at, stokes)]
+    expected = np.array([OUTCOMES.index(outcome) for outcome in outcomes])[np.searchsorted(at, stokes)]
     wrong = np.flatnonzero((seen >= 0) & (seen != expected))
     if not wrong.size:
         return []

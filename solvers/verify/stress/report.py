@@ -34,7 +34,7 @@ def write(stress: Stress, folder: Path) -> list[Path]:
 
 def record(stress: Stress) -> dict[str, Any]:
     """Content of `stress.json`."""
-    cases = [_case(one) for one in stress.verdicts]
+    cases = [_case(verdict) for verdict in stress.verdicts]
     return {
         "environment": stress.where,
         "settings": {"seed": SEED, "rtol": RTOL, "share": SHARE, "engines": list(runs()), "fast": FAST},
@@ -46,20 +46,20 @@ def record(stress: Stress) -> dict[str, Any]:
     }
 
 
-def _case(one: Verdict) -> dict[str, Any]:
-    case, results = one.case, one.results.items()
+def _case(verdict: Verdict) -> dict[str, Any]:
+    case, results = verdict.case, verdict.results.items()
     columns = ("outcome", "restitution", "certified", "failure")
     return {
         **{name: getattr(case, name) for name in ("name", "kind", "distance", "change")},
-        "scene": case.scene.to_dict() if one.issues else None,  # the others can be reproduced from seed and number
+        "scene": case.scene.to_dict() if verdict.issues else None,  # the others can be reproduced from seed and number
         "stokes": case.scene.stokes,
         "angle": case.scene.angle,
         "angles": list(case.angles),
-        "outcome": next((each.outcome for _, each in results if each.outcome), ""),
-        "error": one.error,
-        "conditioning": one.conditioning if one.conditioning != math.inf else None,
-        "found": {name: {key: getattr(each, key) for key in columns} | each.more for name, each in results},
-        "issues": [asdict(issue) for issue in one.issues],
+        "outcome": next((result.outcome for _, result in results if result.outcome), ""),
+        "error": verdict.error,
+        "conditioning": verdict.conditioning if verdict.conditioning != math.inf else None,
+        "found": {name: {key: getattr(result, key) for key in columns} | result.more for name, result in results},
+        "issues": [asdict(issue) for issue in verdict.issues],
     }
 
 
@@ -76,22 +76,22 @@ def tables(stress: Stress) -> dict[str, str]:
 def worst(stress: Stress, folder: Path) -> list[Path]:
     """Scene files of all unexplained disagreements, then failures, then the largest errors."""
     failed = sorted(stress.issues("failure"), key=lambda pair: bool(pair[1].explained))
-    erring = sorted((one for one in stress.verdicts if one.error), key=lambda one: -(one.error or 0.0))
+    erring = sorted((entry for entry in stress.verdicts if entry.error), key=lambda entry: -(entry.error or 0.0))
     sorts: dict[str, list[tuple[Verdict, str]]] = {
-        "disagreement": [(one, f"{issue.kind}: {issue.message}") for one, issue in stress.unexplained],
-        "failure": [(one, f"{', '.join(issue.between)}: {issue.message}") for one, issue in failed],
-        "error": [(one, f"e_n differs by {one.error:.2e} between engines") for one in erring[:5]],
+        "disagreement": [(verdict, f"{issue.kind}: {issue.message}") for verdict, issue in stress.unexplained],
+        "failure": [(verdict, f"{', '.join(issue.between)}: {issue.message}") for verdict, issue in failed],
+        "error": [(verdict, f"e_n differs by {verdict.error:.2e} between engines") for verdict in erring[:5]],
     }
     for earlier in folder.glob("*-[0-9][0-9].toml"):
         earlier.unlink()
     scenes: dict[str, Path] = {}
     for sort, cases in sorts.items():
-        for k, (one, why) in enumerate(cases[:WORST]):
-            if one.case.name not in scenes:
+        for k, (verdict, why) in enumerate(cases[:WORST]):
+            if verdict.case.name not in scenes:
                 folder.mkdir(parents=True, exist_ok=True)
-                scenes[one.case.name] = file = folder / f"{sort}-{k + 1:02d}.toml"
-                header = "".join(f"# {line}\n" for line in (one.case.name, re.sub(r"[^\x20-\x7e]", "?", why)))
-                files.write(file, header + one.case.scene.to_toml())
+                scenes[verdict.case.name] = file = folder / f"{sort}-{k + 1:02d}.toml"
+                header = "".join(f"# {line}\n" for line in (verdict.case.name, re.sub(r"[^\x20-\x7e]", "?", why)))
+                files.write(file, header + verdict.case.scene.to_toml())
     return list(scenes.values())
 
 
@@ -119,7 +119,7 @@ def _counted(head: Sequence[str], keys: Iterable[tuple[str, ...]], none: str) ->
 def _disagreements(stress: Stress) -> str:
     issues = stress.issues(*DISAGREEMENTS)
     keys = ((issue.kind, issue.explained or "**unexplained**") for _, issue in issues)
-    lines = [f"* {one.case.name}: {issue.message}" for one, issue in issues if not issue.explained]
+    lines = [f"* {verdict.case.name}: {issue.message}" for verdict, issue in issues if not issue.explained]
     counted = _counted(["kind", "explanation"], keys, "None.")
     return "\n\n".join([counted, *(["\n".join(lines)] if lines else [])])
 
@@ -136,24 +136,24 @@ def _failures(stress: Stress) -> str:
 
 def _engines(stress: Stress) -> str:
     results: dict[str, list[Result]] = {}
-    for one in stress.verdicts:
-        for name, each in one.results.items():
-            results.setdefault(name, []).append(each)
+    for verdict in stress.verdicts:
+        for name, result in verdict.results.items():
+            results.setdefault(name, []).append(result)
     rows = [
-        [name, str(sum(not each.failure for each in those)), str(sum(each.certified for each in those))]
+        [name, str(sum(not result.failure for result in those)), str(sum(result.certified for result in those))]
         for name, those in results.items()
     ]
     return table(["engine", "completed", "proved sticks"], rows)
 
 
 def _ledgers(stress: Stress) -> str:
-    pairs = [(one, each.more) for one in stress.verdicts for each in one.results.values()]
+    pairs = [(verdict, result.more) for verdict in stress.verdicts for result in verdict.results.values()]
     figures = {
         "energy residual over the largest term": [more["residual"] for _, more in pairs if "residual" in more],
         "drift of L (midgap arm)": [
-            more["drift"] for one, more in pairs if "drift" in more and one.case.scene.law_has("arm", "balanced")
+            more["drift"] for entry, more in pairs if "drift" in more and entry.case.scene.law_has("arm", "balanced")
         ],
-        "difference in e_n between engines": [one.error for one in stress.verdicts if one.error is not None],
+        "difference in e_n between engines": [entry.error for entry in stress.verdicts if entry.error is not None],
     }
     return "\n".join(
         f"* {name}: median {np.median(values):.1e}, largest {max(values):.1e}"

@@ -38,12 +38,12 @@ class Stress:
     wanted: int = 0
 
     def issues(self, *kinds: str) -> list[tuple[Verdict, Issue]]:
-        return [(one, issue) for one in self.verdicts for issue in one.issues if issue.kind in kinds]
+        return [(verdict, issue) for verdict in self.verdicts for issue in verdict.issues if issue.kind in kinds]
 
     @property
     def unexplained(self) -> list[tuple[Verdict, Issue]]:
         """Disagreements without an explanation; any of these makes the stress test fail."""
-        return [(one, issue) for one, issue in self.issues(*DISAGREEMENTS) if not issue.explained]
+        return [(verdict, issue) for verdict, issue in self.issues(*DISAGREEMENTS) if not issue.explained]
 
     @property
     def interrupted(self) -> bool:
@@ -52,14 +52,14 @@ class Stress:
     @property
     def remarks(self) -> Counter[str]:
         """Number of scenes outside a law's range of validity, by law and entry."""
-        return Counter(remark for one in self.verdicts for remark in one.remarks)
+        return Counter(remark for verdict in self.verdicts for remark in verdict.remarks)
 
     def summary(self) -> str:
         """Summary in one line."""
         failed = self.issues("failure")
         strange = sum(not issue.explained for _, issue in failed)
         explained = len(self.issues(*DISAGREEMENTS)) - len(self.unexplained)
-        lines = sum(len(one.case.angles) for one in self.verdicts)
+        lines = sum(len(verdict.case.angles) for verdict in self.verdicts)
         traced = f", {lines} lines of boundaries among them" if lines else ""
         scenes = f"{len(self.verdicts)} of {self.wanted}" if self.interrupted else f"{len(self.verdicts)}"
         return (

@@ -57,7 +57,7 @@ class Result:
     def apart(self, other: Result) -> float:
         """The largest difference of e_n and the final spins."""
         pairs = [(self.restitution, other.restitution), *zip(self.spins, other.spins, strict=False)]
-        return max(abs(one - its) for one, its in pairs)
+        return max(abs(own - its) for own, its in pairs)
 
 
 @dataclass(frozen=True)

@@ -32,26 +32,13 @@ def evaluate(expression: sp.Expr, values: dict[str, float]) -> float:
 
 
 UNKNOWN = {
-    "erf": sp.erf(x),
-    "zeta": sp.zeta(x),
-    "Heaviside": sp.Heaviside(x),
-    "gamma": sp.gamma(p),
-    "besselj": sp.besselj(0, x),
-    "floor": sp.floor(x),
-    "atan2": sp.atan2(x, y),
-    "Derivative": sp.Derivative(sp.Function("f")(x), x),
-    "Integral": sp.Integral(x, (x, 0, y)),
-    "And": sp.And(x < 1, y < 2),
-    "Equality": sp.Eq(x, y),
-    "ImaginaryUnit": sp.I,
-    "Exp1": sp.E,
-    "EulerGamma": sp.EulerGamma,
-    "Infinity": sp.oo,
-    "NaN": sp.nan,
-    "DiracDelta": sp.DiracDelta(x),
-    "BooleanTrue": sp.true,
-    "f": sp.Function("f")(x),
-}
+    "erf": sp.erf(x), "zeta": sp.zeta(x), "Heaviside": sp.Heaviside(x), "gamma": sp.gamma(p),
+    "besselj": sp.besselj(0, x), "floor": sp.floor(x), "atan2": sp.atan2(x, y),
+    "Derivative": sp.Derivative(sp.Function("f")(x), x), "Integral": sp.Integral(x, (x, 0, y)),
+    "And": sp.And(x < 1, y < 2), "Equality": sp.Eq(x, y), "ImaginaryUnit": sp.I, "Exp1": sp.E,
+    "EulerGamma": sp.EulerGamma, "Infinity": sp.oo, "NaN": sp.nan, "DiracDelta": sp.DiracDelta(x),
+    "BooleanTrue": sp.true, "f": sp.Function("f")(x),
+}  # fmt: skip
 
 
 @pytest.mark.parametrize("name", UNKNOWN)
@@ -164,27 +151,12 @@ def test_printed_text_means_what_the_expression_means(tree: sp.Expr):
 
 
 PRECEDENCE = [
-    -(x**2),
-    (-x) ** 2,
-    sp.Pow(sp.Integer(-2), x, evaluate=False),
-    sp.Pow(sp.Rational(-1, 3), 2, evaluate=False),
-    p ** (q**x),
-    (p**q) ** x,
-    p ** (-q),
-    1 / (p * q),
-    1 / (p / q),
-    x - (y - z),
-    x / (y * z) / p,
-    sp.Mul(x, sp.Add(y, z), -1, evaluate=False),
-    sp.Mul(sp.Rational(-2, 3), x, -y - z, evaluate=False),
-    sp.sqrt(p) ** 3,
-    1 / sp.sqrt(p),
-    p ** sp.Rational(-2, 3),
-    x * (y - z) * (z - y),
-    -(x - y) * (z - x),
-    sp.exp(-p) ** 2,
-    (x + y) ** 2 / (x - z) ** 3,
-]
+    -(x**2), (-x) ** 2, sp.Pow(sp.Integer(-2), x, evaluate=False), sp.Pow(sp.Rational(-1, 3), 2, evaluate=False),
+    p ** (q**x), (p**q) ** x, p ** (-q), 1 / (p * q), 1 / (p / q), x - (y - z), x / (y * z) / p,
+    sp.Mul(x, sp.Add(y, z), -1, evaluate=False), sp.Mul(sp.Rational(-2, 3), x, -y - z, evaluate=False),
+    sp.sqrt(p) ** 3, 1 / sp.sqrt(p), p ** sp.Rational(-2, 3), x * (y - z) * (z - y), -(x - y) * (z - x),
+    sp.exp(-p) ** 2, (x + y) ** 2 / (x - z) ** 3,
+]  # fmt: skip
 
 
 @pytest.mark.parametrize("expression", PRECEDENCE, ids=str)

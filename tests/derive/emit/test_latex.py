@@ -30,13 +30,6 @@ def test_every_law_can_be_drawn(choice):
         PARSER.parse(f"${line.latex}$")
 
 
-@pytest.mark.parametrize("name", ["F_{L,n}", "F_{L,t}", "F_c", "F_{S,n}", "F_{S,t}"])
-def test_every_force_has_its_line_and_acts(lines, name):
-    """Each force of Table 1 is defined once, and stands in an equation of motion."""
-    assert sum(line.left == name for line in lines) == 1
-    assert any(name in line.latex for line in lines if line.group == "Motion")
-
-
 def test_published_forms(lines):
     """Lubrication, inertia and the groups read as the paper writes them."""
     text = [line.latex for line in lines]

@@ -43,20 +43,16 @@ def test_scales_of_rates_are_the_published_ones():
         tangent, one, other = math.tan(theta), *(abs(spin) * a / v0 for spin in spins.values())
         lever = {"turning": 4.9, "spin": 1.4, "partner_spin": 3.5}
         published = {
-            "initial_turning": tangent / 1.7,
-            "initial_spin": si["impact_spin"] / 11.0,
+            "initial_turning": tangent / 1.7, "initial_spin": si["impact_spin"] / 11.0,
             "initial_partner_spin": si["impact_partner_spin"] / 11.0,
-            "obliquity_pair": max(tangent, 1.4 * one, 3.5 * other),
-            "obliquity_wall": max(tangent, one),
+            "obliquity_pair": max(tangent, 1.4 * one, 3.5 * other), "obliquity_wall": max(tangent, one),
             "obliquity_space": math.hypot(*(lever[name] * a * each / v0 for name in turns for each in turns[name])),
-            "rate_scale": 1.7 * v0 / (4 * a),
-            "rate_scale_pair": 1.7 * v0 / (4.9 * a),
-            "rate_scale_wall": 1.7 * v0 / a,
-            "initial_rate": v0 * tangent / (4 * a),
+            "rate_scale": 1.7 * v0 / (4 * a), "rate_scale_pair": 1.7 * v0 / (4.9 * a),
+            "rate_scale_wall": 1.7 * v0 / a, "initial_rate": v0 * tangent / (4 * a),
             "initial_rate_pair": v0 * tangent / (4.9 * a),
             "centrifugal_pair": m * (v0 * tangent / (4.9 * a)) ** 2 / 0.03,
             "generalised_centrifugal": m * 7.0**2 * a / 3e-5,
-        }
+        }  # fmt: skip
         assert published.keys() == scaling.ARGUMENTS.keys() - {symbol.name for symbol in group_definitions()}
         for name, expected in published.items():
             found = getattr(scaling, name)(*(si[key] for key in scaling.ARGUMENTS[name]))

@@ -38,6 +38,7 @@ EXPRESSIONS = [
     (sp.sin(x) * sp.cos(x), ["sine", "cosine", "product"]),
     (x ** sp.Rational(2, 3), ["power"]),
     (sp.cosh(x), ["exp", "linear", "exp", "linear"]),
+    (sp.tanh(x), ["linear", "exp", "linear", "linear", "quotient"]),
     (sp.exp(x) + sp.exp(x) ** 2 / c, ["exp", "linear", "exp", "linear"]),  # sympy makes exp(2x) of the square
 ]
 

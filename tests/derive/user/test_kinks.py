@@ -10,8 +10,6 @@ from wetdoublet.derive.emit.taylor.law_slopes import slopes_header
 from wetdoublet.derive.laws.modelfile import read
 from wetdoublet.derive.user.kinks import WIDTH
 
-from ...helpers.random_laws import random_law
-
 HEAD = "from wetdoublet.derive.user import *\n"
 FILM = 'law("film", "mine", resistance=6*pi*mu*a**2*u/x*(1 - x/x0)**2*({}))'
 KINKED = [
@@ -104,13 +102,3 @@ def test_several_kinks_below_a_fraction():
     )
     library = (1 - gap) ** 2 / gap
     assert float((value / library).evalf(30)) == pytest.approx(1 + 1 / 1.01, rel=1e-12)
-
-
-@pytest.mark.parametrize("number", range(3))
-def test_random_laws_are_emitted_or_refused_with_a_sentence(number: int):
-    """Every form of a law drawn at random is the same function, or its check says what is wrong."""
-    slot, text = random_law(number)
-    checks = model_checks(Path("mine.py"), text)[1]
-    emission = [check for check in checks if check.name.startswith(f"emission: {slot}")]
-    assert emission
-    assert all(check.figure for check in checks)

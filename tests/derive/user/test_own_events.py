@@ -89,20 +89,17 @@ def test_what_is_shown_decides_the_certificates(body: str, takes: bool, harmless
     event = model(body).events[0]
     assert event.takes is takes
     assert event.harmless is harmless
-    assert event.reach(OBLIQUE).known is known
+    assert event.reach(OBLIQUE).is_known is known
 
 
 def test_structures_that_cannot_have_an_event():
     """Head-on and beside a wall nothing turns, and a jump of the rotation needs the spin as a state."""
     event = model('event("lock", guard=omega - xi - k, jump={xi: omega})').events[0]
     wanted = {
-        OBLIQUE: True,
-        Structure(False, True, False): False,
-        Structure(True, True, False, partner="wall"): False,
-        Structure(True, True, False, partner="pair"): True,
-        Structure(True, True, False, reduced=True): False,
-    }
-    assert {structure: event.there(structure) for structure in wanted} == wanted
+        OBLIQUE: True, Structure(False, True, False): False, Structure(True, True, False, partner="wall"): False,
+        Structure(True, True, False, partner="pair"): True, Structure(True, True, False, reduced=True): False,
+    }  # fmt: skip
+    assert {structure: event.fits(structure) for structure in wanted} == wanted
 
 
 def test_the_angle_turned_and_the_time_are_states():

@@ -91,15 +91,12 @@ def test_what_is_conserved(body: str, kept: list[str]):
 @pytest.mark.parametrize(
     ("body", "rotates", "drives", "barrier"),
     [
-        ('force_on("gap", -k/x0*u/v0)', False, False, True),
-        ('force_on("gap", k/x0*u/v0)', False, False, False),
-        ("energy(k*x/x0 + n*m*u**2)", False, False, True),
-        ('force_on("rotation", k)', True, True, False),
-        ('force_on("rotation", -k*omega*x0/v0)', True, False, False),
-        ("energy(k*cos(beta + 1))", True, True, False),
+        ('force_on("gap", -k/x0*u/v0)', False, False, True), ('force_on("gap", k/x0*u/v0)', False, False, False),
+        ("energy(k*x/x0 + n*m*u**2)", False, False, True), ('force_on("rotation", k)', True, True, False),
+        ('force_on("rotation", -k*omega*x0/v0)', True, False, False), ("energy(k*cos(beta + 1))", True, True, False),
         ("energy(k*cos(beta))", True, False, False),
     ],
-)
+)  # fmt: skip
 def test_what_decides_structures_and_certificates(body: str, rotates: bool, drives: bool, barrier: bool):
     """Whether terms speak of a rotation, turn what does not turn, and leave the energy's barrier."""
     terms = model(body).terms

@@ -75,22 +75,6 @@ def test_tables() -> None:
     assert [kind for kind in kinds if kind] == [one.change.kind for one in changes]
 
 
-@pytest.mark.parametrize(
-    ("line", "says"),
-    [
-        ("--over stokes=0.05:0.2:2", "--uncertainty: missing"),
-        ("--over viscosity=1:2:3 --uncertainty liquid.viscosity=0.1", "--over: "),
-        ("--over angle=20:60:3 --uncertainty liquid.viscosity=5% --of restitution,rotation", "--of: "),
-        ("--over angle=20:60:3 --uncertainty liquid.viscosity=5% --wrt liquid.viscosity", "--wrt: "),
-    ],
-)
-def test_what_does_not_go_together_is_refused(line: str, says: str) -> None:
-    """Status 2 and one line that names the option."""
-    done = run("sensitivity", "granulation", *line.split())
-    assert (done.exit_code, done.stdout, len(done.stderr.splitlines())) == (2, "", 1)
-    assert done.stderr.startswith(says)
-
-
 @pytest.mark.slow
 def test_bands_from_the_command_line(tmp_path: Path) -> None:
     """`--over` prints a table or JSON and draws it."""

@@ -5,7 +5,7 @@ from dataclasses import replace
 import pytest
 from wetdoublet.solvers import Scene
 from wetdoublet.solvers.collision.outcome import Event
-from wetdoublet.solvers.collision.text import name_of, prefix, table
+from wetdoublet.solvers.collision.text import name_of, table
 
 from ...helpers.own_arm import surface
 from ...helpers.reference import collide
@@ -134,8 +134,3 @@ def test_many_events_are_shortened(collisions):
     assert len(text.splitlines()) < 50
     assert row(text, "...") == "289 more"
     assert row(text, "rests") == "400 us"
-
-
-def test_no_prefix_beyond_reason():
-    """Sizes no prefix fits stay in the unit itself."""
-    assert prefix(1e-20) == prefix(1e9) == prefix(float("inf")) == (1.0, "")

@@ -4,9 +4,8 @@ import math
 
 import numpy as np
 import pytest
-from wetdoublet.solvers import Collision, InputError, Scene, collide
+from wetdoublet.solvers import Collision, Scene, collide
 
-from ...helpers.command import run
 from ...helpers.scanned import scanned
 
 STICK = {"stokes": 0.05, "angle": "30 deg"}
@@ -47,7 +46,7 @@ def test_it_ends_where_it_was_asked_to(proved: Collision, followed: Collision) -
     assert followed.angular_momentum_drift < 1e-9
 
 
-@pytest.mark.parametrize("engine", ["cvodes", "rosenbrock", "taylor"])
+@pytest.mark.parametrize("engine", ["cvodes", "taylor"])
 def test_the_film_stops_the_spheres_where_the_closed_form_says(engine: str) -> None:
     """Head-on in an unbounded film x' = -v0 [1 + ln(x/x0)/St]: proved at contact, the gap comes to x0 exp(-St)."""
     entries = {
@@ -102,23 +101,3 @@ def test_a_stick_that_is_followed_on_is_cut_off(
     other = scanned(found.scene)
     assert [kind for kind, _ in other.events] == [event.kind for event in found.events]
     assert other.time == pytest.approx(found.until, rel=1e-7)
-
-
-@pytest.mark.parametrize(
-    ("value", "says"),
-    [
-        ("5", "has no unit"),
-        ("-1 ms", "out of range"),
-        ("3 m", "not a time"),
-        ("soon", "accepted: a time"),
-        ("nan s", "is not finite"),
-    ],
-)
-def test_times_that_are_none_are_refused(value: str, says: str) -> None:
-    """The option is named with the value and what is accepted; from Python the argument is."""
-    done = run("collide", "granulation", "--until", value)
-    assert done.exit_code == 2
-    assert done.stderr.startswith("--until: ")
-    assert says in done.stderr
-    with pytest.raises(InputError, match="^until: "):
-        collide("granulation", until=value)

@@ -290,17 +290,3 @@ def test_a_relative_speed_is_boxed_as_it_is_given() -> None:
     speeds = [v * np.cos(a) for v in proof.box["impact.relative_speed"] for a in proof.box["impact.angle"]]
     assert proof.ranges["speed"] == pytest.approx((min(speeds), max(speeds)), rel=1e-14)
     assert proof.ranges["speed"][0] <= min(speeds) < max(speeds) <= proof.ranges["speed"][1]
-
-
-@pytest.mark.parametrize(
-    "within",
-    [
-        0.0, -1.0, 2.0, {"liquid.viscosity": (2.0, 1.9)}, {"liquid.viscosity": (2.0, 2.0)}, {"bridge.law": 0.1},
-        {"liquid.viscosity": (-1.0, 2.0)}, {"liquid.colour": 0.1}, {"impact.speed": 0.1},
-    ],
-)  # fmt: skip
-def test_bad_boxes_name_the_entry(within: object) -> None:
-    """Empty, reversed and inadmissible boxes, choices and unknown entries are an InputError that names them."""
-    name = next(iter(within)) if isinstance(within, dict) else "within"
-    with pytest.raises(InputError, match=name):
-        prove("granulation", stokes=0.1, angle=0.5, within=within)  # type: ignore[arg-type]

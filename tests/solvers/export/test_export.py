@@ -13,7 +13,6 @@ from wetdoublet.derive.emit.compare import compare, equations, plain, same
 from wetdoublet.derive.emit.read import ReadError, functions
 from wetdoublet.solvers import Scene, collide
 from wetdoublet.solvers.export import differences
-from wetdoublet.solvers.export.functions import functions as exported
 from wetdoublet.solvers.export.functions import texts as c_texts
 from wetdoublet.solvers.model.dimensionless import nondimensionalise
 from wetdoublet.solvers.model.model import load, select_model
@@ -166,18 +165,3 @@ def test_exported_c_is_the_model(tmp_path: Path):
         for value in model.values("right_hand_side", np.array(state), groups, film, shear).values()
     ]
     np.testing.assert_allclose([float(word) for word in found], expected, rtol=1e-13)
-
-
-def test_exported_friction_takes_its_impulse() -> None:
-    """The impulse that sticks, handed to the exported jump, reverses the slip times beta_0 and keeps L."""
-    entries = {"particles.friction": 0.4, "particles.contact_tangential_restitution": 0.3}
-    scene = Scene.load("granulation").with_entries(entries)
-    model = load(select_model(scene, oblique=True, full=True))
-    found = {function.name().removeprefix("own_"): function for function in exported(model, "own")}
-    groups = model.group_values(nondimensionalise(scene, *scene.need_impact()).groups)
-    before = np.array([0.05, -0.3, 17.0, -0.2])
-    slip, sticking, *_ = found["dry_slip"](before, groups).full().ravel()
-    after = found["rubbed"](before, groups, sticking).full().ravel()
-    assert found["dry_slip"](after, groups).full()[0, 0] == pytest.approx(-0.3 * slip, rel=1e-12)
-    assert after[2] + 6.4 * after[3] == pytest.approx(before[2] + 6.4 * before[3], rel=1e-13)
-    assert found["friction_loss"](before, groups, sticking).full()[0, 0] > 0

@@ -48,13 +48,6 @@ def test_a_stick_has_phases_up_to_where_it_is_certain():
         equations(Scene.from_toml(Scene.load("granulation").to_toml().replace('angle = "60 deg"', "")))
 
 
-@pytest.mark.parametrize("until", [-1.0, float("nan"), "1 m"])
-def test_a_time_that_is_none_is_refused(until):
-    """Also where the collision would not need it."""
-    with pytest.raises(InputError, match="^until"):
-        equations("granulation", until=until)
-
-
 @pytest.mark.slow
 def test_the_equations_of_a_model_of_ones_own(tmp_path):
     """`model` takes a model file: its entries, its events and its laws are in the functions."""

@@ -133,7 +133,7 @@ def test_outliers_and_duplicates_are_named() -> None:
     values[wrong] -= 0.3
     changed = replace(data, outcome=outcome, observed={"restitution": (values, data.observed["restitution"][1])})
     rows = np.append(np.arange(60), copied)
-    changed = replace(changed.part(rows), labels=tuple(f"row {k + 1}" for k in range(61)))
+    changed = replace(changed.subset(rows), labels=tuple(f"row {k + 1}" for k in range(61)))
     found = {(one.kind, row) for one in check_data(changed, PENDULUM).findings for row in one.rows}
     assert ("outlier", f"row {misread + 1}") in found
     assert ("outlier", f"row {wrong + 1}") in found

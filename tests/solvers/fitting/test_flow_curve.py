@@ -1,5 +1,6 @@
 """Flow curves: what rheometers export, the law that is found, and its intervals."""
 
+from collections.abc import Iterable
 from pathlib import Path
 
 import numpy as np
@@ -74,13 +75,13 @@ def known(law: str, random: np.random.Generator) -> tuple[np.ndarray, dict[str, 
 LAWS = ("newtonian", "power-law", "cross", "carreau", "herschel-bulkley")
 
 
-def found(count: int, seed: int) -> tuple[int, list[float]]:
+def found(numbers: Iterable[int], seed: int) -> tuple[int, list[float]]:
     """How many laws of known liquids with 3 % noise are found, and deviations of entries over those that are told.
 
     An interval tells 1.96 standard deviations to either side of an entry's logarithm.
     """
     random, laws, deviations = np.random.default_rng(seed), 0, []
-    for number in range(count):
+    for number in numbers:
         law = LAWS[number % len(LAWS)]
         viscosity, entries = known(law, random)
         fitted = flow_curve((RATES, viscosity * np.exp(0.03 * random.normal(size=RATES.size))))
@@ -95,8 +96,8 @@ def found(count: int, seed: int) -> tuple[int, list[float]]:
 
 def test_a_law_is_found_and_pasted(tmp_path: Path):
     """The table that is printed is read as a scene, whose collision says that it shears faster than was measured."""
-    laws, _ = found(5, 7)
-    assert laws == 5
+    laws, _ = found((3, 4), 7)
+    assert laws == 2
     fitted = flow_curve((RATES, np.full(RATES.shape, 2.0) * np.exp(0.01 * np.cos(40 * np.log(RATES)))))
     assert fitted.law == "newtonian"
     scene = Scene.load("granulation").with_entries(fitted.entries)
@@ -109,7 +110,7 @@ def test_a_law_is_found_and_pasted(tmp_path: Path):
 @pytest.mark.slow
 def test_laws_and_intervals_of_fifteen_liquids():
     """Fifteen flow curves with 3 % noise: the law of nearly all, and errors as large as the intervals say."""
-    laws, deviations = found(15, 1)
+    laws, deviations = found(range(15), 1)
     assert laws >= 14
     size = len(deviations)
     assert size >= 30

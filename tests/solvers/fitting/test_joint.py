@@ -29,7 +29,7 @@ def tables() -> list[Measurements]:
 def test_a_table_in_two_parts_is_one_table(tables):
     """With all entries shared, parts of a table have the likelihood of the whole, and its gradient."""
     whole, rows = tables[0], np.arange(8)
-    parts = [whole.part(rows[:5]), whole.part(rows[5:])]
+    parts = [whole.subset(rows[:5]), whole.subset(rows[5:])]
     names = [VISCOSITY, FILM, NOISE]
     at = {VISCOSITY: 13.0, FILM: OIL.entries[FILM], NOISE: 1.2}
     together, alone = log_likelihood([OIL, OIL], parts, names)(at), log_likelihood(OIL, whole, names)(at)

@@ -27,11 +27,8 @@ def impacts(scene: Scene, stokes: list[float], degrees: list[float], outcome: li
 
 
 PENDULUM = (
-    [1.36, 1.5, 0.42, 1.45, 2.5],
-    [20.0, 60.0, 60.0, 60.0, 40.0],
-    [0, 2, 1, 1, -1],
-    [np.nan, 0.3, 0.08, 0.19, 0.5],
-)
+    [1.36, 1.5, 0.42, 1.45, 2.5], [20.0, 60.0, 60.0, 60.0, 40.0], [0, 2, 1, 1, -1], [np.nan, 0.3, 0.08, 0.19, 0.5],
+)  # fmt: skip
 
 
 @pytest.mark.slow
@@ -146,7 +143,7 @@ def test_rows_of_other_viscosity_are_those_of_such_a_scene():
     names, values = ("liquid.film_thickness",), np.array([420e-6])
     together = Likelihood(scene, names, varied)(values).rows
     thicker = scene.with_entries({"liquid.viscosity": "13 Pa s"})
-    alone = [Likelihood(one, names, data.part(np.array([0])))(values).rows[0] for one in (scene, thicker)]
+    alone = [Likelihood(one, names, data.subset(np.array([0])))(values).rows[0] for one in (scene, thicker)]
     np.testing.assert_allclose(together, alone, rtol=1e-9)
 
 

@@ -17,13 +17,10 @@ WALL = Scene.load("lactose-pvp").with_entries({"partner.wall": True, "partner.co
 FAST = np.geomspace(0.05, 50, 16)
 STEEP = np.radians(np.linspace(0, 89, 40))
 COLLISIONS = {
-    "turns away": ("granulation", {}),
-    "steep": ("granulation", {"stokes": 0.05, "angle": "85 deg"}),
-    "rough": ("glass-beads-water", {}),
-    "glass at touch": ("granulation", {"stokes": 0.3, "angle": 0.0}),
-    "slow afterwards": ("pendulum", {}),
-    "beside a wall": (WALL, {"speed": "10 m/s", "angle": "60 deg"}),
-}
+    "turns away": ("granulation", {}), "steep": ("granulation", {"stokes": 0.05, "angle": "85 deg"}),
+    "rough": ("glass-beads-water", {}), "glass at touch": ("granulation", {"stokes": 0.3, "angle": 0.0}),
+    "slow afterwards": ("pendulum", {}), "beside a wall": (WALL, {"speed": "10 m/s", "angle": "60 deg"}),
+}  # fmt: skip
 
 QUICK = ("steep", "glass at touch")
 

@@ -69,16 +69,10 @@ WRONG = {  # for every argument
     "a table without names": {3: 1.0},
 }
 FUNCTIONS = {
-    "collide": {},
-    "collide_many": {},
-    "regime_map": {},
-    "boundary": {},
-    "atlas": {"span": (0.5, 0.6)},
-    "sensitivities": {},
-    "gradients_many": {},
-    "boundary_sensitivities": {},
+    "collide": {}, "collide_many": {}, "regime_map": {}, "boundary": {}, "atlas": {"span": (0.5, 0.6)},
+    "sensitivities": {}, "gradients_many": {}, "boundary_sensitivities": {},
     "band": {"uncertainty": {"liquid.viscosity": "5 %"}, "over": "impact.stokes", "values": [0.02]},
-}
+}  # fmt: skip
 ARGUMENTS = [(name, each) for name in FUNCTIONS for each in inspect.signature(getattr(public, name)).parameters]
 FINE = [("progress", "a class"), ("slow", "a class")]  # what happens to be right
 SHAPED = [

@@ -75,10 +75,10 @@ DAMAGES = [truncated, flipped, pytest.param(linked, marks=posix), pytest.param(o
 @pytest.mark.parametrize("damage", DAMAGES)
 def test_a_damaged_entry_is_made_again(damage: Callable[[Path], None], shelf: Path, capfd: pytest.CaptureFixture[str]):
     """Whatever has happened to its file, an entry is what was made, its file too afterwards, and one line says so."""
-    assert cache.kept("one.bin", lambda: WHOLE) == WHOLE == cache.kept("one.bin", unexpected)
+    assert cache.fetch("one.bin", lambda: WHOLE) == WHOLE == cache.fetch("one.bin", unexpected)
     path = only(shelf)
     damage(path)
-    assert cache.kept("one.bin", lambda: WHOLE) == WHOLE == cache.kept("one.bin", unexpected)
+    assert cache.fetch("one.bin", lambda: WHOLE) == WHOLE == cache.fetch("one.bin", unexpected)
     assert (only(shelf), path.read_bytes(), path.is_symlink()) == (path, WHOLE, False)
     assert capfd.readouterr().err == f"{path} was damaged: it is made again\n"
 
@@ -89,7 +89,7 @@ _CACHE = "from wetdoublet.solvers.host import user_cache as cache"
 _RACE = """
 import os, sys, time
 from pathlib import Path
-from wetdoublet.solvers.host.user_cache import kept
+from wetdoublet.solvers.host.user_cache import fetch
 
 def made():
     meeting = Path(sys.argv[1])
@@ -98,7 +98,7 @@ def made():
         time.sleep(0.01)
     return b"ONE = 1"
 
-print(kept("one.py", made))
+print(fetch("one.py", made))
 """
 
 
@@ -122,7 +122,7 @@ def test_a_library_outlives_its_file(shelf: Path):
     found = []
     for added in (6, 41):
         name, source = f"answer{added}.so", large.replace("ADDED", str(added))
-        content = cache.kept(name, lambda source=source: library(source, ("-shared", "-fPIC")))
+        content = cache.fetch(name, lambda source=source: library(source, ("-shared", "-fPIC")))
         found.append(cache.loaded(content, ctypes.CDLL))
     for path in shelf.glob("*.so"):
         os.truncate(path, 0)
@@ -135,7 +135,7 @@ def test_a_folder_that_others_can_write_to_is_refused(mode: int, shelf: Path):
     """Nothing is taken from it, nothing is put there, one line says so, and what serves in its place is removed."""
     shelf.mkdir()
     shelf.chmod(mode)
-    program = f'{_CACHE}; print(cache.kept("a.b", lambda: b"own"), cache.has("a."))'
+    program = f'{_CACHE}; print(cache.fetch("a.b", lambda: b"own"), cache.has("a."))'
     done = in_process(program)
     assert done.stdout == "b'own' True\n"
     assert done.stderr.startswith(f"{shelf}: others can write to it; what is derived or compiled is kept in ")
@@ -148,8 +148,8 @@ _FULL = """
 import os, subprocess, sys
 from wetdoublet.solvers.host import user_cache as cache
 for name in ("a.b", "c.d"):
-    cache.kept(name, lambda: b"1" * 100_000)
-again = "from wetdoublet.solvers.host import user_cache as cache; print(len(cache.kept('a.b', lambda: b'made again')))"
+    cache.fetch(name, lambda: b"1" * 100_000)
+again = "from wetdoublet.solvers.host import user_cache as cache; print(len(cache.fetch('a.b', lambda: b'made again')))"
 subprocess.run([sys.executable, "-c", again], check=True)
 with cache.room() as place:
     (place / "object").write_bytes(bytes(1 << 20))

@@ -77,16 +77,10 @@ def test_a_compiler_of_ones_own(
         ("[ $1 = --version ] || { sleep 600 & wait; }", "it has not ended after 0.2 s"),
     ],
     ids=[
-        "missing",
-        "silent",
-        "compiles nothing",
-        "fails",
-        "is killed",
-        "for another machine",
-        "hangs",
+        "missing", "silent", "compiles nothing", "fails", "is killed", "for another machine", "hangs",
         "hangs when it compiles",
     ],
-)
+)  # fmt: skip
 def test_what_is_no_compiler(
     does: str | None, wrong: str, tmp_path: Path, anew: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
 ):

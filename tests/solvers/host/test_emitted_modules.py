@@ -111,7 +111,7 @@ def test_what_is_not_committed_is_derived_once(tmp_path: Path, monkeypatch: pyte
     monkeypatch.setattr(emitted, "committed", lambda path: False)
     expected = (Path(emitted.__file__).parents[2] / "generated" / "head_on.py").read_text()
     assert emitted.text("head_on") == expected
-    monkeypatch.setattr("wetdoublet.derive.emit.one.structure_text", lambda name: pytest.fail("derived twice"))
+    monkeypatch.setattr("wetdoublet.derive.emit.first_use.structure_text", lambda name: pytest.fail("derived twice"))
     assert emitted.text("head_on") == expected
     assert emitted.executed("head_on", expected.encode()).STATES == ("gap", "normal_velocity")
 

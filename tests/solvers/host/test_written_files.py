@@ -58,13 +58,10 @@ def test_what_a_path_is_stays(tmp_path: Path):
 
 
 COMMANDS = {
-    "out.txt": ["collide", "granulation", "-o"],
-    "map.nc": [*MAP, "-o"],
-    "map.csv": [*MAP, "-o"],
-    "out.json": ["collide", "granulation", "--json", "-o"],
-    "flight.png": ["collide", "granulation", "--plot"],
+    "out.txt": ["collide", "granulation", "-o"], "map.nc": [*MAP, "-o"], "map.csv": [*MAP, "-o"],
+    "out.json": ["collide", "granulation", "--json", "-o"], "flight.png": ["collide", "granulation", "--plot"],
     "code": ["export", "granulation", "--to", "casadi", "--out"],
-}
+}  # fmt: skip
 
 
 @pytest.mark.parametrize("name", COMMANDS)

@@ -52,44 +52,6 @@ def test_a_failure_is_marked_and_the_rest_go_on(monkeypatch):
     assert (data.restitution.values[[0, 3]] == plain.restitution.values).all()
 
 
-BAD = [
-    ({"stokes": [0.1, 0.2], "angle": [0.1, 0.2, 0.3]}, "impact.angle", "differs in length"),
-    (
-        {"stokes": [0.1], "vary": {"liquid.viscosity": [1.0, 2.0], "bridge.volume": [0.1] * 3}},
-        "bridge.volume",
-        "length",
-    ),
-    ({"stokes": [0.1, -0.2]}, "impact.stokes", "out of range"),
-    ({"stokes": np.full((2, 3), 0.1), "angle": [0.1, 0.2]}, "impact.angle", "does not fit"),
-    ({"stokes": xr.DataArray([0.1, 0.2], dims="k"), "angle": [0.1, 0.2, 0.3]}, "impact.angle", "does not fit"),
-    (
-        {"stokes": xr.DataArray([0.1, 0.2], {"k": [1, 2]}), "angle": xr.DataArray([0.1, 0.2], {"k": [1, 3]})},
-        "impact.angle",
-        "is not aligned",
-    ),
-    ({"stokes": xr.DataArray([0.1, 0.2], dims="angle"), "angle": 0.1}, "dims", "does not lie alone"),
-    ({"stokes": xr.DataArray([0.1, 0.2], dims="outcome")}, "dims", "is the name of a result"),
-    ({"stokes": ["much"]}, "impact.stokes", "is not a number"),
-    ({"stokes": 0.1, "speed": 1.0}, "speed", "together with stokes"),
-    ({"angle": ["60"]}, "impact.angle", "has no unit"),
-    ({"of": ["restitutoin"]}, "of", "did you mean restitution?"),
-    ({"vary": {"impact.angle": [1.0]}}, "vary", "has an argument of its own"),
-    ({"vary": {"bridge.law": ["mikami", "willet"]}}, "bridge.law", "did you mean willett?"),
-    ({"vary": {"partner.wall": True}}, "vary", "is a choice"),
-    ({"vary": {"pendulum.length": [1.0]}}, "vary", "table that the scene granulation has not"),
-    ({"vary": {"particles.radius": [1e-4]}}, "particles.radius", "together with particles.reduced_radius"),
-]
-
-
-@pytest.mark.parametrize(("arguments", "field", "says"), BAD, ids=[f"{bad[1]}: {bad[2]}" for bad in BAD])
-def test_bad_input(arguments, field, says):
-    """What cannot be is refused before anything is computed, and named."""
-    with pytest.raises(InputError) as caught:
-        collide_many("granulation", **arguments)
-    assert caught.value.field == field
-    assert says in str(caught.value)
-
-
 @pytest.mark.parametrize("compute", [collide_many, partial(gradients_many, wrt="liquid.viscosity")])
 def test_results_share_nothing(compute):
     """What is done to one result, its labels included, leaves the next as it would have been."""

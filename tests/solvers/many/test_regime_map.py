@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import xarray as xr
 from wetdoublet.solvers import Scene, collide_many, regime_map
-from wetdoublet.solvers.errors import ComputationError, InputError
+from wetdoublet.solvers.errors import ComputationError
 from wetdoublet.solvers.many import compute
 from wetdoublet.solvers.many.blocks import blocks
 from wetdoublet.solvers.many.plot_map import draw_map
@@ -88,50 +88,6 @@ def test_file_round_trip(data, tmp_path):
         assert Scene.from_toml(back.attrs["scene"]) == Scene.load("granulation")
         assert (back.attrs["rtol"], back.attrs["engine"]) == (1e-9, data.attrs["engine"])
         assert back.attrs["version"]
-
-
-@pytest.mark.parametrize(
-    ("arguments", "field"),
-    [
-        ({"stokes": [0.1, 0.1]}, "impact.stokes"),
-        ({"stokes": np.linspace(0.1, 0.2, 4000), "angle": np.linspace(0, 1, 5000)}, "impact.angle"),
-        ({"vary": {"model.film": "finite"}}, "vary"),
-        ({"of": ["e_n"]}, "of"),
-    ],
-)
-def test_bad_input_in_python(arguments, field):
-    """An axis with a value twice, too many collisions, a choice that varies, an unknown quantity are refused."""
-    with pytest.raises(InputError) as caught:
-        regime_map("granulation", **arguments)
-    assert caught.value.field == field
-
-
-BAD = [
-    ("--stokes 0.1:0.2:3", "--angle: missing"),
-    ("--stokes 0.1:0.2 --angle 0:80:3", '--stokes: "0.1:0.2" is not a range'),
-    ("--speed 0.1:0.2:3 --angle 0:80:3", '--speed: "0.1:0.2" has no unit; accepted: a number with its unit'),
-    ("--stokes 0.1:0.2:3 --angle 0:80:3 --vary liquid.viscosity=1:2:3", '--vary liquid.viscosity: "1:2" has no unit'),
-    ("--stokes 0.1:0.2:3 --angle 0:80:3 --vary impact.angle=1:2:3", '--vary: "impact.angle"'),
-    (
-        "--set bridge.volume=0.2 --stokes 0.1:0.2:3 --angle 0:80:3 --vary bridge.volume=0.1:0.2:2",
-        '--vary: "bridge.volume"',
-    ),
-    ("--stokes 1:2:9000000 --angle 0:80:9000000", '--angle: "0:80:9000000" makes 9000000 x 9000000 collisions'),
-    (
-        "--stokes 1:2:90 --angle 0:80:90 --vary bridge.volume=0.1:0.2:9000",
-        '--vary bridge.volume: "bridge.volume=0.1:0.2:9000" makes 90 x 90 x 9000',
-    ),
-    ("--stokes 0.1:0.2:3 --angle 0:80:3 -o map.txt", '-o: "map.txt" has an unsupported suffix'),
-]
-
-
-@pytest.mark.parametrize(("line", "says"), BAD, ids=[bad[0] for bad in BAD])
-def test_bad_input_on_the_command_line(line, says):
-    """Bad input exits 2 with one line, before anything is computed."""
-    result = run("map", "granulation", *line.split())
-    assert (result.exit_code, result.stdout, len(result.stderr.splitlines())) == (2, "", 1)
-    assert result.stderr.startswith(says)
-    assert "; accepted: " in result.stderr
 
 
 def test_failures_are_marked_counted_and_told(unlucky, tmp_path):

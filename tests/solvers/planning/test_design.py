@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from wetdoublet.solvers import Design, InputError, Scene, design
+from wetdoublet.solvers import Design, Scene, design
 from wetdoublet.solvers.fitting.measurements import read_data
 from wetdoublet.solvers.planning.information import information
 from wetdoublet.solvers.planning.search import Choice, Criterion, search
@@ -129,29 +129,6 @@ def test_the_table_shows_the_impacts(found: Design) -> None:
         "Planned for liquid.viscosity = 2 Pa s, liquid.film_thickness = 8 um; scatter 2 % of the normal speed" in text
     )
     assert sum(each["count"] for each in found.to_dict()["impacts"]) == 6
-
-
-@pytest.mark.parametrize(
-    ("changes", "field"),
-    [
-        ({"free": ["liquid.viscosty"]}, "free"),
-        ({"free": ["bridge.contact_angle"], "over": {"stokes": (1e-4, 2e-4), "angle": 0.0}, "n": 1}, "free"),
-        ({"over": {"stokes": (0.1, 0.2)}}, "over"),
-        ({"over": {"stokes": (0.1, 0.2), "angle": (0.0, 1.6)}}, "over angle"),
-        ({"over": {"stokes": 0.1, "speed": 1.0, "angle": 0.0}}, "over"),
-        ({"n": 0}, "n"),
-        ({"target": "particles.roughness"}, "target"),
-        ({"speed_sd": "40 %"}, "speed_sd"),
-        ({"restitution_sd": 0}, "restitution_sd"),
-        ({"prior": {"particles.roughness": "1 um +- 10 %"}}, "prior"),
-    ],
-)
-def test_what_is_refused(changes: dict[str, Any], field: str) -> None:
-    """A wrong argument is named, and so is an entry on which nothing in the window depends."""
-    asked: dict[str, Any] = {"scene": "granulation", "free": FREE, "over": OVER, "n": 4} | changes
-    with pytest.raises(InputError) as error:
-        design(**asked)
-    assert error.value.field == field
 
 
 @pytest.mark.slow

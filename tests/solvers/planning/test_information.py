@@ -39,7 +39,7 @@ def test_information_is_the_covariance_of_the_score(
     values = np.array([scene.entries[name] for name in names])
     step = NOISE / 2
     seen = np.arange(-5 * NOISE, 1.6, step)
-    rows = plan.part(np.zeros(1 + 2 * seen.size, int))
+    rows = plan.subset(np.zeros(1 + 2 * seen.size, int))
     measured = np.concatenate([[np.nan], seen, seen])
     outcome = np.concatenate([[0], np.full(seen.size, 1), np.full(seen.size, 2)])
     data = replace(rows, outcome=outcome, observed={"restitution": (measured, rows.observed["restitution"][1])})

@@ -59,14 +59,11 @@ def cap(radius, other):
 BESIDE = {  # what stands beside the sphere: as people say it; the film, R = 2a, the bridge's volume from coatings
     "equal": ({}, {}, 2 * H, R, 2 * cap(R, R) * shell(R, H)),
     "pair": (
-        PAIR,
-        {"partner.radius": 1.6e-4, "partner.density": 2000.0},
-        H + LAYER,
-        2 * R * 1.6e-4 / (R + 1.6e-4),
+        PAIR, {"partner.radius": 1.6e-4, "partner.density": 2000.0}, H + LAYER, 2 * R * 1.6e-4 / (R + 1.6e-4),
         cap(R, 1.6e-4) * shell(R, H) + cap(1.6e-4, R) * shell(1.6e-4, LAYER),
     ),
     "wall": (WALL, {"partner.wall": "true"}, H + LAYER, 2 * R, shell(R, H) / 2 + math.pi * R**2 * LAYER),
-}
+}  # fmt: skip
 
 
 @pytest.mark.parametrize("volume", ["5e-5 mm^3", "from coating"])

@@ -4,7 +4,7 @@ import json
 import math
 
 import pytest
-from wetdoublet.solvers import Scene, collide, collide_many, regime_map, sensitivities
+from wetdoublet.solvers import Scene, collide, collide_many, regime_map
 
 from ...helpers.command import run
 
@@ -58,20 +58,6 @@ def test_batches_and_maps_hold_the_scenes_speed() -> None:
         assert drawn.restitution.item() == pytest.approx(one.restitution, rel=1e-7)
         assert many.attrs["held"] == drawn.attrs["held"]
         assert many.attrs["held"].startswith("held: Stokes number" if hold else "held: normal speed")
-
-
-def test_a_step_in_viscosity_is_what_the_derivative_says() -> None:
-    """Differences of changed scenes equal the sensitivities, with the speed or the Stokes number held."""
-    step = 1e-4
-    for hold in (None, "stokes"):
-        exact = sensitivities(GRANULATION, wrt="liquid.viscosity", hold=hold).gradient["restitution"][
-            "liquid.viscosity"
-        ]
-        low, high = (
-            collide(GRANULATION.with_entries({"liquid.viscosity": 2 + side * step}, hold), ledger=False).restitution
-            for side in (-1, 1)
-        )
-        assert (high - low) / (2 * step) == pytest.approx(exact, rel=1e-3, abs=1e-4)
 
 
 def test_commands_hold_and_say_so() -> None:

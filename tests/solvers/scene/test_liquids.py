@@ -164,23 +164,6 @@ def test_shear_and_pressure_of_a_power_law_are_their_integrals():
 THINNING = {"liquid.law": "carreau", "liquid.flow_index": 0.5, "liquid.relaxation_time": "20 us"}
 
 
-@pytest.mark.parametrize(
-    ("entries", "names"),
-    [
-        ({"liquid.flow_index": 0.5}, "liquid.flow_index"), ({"liquid.law": "cross"}, "liquid.flow_index"),
-        ({**THINNING, "liquid.flow_index": 1.5}, "liquid.flow_index"),
-        ({**THINNING, "liquid.yield_stress": "1 Pa"}, "liquid.yield_stress"),
-        ({**THINNING, "model.film": "infinite"}, "model.film"), ({"liquid.law": "bingham"}, "liquid.law"),
-        ({**THINNING, "custom.x": 1.0}, "custom.x"),
-    ],
-)  # fmt: skip
-def test_laws_of_liquids_are_refused_by_name(entries: dict[str, object], names: str):
-    """An entry of another law, one that is missing, one out of range, a film that no such liquid has."""
-    with pytest.raises(InputError) as caught:
-        Scene.load("granulation").with_entries(entries)
-    assert caught.value.field == names
-
-
 def test_a_scene_of_a_liquid_is_written_and_read():
     scene = Scene.load("granulation").with_entries(THINNING)
     assert Scene.from_toml(scene.to_toml()) == scene

@@ -149,13 +149,3 @@ def test_any_scene_round_trips(scene, name):
     """Whatever is valid is the same scene, to the last bit, after a journey through TOML, whatever its name."""
     named = scene.with_entries({"name": name})
     assert Scene.from_toml(named.to_toml()) == named
-
-
-def test_an_impact_replaced_keeps_text_and_order():
-    """An impact given as text stands in the file as it was given, stokes or speed before the angle."""
-    scene = Scene.load("granulation").with_impact(angle="20deg").with_impact(speed="1 m/s")
-    assert scene.to_toml().endswith('[impact]\nspeed = "1 m/s"\nangle = "20deg"\n')
-    assert [*scene.to_dict()] == [*Scene.load("granulation").to_dict()]
-    assert scene.with_entries({"liquid.viscosity": "2000 mPa s"}) == scene.with_entries({"liquid.viscosity": "2 Pa s"})
-    first = Scene.from_toml(scene.to_toml().partition("[impact]")[0]).with_impact(angle=1.0, stokes=0.1)
-    assert first.to_toml().endswith('[impact]\nstokes = 0.1\nangle = "1.0 rad"\n')

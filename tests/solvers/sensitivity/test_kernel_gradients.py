@@ -31,7 +31,7 @@ def test_backward_is_forward(preset: str, stokes: tuple[float, float], angle: tu
     )
     forward, backward, turned = (
         run_tangent(those, True, 1e-12, False, order=11, backward=back)
-        for those, back in ((impacts, False), (impacts, True), (impacts.part(np.arange(count)[::-1]), True))
+        for those, back in ((impacts, False), (impacts, True), (impacts.subset(np.arange(count)[::-1]), True))
     )
     assert forward is not None
     assert backward is not None

@@ -6,7 +6,7 @@ import pickle
 
 import numpy as np
 import pytest
-from wetdoublet.solvers import InputError, ModelWarning, Scene, boundary, collide, collide_many, solve
+from wetdoublet.solvers import ModelWarning, Scene, boundary, collide, collide_many, solve
 
 from ...helpers.command import run
 
@@ -116,15 +116,6 @@ def test_any_result_may_have_a_value(of, target):
         assert (getattr(one.energy, term) if term else getattr(one, name)) == pytest.approx(expected, rel=1e-6)
 
 
-def test_what_the_impact_keeps():
-    """A scene given by its Stokes number keeps the speed; with hold="stokes" it keeps that."""
-    at_speed, at_stokes = (solve(GRANULATION, **FREE, restitution=0.5, **hold)[0] for hold in ({}, {"hold": "stokes"}))
-    assert collide(GRANULATION.with_entries({"liquid.viscosity": at_speed})).restitution == pytest.approx(0.5, abs=1e-7)
-    kept = GRANULATION.with_entries({"liquid.viscosity": at_stokes}, hold="stokes")
-    assert kept.stokes == pytest.approx(0.13) and collide(kept).restitution == pytest.approx(0.5, abs=1e-7)
-    assert abs(at_stokes / at_speed - 1) > 1e-2
-
-
 def test_the_command():
     """A table, JSON with the list, and one line that names the option that is wrong."""
     arguments = ["solve", "granulation", "--stokes", 0.13, "--angle", 20, "--for", "restitution=0.5"]
@@ -151,23 +142,6 @@ def test_the_command():
         assert wrong.exit_code == 2 and wrong.stderr.startswith(message), wrong.stderr
     again = pickle.loads(pickle.dumps(solve(GRANULATION, **FREE, restitution=0.5)))
     assert again == pytest.approx([value], rel=1e-12) and again.found[0].outcome == "bounce"
-
-
-@pytest.mark.parametrize(
-    ("options", "field"),
-    [
-        ({"restitution": 0.5, "within": (3.0, 1.0)}, "within"),
-        ({"restitution": 0.5, "contact_time": 1e-3}, "target"),
-        ({}, "target"),
-        ({"restitution": "half"}, "restitution"),
-        ({"contact_time": "5 Pa"}, "contact_time"),
-        ({"restitution": 0.5, "free": "bridge.law"}, "free"),
-    ],
-)
-def test_what_is_refused(options, field):
-    """The error names the argument."""
-    with pytest.raises(InputError, match=rf"^{field}"):
-        solve(GRANULATION, **{**FREE, **options})
 
 
 def test_samples_without_a_collision_are_counted_with_a_reason():

@@ -6,12 +6,10 @@ The harness has the rest: any arrival as the reference has it, the plane in any 
 import numpy as np
 import pytest
 from wetdoublet.solvers import Scene, collide, collide_pair
-from wetdoublet.solvers.errors import InputError
 from wetdoublet.solvers.host.compiler import compiler
 from wetdoublet.solvers.space.ends import Ends, gains_energy
 from wetdoublet.solvers.space.pairs import checked
 
-from ...helpers.own_arm import surface
 from ...helpers.random_in_space import arrivals, request
 from ...helpers.two_bodies import bodies_of
 
@@ -131,25 +129,3 @@ def test_validity_has_the_sentences_of_a_planar_collision():
     assert any("fly-by" in sentence for sentence in alone[1])
     assert set(found.attrs["validity"]) == alone[0] | alone[1]
     assert collide_pair(GRANULATION, [0, 0, 1], [[0, 0, 0], [0, 0, -1.0]], np.zeros((2, 3))).attrs["validity"] == []
-
-
-@pytest.mark.parametrize(
-    ("scene", "normal", "velocities", "spins", "field"),
-    [
-        (GRANULATION, [0, 1], np.ones((2, 3)), np.ones((2, 3)), "normal"),
-        (GRANULATION, [0, 0, 1], np.ones((1, 3)), np.ones((2, 3)), "velocities"),
-        (GRANULATION, [0, 0, 1], np.ones((4, 2, 3)), np.ones((3, 2, 3)), "normal, velocities, spins"),
-        (WALL, [0, 0, 1], np.ones((1, 3)), np.ones((2, 3)), "spins"),
-        (GRANULATION, [0, 0, 1], [["fast"] * 3] * 2, np.ones((2, 3)), "velocities"),
-        (GRANULATION, [0, 0, 1], [["5 m"] * 3] * 2, np.ones((2, 3)), "velocities"),
-        (GRANULATION, [0, 0, 1], np.ones((2, 3)), None, "spins"),
-        ("pendulum", [0, 0, 1], np.ones((2, 3)), np.ones((2, 3)), "pendulum"),
-        (ROUGH.with_entries({"partner.wall": True}), [0, 0, 1], np.ones((1, 3)), np.ones((1, 3)), "particles.friction"),
-        (surface("granulation"), [0, 0, 1], np.ones((2, 3)), np.ones((2, 3)), "model.arm"),  # L would drift
-    ],
-)
-def test_bad_input_is_named(scene, normal, velocities, spins, field):
-    """Shapes, and scenes that there is no collision in space for."""
-    with pytest.raises(InputError) as caught:
-        collide_pair(scene, normal, velocities, spins)
-    assert caught.value.field == field

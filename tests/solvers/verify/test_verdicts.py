@@ -50,15 +50,6 @@ def test_what_is_asked_for_anew_is_made(verdicts: Verdicts) -> None:
     assert len(verdicts.made) == 6  # type: ignore[attr-defined]  # the function keeps a count
 
 
-def test_a_damaged_entry_is_made_again(verdicts: Verdicts, tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
-    """A verdict turned round in the file is not believed: it is said, and all are made again."""
-    verdicts("a")
-    (entry,) = (tmp_path / "cache").glob("verdicts-*")
-    entry.write_text(entry.read_text().replace("false", "true"))
-    assert verdicts("a") == FINDINGS
-    assert "was damaged" in capfd.readouterr().err
-
-
 def test_the_key_has_the_laws_and_the_settings(monkeypatch: pytest.MonkeyPatch) -> None:
     """Other laws, and other settings of sympy's, are another key."""
     keys = {symbolic_key({}), symbolic_key({"bridge": "mikami"}), symbolic_key({"bridge": "willett"})}

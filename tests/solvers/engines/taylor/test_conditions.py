@@ -2,7 +2,6 @@
 
 import ctypes
 import inspect
-import subprocess
 from collections.abc import Callable
 
 import numpy as np
@@ -14,7 +13,8 @@ from wetdoublet.solvers import Scene
 from wetdoublet.solvers.engines.taylor import source as text
 from wetdoublet.solvers.engines.taylor.headers import headers
 from wetdoublet.solvers.engines.taylor.source import resolved
-from wetdoublet.solvers.host.compiler import compiler
+from wetdoublet.solvers.host.compiler import compiler, library
+from wetdoublet.solvers.host.user_cache import loaded
 from wetdoublet.solvers.model.model import select_model
 
 from ....helpers.flags import QUICK
@@ -46,19 +46,14 @@ def call(name: str, condition: Callable[..., bool]) -> str:
 
 
 @pytest.fixture(scope="module")
-def kernel(tmp_path_factory: pytest.TempPathFactory) -> ctypes.CDLL:
+def kernel() -> ctypes.CDLL:
     """The conditions as compiled."""
     choice = select_model(Scene.load("granulation"), True)
-    emitted, tool = headers(choice), compiler()
+    emitted = headers(choice)
     assert emitted is not None
-    assert tool is not None
-    folder = tmp_path_factory.mktemp("conditions")
     calls = '#include "guards.h"\n' + "".join(call(*each) for each in (CONDITIONS | PROOFS).items())
-    (folder / "conditions.c").write_text(resolved(calls, text.files(text.Variant(choice, 9, lanes=2), emitted)))
-    flags = ["-std=gnu11", "-fPIC", "-shared", *QUICK.split()]
-    command = [*tool.command, *flags, "-o", str(folder / "it.so"), str(folder / "conditions.c"), "-lm"]
-    subprocess.run(command, check=True, capture_output=True)
-    return ctypes.CDLL(str(folder / "it.so"))
+    whole = resolved(calls, text.files(text.Variant(choice, 9, lanes=2), emitted))
+    return loaded(library(whole, ("-std=gnu11", "-fPIC", "-shared", *QUICK.split())), ctypes.CDLL)
 
 
 @pytest.mark.parametrize("name", CONDITIONS | PROOFS)

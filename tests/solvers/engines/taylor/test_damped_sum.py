@@ -25,14 +25,6 @@ def test_all_orders_are_there():
     assert {order for _, order in orders.ORDERS} < set(ROWS)
 
 
-def test_few_orders_are_compiled():
-    """All tolerances from the loosest to the strictest share two orders, the higher for the stricter."""
-    found = [orders.order_for(10.0**-digits) for digits in range(3, 14)]
-    assert found == sorted(found)
-    assert {*found} == {order for _, order in orders.ORDERS}
-    assert len({*found}) == 2
-
-
 @pytest.mark.parametrize("order", ROWS)
 def test_a_decaying_mode_dies(order: int):
     """|R(z)| < 0.75 from z = 2.5 up to the row's z, where the series itself amplifies; in exact arithmetic."""

@@ -1,7 +1,6 @@
 """What the kernel watches for, and which of coincident events it reports: as the table of the automaton has it."""
 
 import ctypes
-import subprocess
 from itertools import combinations
 
 import pytest
@@ -10,7 +9,8 @@ from wetdoublet.solvers import Scene
 from wetdoublet.solvers.engines.taylor import source
 from wetdoublet.solvers.engines.taylor.headers import headers
 from wetdoublet.solvers.engines.taylor.source import resolved
-from wetdoublet.solvers.host.compiler import compiler
+from wetdoublet.solvers.host.compiler import compiler, library
+from wetdoublet.solvers.host.user_cache import loaded
 from wetdoublet.solvers.model.model import select_model
 
 from ....helpers.flags import QUICK
@@ -62,22 +62,16 @@ MODES = {  # motion, film, shear, resting, and what happens at a gap
 
 
 @pytest.fixture(scope="module")
-def kernel(tmp_path_factory: pytest.TempPathFactory) -> ctypes.CDLL:
+def kernel() -> ctypes.CDLL:
     """The search for events of a structure that has all of them: oblique, with bridge and strings."""
     bridge = {"bridge.surface_tension": "0.05 N/m", "bridge.volume": 0.05, "bridge.contact_angle": "0 deg"}
     choice = select_model(Scene.load("pendulum").with_entries(bridge), True)
-    emitted, found = headers(choice), compiler()
+    emitted = headers(choice)
     assert emitted is not None
-    assert found is not None
-    folder = tmp_path_factory.mktemp("precedence")
     text = resolved(HARNESS, source.files(source.Variant(choice, 9, lanes=2), emitted))
-    (folder / "events.c").write_text(text)
-    flags = ["-std=gnu11", "-fPIC", "-shared", *QUICK.split()]
-    command = [*found.command, *flags, "-o", str(folder / "events.so"), str(folder / "events.c"), "-lm"]
-    subprocess.run(command, check=True, capture_output=True)
-    loaded = ctypes.CDLL(str(folder / "events.so"))
-    loaded.reported.argtypes = [ctypes.c_uint, *[ctypes.c_int] * 5, ctypes.c_double]
-    return loaded
+    made = loaded(library(text, ("-std=gnu11", "-fPIC", "-shared", *QUICK.split())), ctypes.CDLL)
+    made.reported.argtypes = [ctypes.c_uint, *[ctypes.c_int] * 5, ctypes.c_double]
+    return made
 
 
 @pytest.mark.parametrize("mode", MODES)

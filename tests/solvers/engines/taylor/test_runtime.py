@@ -2,14 +2,14 @@
 
 import ctypes
 import math
-import subprocess
 
 import numpy as np
 import pytest
 from wetdoublet.solvers.engines import machine
 from wetdoublet.solvers.engines.taylor import source as text
 from wetdoublet.solvers.engines.taylor.source import resolved
-from wetdoublet.solvers.host.compiler import compiler
+from wetdoublet.solvers.host.compiler import compiler, library
+from wetdoublet.solvers.host.user_cache import loaded
 
 ORDER = 12
 pytestmark = pytest.mark.skipif(compiler() is None, reason="no C compiler")
@@ -62,18 +62,12 @@ double first(const double *a, int order)
 
 
 @pytest.fixture(scope="module")
-def runtime(tmp_path_factory: pytest.TempPathFactory) -> ctypes.CDLL:
+def runtime() -> ctypes.CDLL:
     """The runtime's arithmetic as a library."""
-    folder = tmp_path_factory.mktemp("runtime")
-    found = compiler()
-    assert found is not None
     settings = f"#define LANES {machine.lanes()}\n#define ORDER {ORDER}\n#define TERMS {ORDER + 1}\n"
-    (folder / "runtime.c").write_text(resolved(HARNESS, {"settings.h": settings}))
-    command = [*found.command, *text.FLAGS, "-o", str(folder / "runtime.so"), str(folder / "runtime.c"), "-lm"]
-    subprocess.run(command, check=True, capture_output=True)
-    loaded = ctypes.CDLL(str(folder / "runtime.so"))
-    loaded.first.restype = ctypes.c_double
-    return loaded
+    made = loaded(library(resolved(HARNESS, {"settings.h": settings}), text.FLAGS), ctypes.CDLL)
+    made.first.restype = ctypes.c_double
+    return made
 
 
 def _pointer(array: np.ndarray) -> ctypes.c_void_p:
@@ -81,13 +75,9 @@ def _pointer(array: np.ndarray) -> ctypes.c_void_p:
 
 
 RANGES = {
-    "exp": (-700.0, 700.0),
-    "log": (-690.0, 690.0),
-    "sin": (-50.0, 50.0),
-    "cos": (-50.0, 50.0),
-    "tan": (0.0, 1.57),
+    "exp": (-700.0, 700.0), "log": (-690.0, 690.0), "sin": (-50.0, 50.0), "cos": (-50.0, 50.0), "tan": (0.0, 1.57),
     "atan": (-10.0, 10.0),
-}
+}  # fmt: skip
 
 
 @pytest.mark.parametrize("name", RANGES)

@@ -64,9 +64,9 @@ def _defaults(scene: System) -> Iterator[tuple[str, str]]:
     for table in (scene.particles, scene.liquid, scene.bridge, scene.attraction, scene.pendulum, scene.model):
         if table is None:
             continue
-        for one in dataclasses.fields(table):
-            name, value = f"{table.name}.{one.name}", getattr(table, one.name)
-            if name in present or name not in scene.fields or value is None or value != one.default:
+        for field in dataclasses.fields(table):
+            name, value = f"{table.name}.{field.name}", getattr(table, field.name)
+            if name in present or name not in scene.fields or value is None or value != field.default:
                 continue
             unit = scene.fields[name].unit
             yield name, f"{value:.6g} {unit or ''}".rstrip() if isinstance(value, float) else str(value)

@@ -9,7 +9,7 @@ import sympy as sp
 from ..equations.model import derive
 from ..laws import LAWS, Law
 from ..laws.modelfile import read
-from ..physics.structure import Structure, known
+from ..physics.structure import Structure, all_structures
 from ..user.structures import UserModel
 from ..vocabulary.quantities import normal_velocity
 from .casadi import modules
@@ -26,7 +26,7 @@ from .user import own_names
 
 def named(name: str) -> Structure:
     """The structure whose module has this name; KeyError if there is none."""
-    return {each.name: each for each in known()}[name]
+    return {structure.name: structure for structure in all_structures()}[name]
 
 
 def _model(source: str, name: str) -> UserModel:
@@ -80,7 +80,7 @@ def user_law_header_text(source: str, model: str, slot: str, name: str, slopes: 
     """
     user_model, header = _model(source, model), slopes_header if slopes else law_header
     groups = {group.symbol for group in user_model.groups}
-    law = next((each for each in user_model.laws if (each.slot, each.name) == (slot, name)), None)
+    law = next((candidate for candidate in user_model.laws if (candidate.slot, candidate.name) == (slot, name)), None)
     if law is None:
         law, beside = _with_ignored_arguments(LAWS[slot][name], user_model)
         groups |= beside
@@ -99,11 +99,11 @@ def _with_ignored_arguments(law: Law, model: UserModel) -> tuple[Law, set[sp.Sym
     constant_extras: set[sp.Symbol] = set()
     varying = {normal_velocity, *(event.mark for event in model.events)}
     functions = []
-    for each in law.functions:
-        extra = model.extra.get(f"{law.slot}.{each.name}", ())
+    for function in law.functions:
+        extra = model.extra.get(f"{law.slot}.{function.name}", ())
         unused = tuple(sp.Symbol(f"{UNUSED}{symbol.name}", real=True) for symbol in extra)
         constant_extras |= {dummy for dummy, symbol in zip(unused, extra, strict=True) if symbol not in varying}
-        functions.append(replace(each, arguments=(*each.arguments, *unused)))
+        functions.append(replace(function, arguments=(*function.arguments, *unused)))
     return replace(law, functions=tuple(functions)), constant_extras
 
 
