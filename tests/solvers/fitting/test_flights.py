@@ -49,6 +49,7 @@ def test_the_lines_are_the_same_whatever_the_film(scene, stokes: float, angle: f
         np.testing.assert_allclose(left[:, 0], expected[2:], rtol=1e-5, atol=1e-9)
 
 
+@pytest.mark.usefixtures("optimized")
 @pytest.mark.slow
 def test_errors_depend_on_each_other_as_is_said() -> None:
     """Over 100 films, given the errors of speed and impact parameter, the others' are normal and independent.
@@ -104,6 +105,7 @@ def films(scene: Scene, count: int, seed: int) -> pd.DataFrame:
     return pd.concat(parts)
 
 
+@pytest.mark.usefixtures("optimized")
 @pytest.mark.slow
 def test_a_fit_finds_the_film_that_was_guessed_wrong() -> None:
     """Film and viscosity of six films, from guesses 20 % to either side: within their intervals, and the same."""
