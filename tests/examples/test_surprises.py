@@ -533,6 +533,7 @@ def sums(scene: Scene, speed: float, count: int, engine: str) -> np.ndarray:
     return np.array([weight @ e_n, 1 - 2 * weight @ (e_n * np.cos(angle)) ** 2, lost])
 
 
+@pytest.mark.usefixtures("optimized")
 def test_8_and_34_mean_restitution_above_one() -> None:
     names = "restitution_all", "normal_dissipation", "kinetic_energy_loss"
     fast = collision_averages("granulation", speeds=10.0)
@@ -544,6 +545,7 @@ def test_8_and_34_mean_restitution_above_one() -> None:
     assert mean("granulation", "restitution_separated", 0.86) == pytest.approx(25.7413, rel=1e-4)
 
 
+@pytest.mark.usefixtures("optimized")
 def test_35_those_that_separate_lose_more() -> None:
     """Where all stick in closed form: what rigid rotation keeps. Elsewhere beside the ledgers of single collisions."""
     body = bodies_of(GRANULATION)
@@ -559,6 +561,7 @@ def test_35_those_that_separate_lose_more() -> None:
     assert slow == pytest.approx(sums(GRANULATION, 100.0, 400, "taylor")[2], rel=1e-3)
 
 
+@pytest.mark.usefixtures("optimized")
 def test_36_tangential_restitution_is_that_of_rigid_rotation() -> None:
     expected = {1.0: 0.667230, 3.0: 0.663123, 10.0: 0.659371}
     for speed, value in expected.items():
