@@ -22,6 +22,8 @@ def write(path: str, images: np.ndarray, first: int, rate: int, trigger: float =
         (800, "I", 800),  # version of the camera's software
         (896, "I", 12),  # bits that are used
         (5736, "i", 4095),  # white
+        (10388, "f", 1.0),  # every frame is kept
+        (10400, "d", rate),
     ):
         struct.pack_into("<" + kind, setup, place, value)
 
