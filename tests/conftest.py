@@ -20,7 +20,7 @@ from wetdoublet.solvers.engines.taylor.build import kernel
 from .helpers.data import BOUNDARIES, COLLISIONS
 from .helpers.flags import OPTIMIZED, QUICK
 
-# Some 150 kernels are compiled so. What users get is compiled by `test_kernel.py`.
+# Some hundred kernels are compiled so. What users get is compiled by `test_kernel.py`.
 os.environ.setdefault("WETDOUBLET_CFLAGS", QUICK)
 
 # a shell starts what runs in the background with Ctrl-C ignored, and processes inherit that

@@ -150,7 +150,7 @@ def test_structures_without_the_slot_are_untouched():
         ('law("bridge", "mine", force=mu*a*u)', "groups", "depends on normal_velocity"),
         ('law("bridge", "mine", force=m*omega**2*a)', "groups", "rotation_rate"),
         ('k = quantity("k", unit="Pa")\nlaw("bridge", "mine", force=2*cos(phi))', "groups", "k: declared, but no law"),
-        ('law("film", "mine", resistance=(gap - 0.5)/gap)', "dissipation: film mine", "resistance = "),
+        ('n = quantity("n", bounds="0 to 1")\nlaw("film", "mine", resistance=(gap - n)/gap)', "dissipation: film mine", "resistance = "),  # noqa: E501 # a row
         ('law("film", "mine", resistance=mu*a**2/x*sqrt(Abs(u)*v0))', "dissipation: film mine", "u*Abs(u)**(n - 1)"),
         ('law("bridge", "mine", force=1/(h - h))', "dimensions", "zoo"),
         ('law("bridge", "mine", force=log(V - 0.05))', "limits: bridge mine", "volume = 0.001"),
@@ -159,7 +159,7 @@ def test_structures_without_the_slot_are_untouched():
         ('law("film", "mine", resistance=(1 - gap)/gap, braking=log(1/gap))', "braking: mine", "1"),
         ('law("glass", "mine", pressure=approach/gap**2, reach=approach/glass_number)', "reach of the glass criterion, mine", "approach/glass_number"),  # noqa: E501 # a row
         ('law("bridge", "mine", force=sqrt(positive(h - 0.05)))', "limits: bridge mine", "is not a finite number"),
-        ('k = quantity("k", bounds="0 to 1")\nlaw("bridge", "mine", force=k, rupture_distance=k)', "groups", "may depend on volume, contact_angle only"),  # noqa: E501 # a row
+        ('k = quantity("k")\nlaw("bridge", "mine", force=k, rupture_distance=k)', "groups", "may depend on volume, contact_angle only"),  # noqa: E501 # a row
         ('law("arm", "mine", lever=2 + (distance - 4)/3)', "angular momentum: arm mine", "dL/dt"),
         ('law("strings", "mine", rise=offset_squared/2, stiffness=offset_squared)', "potential: strings mine", "left over"),  # noqa: E501 # a row
     ],
