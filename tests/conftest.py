@@ -5,6 +5,7 @@ import gc
 import os
 import re
 import signal
+from collections import Counter
 from collections.abc import Iterator
 from importlib import import_module
 from pathlib import Path
@@ -68,8 +69,9 @@ def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool 
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """The files that take longest come first, lest one processor waits for them at the end."""
-    items.sort(key=lambda item: not str(item.path).endswith(_LONGEST))
+    """The files that take longest come first, then those with most tests, lest one processor waits at the end."""
+    sizes = Counter(item.path for item in items)
+    items.sort(key=lambda item: (not str(item.path).endswith(_LONGEST), -sizes[item.path]))
 
 
 def _quick(config: pytest.Config) -> bool:

@@ -41,6 +41,8 @@ from ..vocabulary.quantities import (
 from ..vocabulary.quantities import contact_angle as phi
 from ..vocabulary.quantities import normal_velocity as opening  # its name in older model files
 from ..vocabulary.quantities import volume as V
-from .declarations import Formula, criterion, energy, event, force_on, law, let, positive, quantity
+from .declarations import Formula, let, positive, quantity
+from .laws import law
+from .motion import criterion, energy, event, force_on
 
 pi = sp.pi

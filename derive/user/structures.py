@@ -30,8 +30,9 @@ from ..vocabulary.quantities import (
     x0,
 )
 from . import own_events
-from .declarations import Criterion, Declarations, Declared, Proposed, published, unfolded
+from .declarations import Criterion, Declarations, Declared, Proposed, unfolded
 from .kinks import freed, smooth
+from .laws import published
 from .own_events import OwnEvent
 
 _ALWAYS = (a, x0, mu, v0, m)  # quantities of every scene, in the order in which a scale is sought

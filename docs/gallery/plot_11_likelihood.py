@@ -17,7 +17,7 @@ names = ["liquid.film_thickness", "liquid.glass_transition_pressure"]
 data = Path(os.environ.get("WETDOUBLET_DOCS", "docs")) / "data" / "synthetic-steel-spheres.csv"
 density = log_likelihood("pendulum", data, names, prior={"liquid.film_thickness": "400 um +- 30 %"})  # and its gradient
 
-film, force = np.meshgrid(np.linspace(200e-6, 600e-6, 6), 380e-6**2 * 15e6 * np.linspace(0.92, 1.08, 7))  # m, N
+film, force = np.meshgrid(np.linspace(200e-6, 600e-6, 9), 380e-6**2 * 15e6 * np.linspace(0.92, 1.08, 5))  # m, N
 pressure = force / film**2  # Pa: the grid follows the curve on which x0^2 p_gt is that of the truth
 points = zip(film.flat, pressure.flat, strict=True)
 values = np.reshape([density([*point])[0] for point in points], film.shape)

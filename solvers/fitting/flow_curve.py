@@ -24,6 +24,7 @@ from .rheometer import flow_curve_of
 
 _CONFIDENCE = 0.95
 _WORTH = 2.0  # difference of criteria that is worth a mention (Kass & Raftery, J. Am. Stat. Assoc. 90, 773, 1995)
+_RAMP, _HYSTERESIS = 3, 0.05  # least points of a ramp; difference of logarithms between two that is worth a mention
 _FARTHEST = 12.0  # of the logarithm of a parameter from its estimate: an interval that goes on is open
 Curve = Callable[[np.ndarray, Mapping[str, float], float], np.ndarray]
 
@@ -88,11 +89,12 @@ class FlowCurve(Drawn, Recorded):
         criteria: information criterion of every law less the least.
         scatter: standard deviation of the viscosity, a part of it.
         reference_rate: of `viscosity` where the law has none of its own, 1/s.
-        rate, viscosity: the curve.
+        rate, viscosity: the curve, ascending by rate.
+        remarks: what to know of the curve: a difference of its ramps, laws for which it has too few points.
     """
 
     _picture = "fitting.plot_flow_curve.draw"
-    _keys = "law parameters criteria scatter points=rate.size rates reference_rate entries"
+    _keys = "law parameters criteria scatter points=rate.size rates reference_rate entries remarks"
 
     law: str
     parameters: Mapping[str, Parameter]
@@ -101,6 +103,7 @@ class FlowCurve(Drawn, Recorded):
     reference_rate: float
     rate: np.ndarray = field(repr=False)
     viscosity: np.ndarray = field(repr=False)
+    remarks: tuple[str, ...] = ()
 
     def __call__(self, rate: np.ndarray) -> np.ndarray:
         """The viscosity by the law, Pa s."""
@@ -146,6 +149,7 @@ class FlowCurve(Drawn, Recorded):
         return "\n".join(
             [
                 *lines,
+                *(f"# note: {remark}" for remark in self.remarks),
                 f"# information criterion less the least (up to {_WORTH:g}, fewer parameters count):",
                 *aligned(rows),
                 "",
@@ -173,6 +177,9 @@ def flow_curve(source: str | Path | tuple[Any, Any]) -> FlowCurve:
     rate, viscosity = np.asarray(rate, float), np.asarray(viscosity, float)
     if rate.shape != viscosity.shape or rate.ndim != 1 or len(set(rate.tolist())) < 3 or not (viscosity > 0).all():
         raise InputError("CURVE.csv", len(rate), "three rates at least, each with its viscosity", "is no flow curve")
+    ramps = _ramps(rate, viscosity)
+    order = np.argsort(rate, kind="stable")
+    rate, viscosity = rate[order], viscosity[order]
     fits = [_Fit(law, curve, names, rate, viscosity) for law, curve, names in _LAWS if len(names) + 1 < len(rate)]
     least = min(fit.criterion for fit in fits)
     near = [fit for fit in fits if fit.criterion - least <= _WORTH]
@@ -182,7 +189,33 @@ def flow_curve(source: str | Path | tuple[Any, Any]) -> FlowCurve:
         above = fit.criterion - least
         criteria[fit.law] = min(above, criteria.get(fit.law, math.inf))
     scatter = math.sqrt(2 * best.cost / (len(rate) - len(best.names)))
-    return FlowCurve(best.law, best.parameters(), criteria, scatter, best.reference, rate, viscosity)
+    untried = ", ".join(dict.fromkeys(law for law, _, names in _LAWS if len(names) + 1 >= len(rate)))
+    few = (f"{len(rate)} points are too few for all parameters of {untried}",) if untried else ()
+    remarks = (*few, *ramps)
+    return FlowCurve(best.law, best.parameters(), criteria, scatter, best.reference, rate, viscosity, remarks)
+
+
+def _ramps(rate: np.ndarray, viscosity: np.ndarray) -> tuple[str, ...]:
+    """A remark if the viscosities of two ramps, up and down or down and up, differ where both have rates."""
+    for side in (1, -1):
+        turn = int(np.argmax(side * rate))
+        first, second = (slice(0, turn + 1), slice(turn, None))
+        parts = [(np.log(rate[half]), np.log(viscosity[half])) for half in (first, second)]
+        if any(len(x) < _RAMP or not (np.diff(x) * way * side >= 0).all() for (x, _), way in zip(parts, (1, -1))):
+            continue
+        (x, y), (other_x, other_y) = parts
+        x, y, other_x, other_y = x[::side], y[::side], other_x[::-side], other_y[::-side]
+        shared = (x >= other_x[0]) & (x <= other_x[-1])
+        ratio = math.exp(float(np.mean(np.interp(x[shared], other_x, other_y) - y[shared])))
+        if abs(math.log(ratio)) > _HYSTERESIS:
+            names = ("up", "down") if side > 0 else ("down", "up")
+            return (
+                (
+                    f"on the way {names[1]} the viscosity is {ratio:.3g} times that on the way {names[0]}: the liquid "
+                    "remembers its shear, or has changed; the law is of both ramps together"
+                ),
+            )
+    return ()
 
 
 class _Fit:

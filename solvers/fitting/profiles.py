@@ -69,15 +69,19 @@ def intervals(likelihood: Joint, free: FreeEntries, best: Optimum) -> tuple[Opti
     raise ComputationError("the likelihood has no maximum that its profiles agree on", advice=advice)
 
 
-class _Reached(Exception):
-    """A point that is what a search looks for."""
+class _EndOfSearch(Exception):
+    """A point at which a search ends."""
 
     def __init__(self, inner: np.ndarray) -> None:
         super().__init__()
         self.inner = inner
 
 
-class _MoreLikely(_Reached):
+class _Reached(_EndOfSearch):
+    """The end of an interval."""
+
+
+class _MoreLikely(_EndOfSearch):
     """A point that is more likely than the maximum."""
 
 

@@ -27,12 +27,15 @@ _COLUMNS = {
     "stress": (r"(?:shear)?[ _-]?stress|schubspannung|contrainte(?: de cisaillement)?|tau|τ|σ", "Pa"),
 }
 _HEAD = re.compile(r"\s*(?P<name>.*?)\s*(?:[\[(](?P<unit>[^\])]*)[\])]|\bin (?P<plain>\S+))?\s*")
-_SPELT = {"1/sec": "1/s", "sec^-1": "1/s", "sec-1": "1/s", "s-1": "1/s", "hz": "1/s"}
+_SPELT = {"1/sec": "1/s", "sec^-1": "1/s", "sec-1": "1/s", "s-1": "1/s"}
+_PER_MINUTE = re.compile(r"1/min|min\^?-1", re.IGNORECASE)
+_TURNS = re.compile(r"[km]?hz|rpm|rev/min|u/min|r/min", re.IGNORECASE)
+_APART = 0.05  # part by which a stress may differ from rate times viscosity: more than any export rounds
 _LARGEST = 20_000_000  # bytes
 
 
 def flow_curve_of(source: str | Path) -> tuple[np.ndarray, np.ndarray]:
-    """Shear rates (1/s) and viscosities (Pa s), ascending by rate.
+    """Shear rates (1/s) and viscosities (Pa s), as they were measured one after another.
 
     Raises:
         InputError: no such file, no such columns or units, or a number that is not positive.
@@ -54,14 +57,23 @@ def flow_curve_of(source: str | Path) -> tuple[np.ndarray, np.ndarray]:
     if len(values) < 3:
         raise InputError("CURVE.csv", str(source), "three rates at least", f"has {len(values)} rows of numbers")
     table = {kind: np.array([row[kind] for row in values]) * factors[kind] for kind in places}
+    if len(table) == 3:
+        with np.errstate(all="ignore"):
+            parts = np.abs(table["stress"] / (table["rate"] * table["viscosity"]) - 1)
+        if (parts > _APART).any():
+            row = int(np.argmax(parts > _APART))
+            accepted = (
+                f"shear rate times viscosity, {table['rate'][row] * table['viscosity'][row]:.4g} Pa, to {_APART:.0%}"
+            )
+            problem = f"of row {row + 1} contradicts the viscosity: is a unit wrong?"
+            raise InputError(f"CURVE.csv {source}, stress", float(table["stress"][row]), accepted, problem)
     viscosity = table["viscosity"] if "viscosity" in table else table["stress"] / table["rate"]
     for kind, column in (("shear rate", table["rate"]), ("viscosity", viscosity)):
         wrong = np.flatnonzero(~(np.isfinite(column) & (column > 0)))
         if wrong.size:
             row = int(wrong[0])
             raise InputError(f"CURVE.csv {source}, {kind}", float(column[row]), "a number > 0", f"of row {row + 1}")
-    order = np.argsort(table["rate"], kind="stable")
-    return table["rate"][order], viscosity[order]
+    return table["rate"], viscosity
 
 
 def _text(source: str | Path) -> str:
@@ -81,6 +93,8 @@ def _text(source: str | Path) -> str:
 
 
 def _cells(line: str) -> list[str]:
+    if re.match(r"\s*[-+.,\d]", line):
+        line = re.sub(r"\s#.*", "", line)  # a remark behind numbers
     separator = next(mark for mark in "\t;," if mark in line or mark == ",")
     cells = next(csv.reader([line], delimiter=separator), [])
     if separator != ",":
@@ -119,6 +133,11 @@ def _factor(unit: str, kind: str, name: str) -> float:
             "has no unit",
         )
     spelt = units.spelling(unit)
+    if kind == "rate" and _PER_MINUTE.fullmatch(spelt):
+        return 1 / 60
+    if kind == "rate" and _TURNS.fullmatch(spelt):
+        problem = "is a frequency or a speed of rotation, which the geometry of the rheometer makes a shear rate"
+        raise InputError(f"CURVE.csv, {name.strip()}", unit, "a shear rate in 1/s or 1/min", problem)
     spelt = _SPELT.get(spelt.lower(), spelt)
     return units.factor(spelt, wanted, f"CURVE.csv, {name.strip()}", _ACCEPTED, unit)
 

@@ -301,12 +301,26 @@ def _finite(name: str, formula: Formula, values: Mapping[str, float]) -> float:
     raise InputError(entry, number, f"quantities whose {name.replace('_', ' ')} {kind} is {span}", "is too far off")
 
 
+def check_criteria(scene: System, speed: float | None) -> None:
+    """InputError for a criterion of a model whose gap is not within the film; a gap by the speed needs that."""
+    values = si_values(scene, speed, None)
+    for criterion in scene.package.criteria if scene.package is not None else ():
+        formula = formulas(scene)[criterion.group]
+        gap = _value(formula, values) if all(map(values.__contains__, formula[1])) else 0.0
+        if not 0 <= gap < 1:
+            film = values["film_thickness"]
+            accepted = f"a gap of 0, or more, but below the film thickness, {film:.4g} m"
+            problem = "is negative" if gap < 0 else "is not below the film's surface, where an approach begins"
+            raise InputError(f"criterion {criterion.word}", f"{gap * film:.4g} m", accepted, problem)
+
+
 def groups_and_scales(scene: System, speed: float, angle: float) -> tuple[dict[str, float], dict[str, float]]:
     """The groups of a collision at a normal speed (m/s) and angle (rad), and the scales of time and energy, by name.
 
     Raises:
         InputError: one is outside its range in `_RANGES`, or a quantity of a user's model is missing.
     """
+    check_criteria(scene, speed)
     values = dict(si_values(scene, speed, angle))
     plain = (
         "dry_restitution", "friction", "contact_tangential_restitution", "volume", "contact_angle", "radius_ratio",

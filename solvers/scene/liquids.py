@@ -14,16 +14,16 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
 
-from ..errors import InputError
+from ..errors import InputError, did_you_mean
 
 ACCEPTED = 'a liquid at a temperature, such as "glycerol 85 %, 25 degC" (mass fraction in water) or "water, 20 degC"'
 AGREED = 0.05
 """Part by which two sources may differ: the largest error that any of them claims."""
 _ZERO = 273.15  # K
 _ATMOSPHERE = 101325.0  # Pa
-_NAMED = re.compile(r"(?P<what>.+),\s*(?P<number>[+-]?\d+\.?\d*)\s*(?P<unit>°\s*C|deg\s*C|C|K)\s*")
+_NAMED = re.compile(r"(?P<what>.+),\s*(?P<number>[+-]?\d+\.?\d*)\s*(?:°|deg)?\s*(?P<unit>[CFK])\s*")
 _PART = re.compile(
-    r"(?P<number>\d+\.?\d*)\s*(?P<kind>(?:wt|w/w|mass|vol|v/v|mol)?)\.?\s*-?\s*%\s*(?:\(?w/w\)?|by mass)?"
+    r"(?P<number>(?:(?<=\s)-)?\d+\.?\d*)\s*(?P<kind>(?:wt|w/w|mass|vol|v/v|mol)?)\.?\s*-?\s*%\s*(?:\(?w/w\)?|by mass)?"
 )
 _ALIASES = {"glycerine": "glycerol", "glycerin": "glycerol", "ethanediol": "ethylene glycol", "eg": "ethylene glycol"}
 _SOLUTIONS = {
@@ -92,23 +92,37 @@ def liquid(text: str, label: str = "liquid.viscosity") -> Liquid:
     read = _NAMED.fullmatch(text)
     if read is None:
         raise InputError(label, text, ACCEPTED, "names no liquid at a temperature")
-    kelvin = float(read["number"]) + (0 if read["unit"] == "K" else _ZERO)
+    degrees = float(read["number"])
+    kelvin = degrees if read["unit"] == "K" else _ZERO + (degrees if read["unit"] == "C" else (degrees - 32) / 1.8)
     name, fraction = _named(read["what"], text, label)
     values: list[Value] = []
     refused: list[str] = []
+    solid = ""  # a source in which it melts above its boiling point
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # of how `chemicals` reads its tables, and at the edges of CoolProp's
         sources = list(_sources(name, fraction, text, label))
     for source, low, high, value, at in sources:
+        if low >= high:
+            solid = source
+            continue
         span = f"{low - _ZERO:.4g} to {high - _ZERO:.4g} degC{at}"
         if low <= kelvin <= high and math.isfinite(number := value(kelvin)):
             values.append(Value(number, source, span))
         else:
             refused.append(f"{span} ({source})")
     if not values:
-        problem = f"is known at {'; '.join(refused)} only" if refused else "is a liquid whose viscosity no source has"
+        unknown = f"is no liquid at atmospheric pressure ({solid})" if solid else _unknown(name)
+        problem = f"is known at {'; '.join(refused)} only" if refused else unknown
         raise InputError(label, text, ACCEPTED, problem)
     return Liquid(text.strip(), tuple(values))
+
+
+def _unknown(name: str) -> str:
+    """What is wrong with a name that no source has."""
+    words, _, last = name.rpartition(" ")
+    if last.replace(".", "", 1).isdigit():
+        return f'has a number without a unit: "{words} {last} %" is a mass fraction in water'
+    return "is a liquid whose viscosity no source has" + did_you_mean(name, {*_SOLUTIONS, *_NUMBERS, *_ALIASES})
 
 
 def _named(what: str, text: str, label: str) -> tuple[str, float | None]:
@@ -138,7 +152,8 @@ def _sources(name: str, fraction: float | None, text: str, label: str) -> Iterat
         share = 1.0 if fraction is None else fraction
         yield "Cheng 2008", _ZERO, _ZERO + 100, lambda kelvin: cheng(share, kelvin - _ZERO), ", 0 to 100 %"
     if fraction is not None and name not in _SOLUTIONS:
-        raise InputError(label, text, f"one of {', '.join(_SOLUTIONS)}, or a pure liquid", "is not known in water")
+        problem = "is not known in water" + did_you_mean(name, _SOLUTIONS)
+        raise InputError(label, text, f"one of {', '.join(_SOLUTIONS)}, or a pure liquid", problem)
     if fraction is not None:
         yield from _solution(library, name, fraction, text, label)
     else:

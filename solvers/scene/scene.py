@@ -13,11 +13,11 @@ from ..errors import InputError
 from ..host.arguments import check_mapping
 from . import entry_rules as rules
 from . import scenefile
-from .groups import System
+from .groups import System, check_criteria
 from .held import adjusted_impact, held_quantity, impact_quantity
 from .liquids import is_named, liquid
 from .quantities import SHADOW, Ways, coating_fraction
-from .schema import FIELDS, LEAST_ANGLE, NEWTONIAN, SPEEDS, TABLES, Field, Raw
+from .schema import FIELDS, LEAST_ANGLE, LIQUIDS, NEWTONIAN, SPEEDS, TABLES, Field, Raw
 from .tables import Attraction, Bridge, Impact, Liquid, Model, Particles, Pendulum
 from .user_model import Package, fields
 from .user_model_source import liquid_package, open_package
@@ -80,6 +80,7 @@ class Scene(System):
         for name, value in chosen.items():
             object.__setattr__(self, name, value)
         rules.check_together(self)
+        check_criteria(self, self.speed)
 
     # ---- reading and writing
 
@@ -184,9 +185,16 @@ class Scene(System):
         return (*sentences, *self._flowing(), *self._liquid())
 
     def _liquid(self) -> tuple[str, ...]:
-        """The line on the source of a viscosity that is given by a liquid's name."""
+        """The lines on a viscosity that is given by a liquid's name, and on where a liquid that thins has it."""
         text = dict(self.given)["liquid.viscosity"]
-        return (f'liquid.viscosity = "{text}" ({liquid(str(text)).origin})',) if is_named(text) else ()
+        lines = (f'liquid.viscosity = "{text}" ({liquid(str(text)).origin})',) if is_named(text) else ()
+        if self.package is None or self.package.table != "liquid":
+            return lines
+        name, where = "liquid.reference_rate", "at rest"
+        if "reference_rate" in LIQUIDS[self.package.name.replace("_", "-")]:
+            default = "" if name in self.entries else " (default)"
+            where = f"at {name} = {self.entries.get(name, FIELDS[name].default):.6g} 1/s{default}"
+        return (*lines, f"liquid.viscosity is that {where}; St and Ca are of it, not of the rates in the film")
 
     def _flowing(self) -> tuple[str, ...]:
         """The line on the part of the coatings that is assumed to flow into the bridge; none if its volume is given."""

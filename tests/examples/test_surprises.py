@@ -457,20 +457,6 @@ def test_30_the_light_sphere_does_not_spin_ten_times_as_fast() -> None:
     assert end.spins[0] / end.spins[1] == pytest.approx(2.37925, rel=1e-5)
 
 
-def test_31_small_spheres_stick_to_large_ones() -> None:
-    """Shares of a gas, and at one angle the critical speeds."""
-    radii, angle = [5e-5, 2e-4], math.radians(45)
-    found = collision_averages(GRANULATION, speeds="maxwell:0.5 m/s", radii=radii, tolerance=1e-4)
-    expected = [0.68915, 0.99995, 0.99995, 0.24326]
-    assert found.stick_probability.values.ravel() == pytest.approx(expected, abs=2e-4)
-    speeds = []
-    for one, other in ((0.5, 0.5), (0.5, 2.0), (2.0, 2.0)):
-        own = {"particles.reduced_radius": one * 5e-5, "particles.reduced_mass": one**3 * 5.2e-9}
-        other_sphere = {"partner.radius": other * 1e-4, "partner.mass": other**3 * 1.04e-8}
-        speeds.append(at(GRANULATION.with_entries(own | other_sphere), angle))
-    assert speeds[1] > 1.5 * max(speeds[0], speeds[2])
-
-
 def test_32_friction_makes_more_pairs_stick() -> None:
     smooth = Scene.load("glass-beads-water")
     rough = smooth.with_entries({"particles.friction": 0.3, "model.contact_friction": "all"})
@@ -533,6 +519,22 @@ def sums(scene: Scene, speed: float, count: int, engine: str) -> np.ndarray:
     return np.array([weight @ e_n, 1 - 2 * weight @ (e_n * np.cos(angle)) ** 2, lost])
 
 
+@pytest.mark.usefixtures("optimized")
+def test_31_small_spheres_stick_to_large_ones() -> None:
+    """Shares of a gas, and at one angle the critical speeds."""
+    radii, angle = [5e-5, 2e-4], math.radians(45)
+    found = collision_averages(GRANULATION, speeds="maxwell:0.5 m/s", radii=radii, tolerance=1e-4)
+    expected = [0.68915, 0.99995, 0.99995, 0.24326]
+    assert found.stick_probability.values.ravel() == pytest.approx(expected, abs=2e-4)
+    speeds = []
+    for one, other in ((0.5, 0.5), (0.5, 2.0), (2.0, 2.0)):
+        own = {"particles.reduced_radius": one * 5e-5, "particles.reduced_mass": one**3 * 5.2e-9}
+        other_sphere = {"partner.radius": other * 1e-4, "partner.mass": other**3 * 1.04e-8}
+        speeds.append(at(GRANULATION.with_entries(own | other_sphere), angle))
+    assert speeds[1] > 1.5 * max(speeds[0], speeds[2])
+
+
+@pytest.mark.usefixtures("optimized")
 def test_8_and_34_mean_restitution_above_one() -> None:
     names = "restitution_all", "normal_dissipation", "kinetic_energy_loss"
     fast = collision_averages("granulation", speeds=10.0)
@@ -544,6 +546,7 @@ def test_8_and_34_mean_restitution_above_one() -> None:
     assert mean("granulation", "restitution_separated", 0.86) == pytest.approx(25.7413, rel=1e-4)
 
 
+@pytest.mark.usefixtures("optimized")
 def test_35_those_that_separate_lose_more() -> None:
     """Where all stick in closed form: what rigid rotation keeps. Elsewhere beside the ledgers of single collisions."""
     body = bodies_of(GRANULATION)
@@ -559,6 +562,7 @@ def test_35_those_that_separate_lose_more() -> None:
     assert slow == pytest.approx(sums(GRANULATION, 100.0, 400, "taylor")[2], rel=1e-3)
 
 
+@pytest.mark.usefixtures("optimized")
 def test_36_tangential_restitution_is_that_of_rigid_rotation() -> None:
     expected = {1.0: 0.667230, 3.0: 0.663123, 10.0: 0.659371}
     for speed, value in expected.items():

@@ -13,11 +13,16 @@ import casadi  # noqa: F401 -- for the forks, as the next ones
 import pint  # noqa: F401
 import pytest
 import scipy.integrate
+import scipy.optimize
 import scipy.stats  # noqa: F401
+import sympy  # noqa: F401
 import xarray  # noqa: F401
 
 PATIENCE = 600  # s
-OPTIONS = ("-x", "-p", "no:xdist", "-p", "no:cacheprovider", "-o", "addopts=--import-mode=importlib -q")
+OPTIONS = (
+    "-x", "-o", "addopts=--import-mode=importlib -q",
+    *(word for plugin in ("xdist", "cacheprovider", "zarr") for word in ("-p", f"no:{plugin}")),
+)  # fmt: skip
 
 
 def answer(test: str) -> tuple[int, str]:

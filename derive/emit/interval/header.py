@@ -50,7 +50,7 @@ def law_header(law: Law) -> str:
             lines += documented(entry.doc, head, [*body, f"return {dual(entry.result, lambda symbol: symbol.name)};"])
             continue
         if (law.slot, entry.name) in COMPARED:
-            expression, intermediates, fixed = clearance(entry, intermediates, moving)[0], [], [*fixed, LIMIT]
+            expression, fixed = clearance(entry, moving)[0], [*fixed, LIMIT]
         else:
             expression = entry.result
         program, result = cheapest(expression, intermediates, moving)

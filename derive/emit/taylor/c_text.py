@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from collections.abc import Set as AbstractSet
 
 import sympy as sp
@@ -10,6 +10,7 @@ from sympy.core.function import AppliedUndef
 
 from ...physics.law import is_slot_call
 from ..casadi.printer import EmissionError, signed_sum
+from .loops import Loops
 from .program import Operation, Program
 
 _FUNCTIONS = {
@@ -224,6 +225,7 @@ class Recurrences:
         where: C text of a series that the program does not compute itself.
         local: for each of its own series, whether it is a local variable instead of a member of `s`.
         passing: series whose coefficients are needed for the next sums only, stored at PASSING(k) for coefficient k.
+        loops: over nodes; with them `where` is asked for arrays over nodes.
     """
 
     def __init__(
@@ -233,14 +235,30 @@ class Recurrences:
         where: Callable[[str], str],
         local: Callable[[str], bool] = lambda name: False,
         passing: AbstractSet[str] = frozenset(),
+        loops: Loops | None = None,
     ) -> None:
         self.program, self.constants, self._where, self._local = program, constants, where, local
-        self._passing = passing
+        self._passing, self.loops, self._node = passing, loops or Loops(program.operations[:0]), ""
         self._own = {operation.name for operation in program.operations}
         self._calls = {operation.name for operation in program.operations if operation.kind == "call"}
         for symbol, expression in program.named.items():
             constants.define(symbol, expression)
         self.factors = {operation.name: self._factors(operation) for operation in program.operations}
+        self._tables: list[str] = []
+        for first, members in self.loops.families.items():
+            columns = zip(*(self.factors[member.name] for member in members), strict=True)
+            for place, column in enumerate(columns):
+                if len(set(column)) > 1:
+                    self._tables.append(self._table(f"{first}_{place}", column))
+                    self.factors[first][place] = f"{first}_{place}[node]"
+
+    @staticmethod
+    def _table(name: str, texts: Sequence[str]) -> str:
+        """C text of constants over nodes."""
+        if not any("c->" in text for text in texts):
+            return f"static const double {name}[{len(texts)}] = {{{', '.join(texts)}}};"
+        vectors = (text if "c->" in text else f"splat({text})" for text in texts)
+        return f"const vec {name}[{len(texts)}] = {{{', '.join(vectors)}}};"
 
     def _factors(self, operation: Operation) -> list[str]:
         hints = [f"{operation.name}_factor"]
@@ -254,7 +272,17 @@ class Recurrences:
         """C text of the array of a series."""
         if name in self._calls:
             return f"s->{name}.result"
-        return f"{self._place(name)}{name}" if name in self._own else self._where(name)
+        return self._at(name, self._place(name)) if name in self._own else self._at(name)
+
+    def _at(self, name: str, place: str = "", what: str = "") -> str:
+        """C text of an array of a series that the program computes at a place, or of another series.
+
+        Arguments:
+            what: the name of an array beside that of the series, with an underscore.
+        """
+        first, node = self.loops.places.get(name, (name, None))
+        whole = f"{place}{what}{first}" if what or first in self._own else self._where(first)
+        return whole if node is None else f"{whole}[{self._node or node}]"
 
     def coefficient(self, name: str) -> str:
         """C text of coefficient k of a series."""
@@ -273,31 +301,46 @@ class Recurrences:
         """Declarations of the arrays: of the local ones, or of the others."""
         lines = []
         for operation in self.program.operations:
-            if self._local(operation.name) != local:
+            first, node = self.loops.places.get(operation.name, ("", 0))
+            if self._local(operation.name) != local or node:
                 continue
+            nodes = f"[{len(self.loops.families[first])}]" if first else ""
             if operation.kind == "call":
                 lines.append(f"{operation.call[0]}_{operation.call[1]}_series {operation.name};")
                 continue
             arrays = [operation.name]
             if operation.kind in ("exp", "sine", "arctangent"):
-                arrays.append(f"slope_of_{operation.series[0]}")
+                arrays.append(f"slope_of_{self.loops.places.get(operation.series[0], operation.series)[0]}")
             if operation.kind == "log":
                 arrays.append(f"slope_of_{operation.name}")
             size = "PASSING(ORDER) + 1" if operation.name in self._passing else "TERMS"
-            lines.append("vec " + ", ".join(f"{name}[{size}]" for name in arrays) + ";")
+            lines.append("vec " + ", ".join(f"{name}{nodes}[{size}]" for name in arrays) + ";")
             if operation.kind in ("quotient", "sqrt", "log", "power"):
-                lines.append(f"vec over_{operation.name};")
+                lines.append(f"vec over_{operation.name}{nodes};")
         return list(dict.fromkeys(lines))
 
-    def lines(self) -> list[str]:
-        return [self._line(operation) for operation in self.program.operations]
+    def lines(self, statement: Callable[[str], str] = str) -> list[str]:
+        """The recurrences, as statements; those of families in loops."""
+        if not self.loops.families:
+            return [statement(self._line(operation)) for operation in self.program.operations]
+        return self._staged(lambda operation: statement(self._line(operation)))
+
+    def _staged(self, line: Callable[[Operation], str]) -> list[str]:
+        lines = [*self._tables]
+        for count, operations in self.loops.stages():
+            self._node = "node" if count else ""
+            inside = list(filter(None, map(line, operations)))
+            loop = f"for (int node = 0; node < {count}; node++) {{"
+            lines += [loop, *(f"    {text}" for text in inside), "}"] if count else inside
+        self._node = ""
+        return lines
 
     def _line(self, operation: Operation) -> str:
         name, kind = operation.name, operation.kind
         series = [self.array(operand) for operand in operation.series]
         factors = self.factors[name]
         place = self._place(name)
-        whole = f"{place}{name}"
+        whole = self.array(name)
         target = f"{whole}[{'PASSING(k)' if name in self._passing else 'k'}]"
         if kind == "linear":
             terms = _terms(factors[:-1], [self.coefficient(operand) for operand in operation.series])
@@ -312,8 +355,8 @@ class Recurrences:
             older, newer = (self.array(term) for term in sorted(operation.series, key=lambda term: ages.get(term, -1)))
             return f"{target} = {_times(factors[0])}product({older}, {newer}, k);"
         if kind in _RECURRENCES:
-            inner = f"{place}slope_of_{operation.series[0]}"
-            over, slope = f"&{place}over_{name}", f"{place}slope_of_{name}"
+            inner = self._at(operation.series[0], place, "slope_of_")
+            over, slope = "&" + self._at(name, place, "over_"), self._at(name, place, "slope_of_")
             recurrence = _RECURRENCES[kind].format(
                 *series, whole=whole, over=over, slope=slope, inner=inner, factor=factors[0] if factors else ""
             )
@@ -336,11 +379,19 @@ class Recurrences:
                 out.
         """
         read = {*results, *(name for op in self.program.operations for name in op.series)}
-        return [f"vec {op.name} = {self._value(op)};" for op in self.program.operations if op.name in read]
+        if not self.loops.families:
+            return [f"vec {op.name} = {self._value(op)};" for op in self.program.operations if op.name in read]
+        arrays = [f"vec {name}[{len(members)}];" for name, members in self.loops.families.items()]
+        typed = {name for name in self._own if name not in self.loops.places}
+
+        def line(op: Operation) -> str:
+            return f"{'vec ' * (op.name in typed)}{self._at(op.name)} = {self._value(op)};" * (op.name in read)
+
+        return [*arrays, *self._staged(line)]
 
     def _value(self, operation: Operation) -> str:
         kind, factors = operation.kind, self.factors[operation.name]
-        series = [name if name in self._own else self._where(name) for name in operation.series]
+        series = [self._at(name) for name in operation.series]
         if kind == "linear":
             terms = _terms(factors[:-1], series)
             return terms if factors[-1] == "0.0" else f"{terms} + {factors[-1]}"

@@ -13,6 +13,7 @@ from ...physics.law import Definition, Law, LawFunction, needed
 from ..provenance import header, law_digest
 from .c_text import Constants, Recurrences, Text
 from .layout import comment, documented, function, struct
+from .loops import Loops
 from .program import Program, cheapest
 
 COMPARED = {("glass", "pressure")}  # slot functions that an event compares with a limit
@@ -95,7 +96,7 @@ def _recurrences(
     moving: tuple[sp.Symbol, ...],
     kinks: Sequence[sp.Symbol] = (),
 ) -> list[str]:
-    recurrences = Recurrences(program, constants, lambda series: series)
+    recurrences = Recurrences(program, constants, lambda series: series, loops=Loops(program.operations))
     value: str
     if not isinstance(result, str):
         ending, value = [f"s->result[k] = {constants.level(result, 'level')};"], constants.vector(result, "level")
@@ -175,12 +176,11 @@ def _clearance(
 ) -> list[str]:
     """The C of `clearance`.
 
-    Of a law with kinks it is the difference as it is, since expanded guards lose their digits. Sides stay within a
-    step: no state's series has them, so nothing else makes steps as short as a rounded side needs them.
+    Sides stay within a step: no state's series has them, so nothing else makes steps as short as a rounded side needs.
     """
     sides = {side: sp.sign(kink) for kink, side in formula.kinks}
-    expression, positive = (LIMIT - formula.result, False) if sides else clearance(formula, intermediates, moving)
-    definitions = [(symbol, sides.get(symbol, value)) for symbol, value in intermediates] if sides else []
+    expression, positive = clearance(formula, moving)
+    definitions = [(symbol, sides.get(symbol, value)) for symbol, value in intermediates]
     program, series = cheapest(expression, definitions, moving)
     constants = Constants({argument: f"c->{argument.name}" for argument in (*fixed, LIMIT)})
     doc = f"Limit minus value{', times the positive denominator' if positive else ''}: the sign of the event function."
@@ -189,20 +189,16 @@ def _clearance(
     return [*_constants(f"{name}_clearance", constants, (*fixed, LIMIT)), *lines]
 
 
-def clearance(
-    formula: LawFunction, intermediates: list[Definition], moving: tuple[sp.Symbol, ...]
-) -> tuple[sp.Expr, bool]:
+def clearance(formula: LawFunction, moving: tuple[sp.Symbol, ...]) -> tuple[sp.Expr, bool]:
     """`limit - value` times the positive denominator of the value: same sign, without division along a trajectory.
 
     Returns:
-        The expression, and whether the denominator is positive; without one it is the difference itself.
+        The expression, and whether the denominator is positive; without one, and for a law with kinks, whose guards
+        lose their digits in it, it is the difference itself.
     """
-    result = formula.result
-    for symbol, value in reversed(intermediates):
-        result = result.subs(symbol, value)
-    over, under = sp.fraction(sp.together(result))
-    positive = bool(under.is_positive)
-    margin = LIMIT * under - over if positive else LIMIT - result
+    over, under = sp.fraction(sp.together(formula.result))
+    positive = bool(under.is_positive) and not formula.kinks
+    margin = LIMIT * under - over if positive else LIMIT - formula.result
     return sp.collect(sp.expand(margin), moving[-1]), positive  # approach*(gap^2 - 1) vanishes exactly at the rim
 
 

@@ -13,6 +13,7 @@ from .c_text import Constants, Recurrences, Text
 from .chain_rule import Chain
 from .law_header import COMPARED, LIMIT, moves
 from .layout import comment, documented, each_term, function, struct
+from .loops import Loops
 from .program import Program, cheapest
 
 UNUSED = "unused_"  # prefix of an argument that a law ignores
@@ -119,7 +120,10 @@ def _series(name: str, formula: LawFunction, moving: tuple[sp.Symbol, ...]) -> l
     law_series = {operation.name for operation in value.operations}
     places = {symbol: f"v->{symbol.name}" for symbol in (*formula.arguments, *value.named) if symbol not in moving}
     constants = Constants(places)
-    recurrences = Recurrences(program, constants, lambda series: f"of->{series}" if series in law_series else series)
+    loops = Loops(program.operations, Loops(value.operations))
+    recurrences = Recurrences(
+        program, constants, lambda series: f"of->{series}" if series in law_series else series, loops=loops
+    )
     ending, fields = [], recurrences.fields()
     for argument, result in results.items():
         target = _by(argument)
@@ -147,7 +151,7 @@ def _series(name: str, formula: LawFunction, moving: tuple[sp.Symbol, ...]) -> l
             f"Derivatives of {name} by its arguments; products of series: {program.cost:g}.",
             f"INLINE void {name}_slopes_of({name}_slopes *restrict s, const {name}_slope_constants *c, "
             f"const {name}_series *of, const {name}_constants *v{inputs})",
-            [unused, *map(each_term, recurrences.lines()), *ending],
+            [unused, *recurrences.lines(each_term), *ending],
         ),
     ]
 
@@ -155,13 +159,20 @@ def _series(name: str, formula: LawFunction, moving: tuple[sp.Symbol, ...]) -> l
 def _clearance(name: str, formula: LawFunction) -> list[str]:
     """Derivatives of `limit - value`: on the event surface, those of the clearance up to its positive denominator."""
     chain, text = Chain(formula.definitions), Text(lambda symbol: symbol.name)
-    head = ", ".join(f"vec {argument.name}" for argument in (*formula.arguments, LIMIT))
-    body = [f"(void){argument.name};" for argument in (*formula.arguments, LIMIT)]
+    given = (*formula.arguments, LIMIT)
+    body = [f"(void){argument.name};" for argument in given]
     result = LIMIT - formula.result
-    slopes = {argument: chain.by(result, argument) for argument in (*formula.arguments, LIMIT)}
-    definitions, _ = needed(list(slopes.values()), (*formula.definitions, *chain.named))
-    body += [f"vec {symbol.name} = {text.vector(value)};" for symbol, value in definitions]
-    body += [f"*by_{argument.name} = {text.vector(slope)};" for argument, slope in slopes.items()]
-    outputs = ", ".join(f"vec *by_{argument.name}" for argument in slopes)
-    head = f"static inline void {name}_margin_slopes({head}, {outputs})"
+    slopes: dict[sp.Symbol, sp.Expr | str] = {argument: chain.by(result, argument) for argument in given}
+    if formula.definitions:  # operations, in loops, of arguments that all vary
+        program = Program.for_outputs(given, slopes.values(), (*formula.definitions, *chain.named))
+        slopes = {argument: program.result(slope, f"slope_{_by(argument)}") for argument, slope in slopes.items()}
+        constants = Constants({}, place="")
+        recurrences = Recurrences(program, constants, lambda series: series, loops=Loops(program.operations))
+        body += [f"vec {name} = {text.vector(value)};" for name, value in constants.prepared.items()]
+        body += recurrences.values(slopes.values())
+    for argument, slope in slopes.items():
+        body.append(f"*by_{argument.name} = {slope if isinstance(slope, str) else text.vector(slope)};")
+    inputs = ", ".join(f"vec {argument.name}" for argument in given)
+    outputs = ", ".join(f"vec *by_{argument.name}" for argument in given)
+    head = f"static inline void {name}_margin_slopes({inputs}, {outputs})"
     return documented("Slopes of the limit less the value.", head, body)

@@ -21,8 +21,6 @@ class LinearFlow:
     """The matrix and the source terms of one structure's tangent, and their places in emitted C."""
 
     def __init__(self, model: Model, beside: Beside) -> None:
-        if beside.extra.get("glass.pressure"):
-            raise EmissionError("no slopes of a glass law with quantities of its own")
         self.model, self.beside = model, beside
         self.header = Header(model, beside)
         self.header.text()  # receives its constants and calls

@@ -57,6 +57,7 @@ class Tangent(LinearFlow):
             "#endif",
             *contraction(self),
             *self._values(),
+            *self._glass(),
             *scale_slopes(self.model, self.beside.definitions),
         ]
         return "\n".join(lines).rstrip() + "\n"
@@ -200,6 +201,23 @@ class Tangent(LinearFlow):
         if self.model.structure.oblique:
             lines += self._edge()
         return lines
+
+    def _glass(self) -> list[str]:
+        """Slopes of the glass criterion by the groups that its law takes beside the library's arguments."""
+        own = [symbol.name for symbol in self.beside.extra.get("glass.pressure", ())]
+        if not own:
+            return []
+        passed = ["y[GAP]", "-y[NORMAL_VELOCITY]", *(f"c->{name}" for name in own), "c->glass_number"]
+        passed += ["by_gap", "by_approach", *(f"&by_own[{place}]" for place in range(len(own))), "&limit"]
+        head = "static inline void own_glass_slopes(const constants *c, const vec *y, vec *by_gap, vec *by_approach, "
+        return [
+            f"#define OWN_GLASS {len(own)}",
+            f"static const int OWN_GLASS_GROUP[] = {{ {', '.join(f'BY_{name.upper()}' for name in own)} }};",
+            *documented(
+                "Slopes of the limit less the pressure, also by groups of a model.", f"{head}vec *by_own)",
+                ["vec limit;", f"glass_pressure_margin_slopes({', '.join(passed)});"],
+            ),
+        ]  # fmt: skip
 
     def _friction(self, states: dict[str, str]) -> list[str]:
         """The impulses of a rebound, and the state after one, in a direction; for the library's lever arm."""

@@ -19,7 +19,7 @@ import sympy as sp
 
 from ...physics.references import Reference
 from ...physics.slots import approach
-from ...user import aspect, gap, law, let, normal_velocity, positive
+from ...user import aspect, gap, law, let, mu, normal_velocity, positive, quantity, v0, x0
 from ..film import KANTAK
 from ..glass import CRADLE
 from ..shear import ONEILL
@@ -75,45 +75,50 @@ def _mean(
     nodes = [(place, factor * weight(place)) for place, factor in _nodes(count, power)]
     total, terms = sp.Add(*(factor for _, factor in nodes)), []
     for number, (place, factor) in enumerate(nodes, 1):
-        ring = let(f"{name}_rate_{number}", positive(rate(sp.Rational(str(sp.N(place, 17))))))
-        terms.append(sp.Rational(str(sp.N(factor / total, 17))) * let(f"{name}_{number}", viscosity(ring)))
-    return sp.Add(*terms)
+        node = f"{name}_{number:02d}"
+        ring = let(f"{node}_rate", positive(rate(sp.Rational(str(sp.N(place, 17))))))
+        terms.append(sp.Rational(str(sp.N(factor / total, 17))) * let(node, viscosity(ring)))
+    return let(f"{name}_mean", sp.Add(*terms))
 
 
 def _resistance(liquid: Liquid) -> sp.Expr:
-    def rate(place: sp.Expr) -> sp.Expr:
-        inner = (1 - gap) * place  # t = 1 - x/h
-        return 18 * normal_velocity**2 * inner * inside * (1 - inner) ** 3 / (aspect * gap**3) + liquid.floor
+    inside = sp.sign(1 - gap)  # beyond the edge nothing acts, but numbers must be
+    scale = let("film_scale", 18 * normal_velocity**2 * (1 - gap) * inside / (aspect * gap**3))
 
-    inside = let("inside", sp.sign(1 - gap))  # beyond the edge nothing acts, but numbers must be
+    def rate(place: sp.Expr) -> sp.Expr:
+        return scale * place * (1 - place + place * gap) ** 3 + liquid.floor  # t = (1 - x/x0) place
 
     return (1 - gap) ** 2 / gap * _mean("film", rate, liquid.in_slit, lambda place: 2 * place, 10)
 
 
 def _log_factor(liquid: Liquid, name: str, outer: sp.Expr) -> sp.Expr:
     """Couette shear integrated over the disc to a thickness: the mean over ln h."""
+    scale = let(f"{name}_scale", 18 * normal_velocity**2 * sp.sign(outer - gap) / (aspect * gap**3))
+    logarithm = let(f"{name}_log", sp.log(outer / gap))
 
     def rate(place: sp.Expr) -> sp.Expr:
-        thickness = let(f"{name}_thickness_{len(rings)}", outer**place * gap ** (1 - place))
-        rings.append(thickness)
-        return 18 * normal_velocity**2 * (thickness - gap) * inside / (aspect * thickness**4) + liquid.floor
+        thinner = let(f"{name}_thinner_{len(rings) + 1}", sp.exp(-place * logarithm))  # x/h
+        rings.append(thinner)
+        return scale * (1 - thinner) * thinner**3 + liquid.floor
 
-    inside = let(f"{name}_inside", sp.sign(outer - gap))
     rings: list[sp.Symbol] = []
-    return sp.log(outer / gap) * _mean(name, rate, liquid.in_shear, lambda place: sp.Integer(1), 6, 1)
+    return logarithm * _mean(name, rate, liquid.in_shear, lambda place: sp.Integer(1), 6, 1)
 
 
 def _pressure(liquid: Liquid, name: str, rim: sp.Expr) -> sp.Expr:
     """The pressure on the axis: the mean over (x/h)^2, which is 1 there and `rim` where the pressure is ambient."""
+    scale = let(f"{name}_scale", 18 * approach**2 * sp.sign(1 - rim) / (aspect * gap**3))
 
     def rate(place: sp.Expr) -> sp.Expr:
-        inverse = sp.sqrt(1 - (1 - rim) * place)  # x/h
-        return 18 * approach**2 * (1 - inverse) * inside * inverse**3 / (aspect * gap**3) + liquid.floor
+        inverse = sp.sqrt(1 - place + rim * place)  # x/h
+        if rim != 0:
+            inverse = let(f"{name}_inverse_{len(rings) + 1}", inverse)
+            rings.append(inverse)
+        return scale * (1 - inverse) * inverse**3 + liquid.floor
 
-    inside = let(f"{name}_inside", sp.sign(1 - rim))
-
+    rings: list[sp.Symbol] = []
     mean = _mean(name, rate, liquid.in_slit, lambda place: sp.Integer(1), 8)
-    return approach * (1 / gap**2 - rim / gap**2) * mean
+    return approach * (1 - rim) / gap**2 * mean
 
 
 def film_laws(liquid: Liquid) -> None:
@@ -155,3 +160,36 @@ def representative_squared(index: sp.Expr) -> sp.Expr:
     ln(1 + w)/w is its approximant of Padé, regular at n = 1, with which the viscosity is right to 0.3 % for n > 0.1.
     """
     return sp.exp(-6 * index * (5 * index + 1) / (37 * index**2 + 16 * index + 1))
+
+
+def plateau_laws(
+    name: str,
+    source: Reference,
+    begins: str,
+    thinning: Callable[[sp.Expr, sp.Symbol], sp.Expr],
+    floor: Callable[[sp.Symbol], sp.Expr] | None = None,
+) -> None:
+    """Declare the entries and laws of a liquid between two plateaus.
+
+    Arguments:
+        begins: what the inverse of its relaxation time is the rate of.
+        thinning: from 1 at rest to 0, by the squared rate times the time and by the index.
+        floor: as of `Liquid`, by the time.
+    """
+    index = quantity(
+        "flow_index", "n", bounds="> 0 and <= 1", meaning="slope of the stress over the rate where it thins"
+    )
+    time = quantity("relaxation_time", r"\lambda", unit="s", over=x0 / v0, meaning=f"inverse rate where it {begins}")
+    infinite = quantity("infinite_shear_viscosity", r"\mu_\infty", unit="Pa s", bounds=">= 0", over=mu)
+    deborah, plateau = let("deborah", time * v0 / x0), let("plateau", infinite / mu)
+    at_wall = let("at_wall", representative_squared(index))
+
+    def viscosity(rate: sp.Expr) -> sp.Expr:
+        return plateau + (1 - plateau) * thinning(deborah**2 * rate, index)
+
+    def in_slit(rate: sp.Expr) -> sp.Expr:
+        return viscosity(at_wall * rate)
+
+    meaning = f"viscosity between two plateaus, by {name.title()}"
+    rest = sp.S.Zero if floor is None else let("rest", floor(deborah))
+    film_laws(Liquid(name, (source,), meaning, viscosity, in_slit, rest))

@@ -37,9 +37,10 @@ def viscosity(rate: sp.Expr) -> sp.Expr:
 
 def in_slit(rate: sp.Expr) -> sp.Expr:
     """The same of a flow between plates."""
-    plain = at_wall * viscous(rate)
-    flowing = joint * plain ** (1 / (index + 1))
-    between = yielding * flowing / (yielded + flowing**power) ** (1 / power)
+    plain = let(f"{rate}_plain", at_wall * viscous(rate))  # named: derivatives of nested powers are short by parts
+    flowing = let(f"{rate}_flowing", joint * plain ** (1 / (index + 1)))
+    joined = let(f"{rate}_joined", yielded + flowing**power)
+    between = yielding * flowing / joined ** (1 / power)
     return (yielding + plain + index / (index + 1) * between) / sqrt(rate)
 
 

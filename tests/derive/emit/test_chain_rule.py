@@ -5,14 +5,9 @@ import random
 
 import pytest
 import sympy as sp
-from wetdoublet.derive.emit.casadi.printer import EmissionError
 from wetdoublet.derive.emit.taylor.chain_rule import Chain
-from wetdoublet.derive.emit.taylor.header import Beside
-from wetdoublet.derive.emit.taylor.tangent import tangent_header
-from wetdoublet.derive.equations.model import derive
 from wetdoublet.derive.laws import LAWS
 from wetdoublet.derive.physics.law import Law
-from wetdoublet.derive.physics.structure import structures
 
 DRAW = random.Random(3)
 LIBRARY = [law for laws in LAWS.values() for law in laws.values()]
@@ -45,11 +40,3 @@ def test_functions_of_a_law(law: Law) -> None:
                 found = found.subs(symbol, value)
             expected = _slope(each(*each.arguments), argument, at)
             assert math.isclose(_value(found, at), expected, rel_tol=1e-6, abs_tol=1e-8), (each.name, argument)
-
-
-def test_a_glass_law_with_quantities_of_its_own_has_no_slopes() -> None:
-    """The event's surface would move with them, which the runtime does not know: an error that says so, no header."""
-    model = derive(next(structure for structure in structures() if structure.name == "head_on"))
-    beside = Beside(extra={"glass.pressure": (sp.Symbol("steepness"),)})
-    with pytest.raises(EmissionError, match="no slopes of a glass law with quantities of its own"):
-        tangent_header(model, beside)

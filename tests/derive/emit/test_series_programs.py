@@ -1,13 +1,16 @@
 """Series programs: which recurrences an expression becomes, what is constant, and what has no recurrence."""
 
+import math
 import re
 from dataclasses import replace
 
 import pytest
 import sympy as sp
 from wetdoublet.derive.emit.casadi.printer import EmissionError
+from wetdoublet.derive.emit.taylor.c_text import Constants, Recurrences
 from wetdoublet.derive.emit.taylor.header import structure_header
 from wetdoublet.derive.emit.taylor.law_header import antiderivative, law_header, moves
+from wetdoublet.derive.emit.taylor.loops import Loops
 from wetdoublet.derive.emit.taylor.program import Program, cheapest
 from wetdoublet.derive.equations.model import derive
 from wetdoublet.derive.laws import LAWS
@@ -142,3 +145,41 @@ def test_margins_of_the_stick_proof_hand_nan_on():
     assert not re.search(r"vec_(max|min)\(", text)
     without = structure_header(derive(Structure(oblique=True, strings=True, bridge=True)))
     assert "pendulum_stops" not in without
+
+
+def _looped(terms: list[sp.Expr]) -> tuple[str, str, dict[str, sp.Expr]]:
+    """C text of the values and of the recurrences of a sum, and what is prepared for both."""
+    program = Program((x, y))
+    total = program.series(sp.Add(*terms), "total")
+    constants = Constants({c: "c->c"})
+    recurrences = Recurrences(program, constants, lambda series: series, loops=Loops(program.operations))
+    return "\n".join(recurrences.values([total])), "\n".join(recurrences.lines()), constants.prepared
+
+
+def test_terms_that_differ_in_constants_are_a_loop():
+    """Executed as Python, the loop gives the sum; a seventh term is no more text than a sixth."""
+    weights = [sp.Rational(k, 7) for k in range(1, 8)]
+    terms = [k / (2 + (1 + k * x) ** 3 * y) + k * sp.exp(-k * c * x * y - c * k**2) for k in weights]
+    text, recurrences, prepared = _looped(terms)
+    assert text.count("for (") == recurrences.count("for (") == 1
+    assert text.count("vec_exp") == 1
+    assert len(_looped(terms[:6])[1].splitlines()) == len(recurrences.splitlines())
+    body = text.replace("c->", "").replace("vec_exp", "exp").replace(";", "").replace("const ", "")
+    body = re.sub(r"^(?:static )?(?:double|vec) (\w+)\[(\d+)\]$", r"\1 = [0.0]*\2", body, flags=re.M)
+    body = re.sub(r"^(?:static )?(?:double|vec) (\w+)(?:\[\d+\])? = ", r"\1 = ", body, flags=re.M)
+    body = re.sub(r"= \{(.*)\}$", r"= [\1]", body, flags=re.M)
+    body = re.sub(r"for \(int node = 0 node < (\d+) node\+\+\) \{", r"for node in range(\1):", body).replace("}", "")
+    found = {"exp": math.exp, "splat": float, "x": 0.3, "y": 0.7, "c": 1.1}
+    found |= {name: float(value.subs(c, 1.1)) for name, value in prepared.items()}
+    exec(body, found)
+    assert found["total"] == pytest.approx(float(sp.Add(*terms).subs({x: 0.3, y: 0.7, c: 1.1})), rel=1e-14)
+
+
+def test_terms_of_other_shapes_are_no_loop():
+    """A sum of few terms, of terms that are not alike, and one whose terms share more than numbers are written out."""
+    for terms in (
+        [sp.exp(k * x) for k in range(2, 7)],
+        [sp.exp(k * x) if k % 2 else sp.log(k + x) for k in range(2, 12)],
+        [sp.sin(k * x) for k in range(1, 9)],
+    ):
+        assert "for (" not in "".join(_looped(terms)[:2])

@@ -8,7 +8,9 @@ import casadi
 import pytest
 from wetdoublet.derive.emit.casadi.modules import law_module
 from wetdoublet.derive.laws.modelfile import read
-from wetdoublet.derive.user.declarations import ModelFileError, collecting, event, law, let, quantity
+from wetdoublet.derive.user.declarations import ModelFileError, collecting, let, quantity
+from wetdoublet.derive.user.laws import law
+from wetdoublet.derive.user.motion import event
 from wetdoublet.derive.user.names import taken
 from wetdoublet.derive.vocabulary.quantities import VOCABULARY, sigma, x
 

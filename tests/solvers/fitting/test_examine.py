@@ -82,6 +82,7 @@ def table_of(data: Measurements, name: str) -> dict[str, list]:
     return {name: list(speed), "angle": list(data.angle), "restitution": list(restitution), "outcome": outcome}
 
 
+@pytest.mark.usefixtures("optimized")
 @pytest.mark.slow
 def test_the_kind_of_speed_is_asked_about_where_its_name_does_not_say() -> None:
     """Magnitudes in a column `v` are read as normal speeds: `check` and `fit` say that the other kind agrees better."""
@@ -159,6 +160,7 @@ def test_entries_that_a_contact_time_tells() -> None:
     assert telling["liquid.viscosity"] > 0
 
 
+@pytest.mark.usefixtures("optimized")
 @pytest.mark.slow
 def test_a_distant_first_guess_is_no_contradiction() -> None:
     """A viscosity 30 times the first guess is found, although all impacts contradict the first guess."""

@@ -49,6 +49,7 @@ def test_the_lines_are_the_same_whatever_the_film(scene, stokes: float, angle: f
         np.testing.assert_allclose(left[:, 0], expected[2:], rtol=1e-5, atol=1e-9)
 
 
+@pytest.mark.usefixtures("optimized")
 @pytest.mark.slow
 def test_errors_depend_on_each_other_as_is_said() -> None:
     """Over 100 films, given the errors of speed and impact parameter, the others' are normal and independent.
@@ -104,6 +105,7 @@ def films(scene: Scene, count: int, seed: int) -> pd.DataFrame:
     return pd.concat(parts)
 
 
+@pytest.mark.usefixtures("optimized")
 @pytest.mark.slow
 def test_a_fit_finds_the_film_that_was_guessed_wrong() -> None:
     """Film and viscosity of six films, from guesses 20 % to either side: within their intervals, and the same."""
@@ -111,7 +113,8 @@ def test_a_fit_finds_the_film_that_was_guessed_wrong() -> None:
     shots, ends = films(scene, 6, 6), []
     for factor in (0.8, 1.2):
         guess = guessed(scene, factor).with_entries({"liquid.viscosity": "10 mPa s"})
-        found = fit(guess, tracks(shots, guess, rate=2e5, scale=PIXEL).columns, ["liquid.viscosity", FILM])
+        columns = tracks(shots, guess, rate=2e5, scale=PIXEL).columns
+        found = fit(guess, columns, ["liquid.viscosity", FILM], starts=0)
         for name, each in found.estimates.items():
             assert each.low < dict(scene.si)[name] < each.high
         assert not [each for each in found.remarks if "uncertain" in each or "contradict" in each]

@@ -8,7 +8,6 @@ import pytest
 from wetdoublet.solvers import Scene, collide
 from wetdoublet.solvers.errors import InputError
 from wetdoublet.solvers.fitting.flow_curve import flow_curve
-from wetdoublet.solvers.fitting.rheometer import flow_curve_of
 
 ROWS = "0.1{c}5.5{c}0.55\n1{c}5{c}5\n10{c}4{c}40\n100{c}2{c}200"
 WRITTEN = {
@@ -20,6 +19,7 @@ WRITTEN = {
         [("0,1", "5500", "0,55"), ("1", "5000", "5"), ("10", "4000", "40"), ("100", "2000", "200")])),
     "RheoWin": "GP in 1/s;Eta in Pas;Tau in Pa\n" + ROWS.format(c=";").replace(".", ","),
     "stress alone": "Scherrate (s⁻¹);Schubspannung (Pa)\n0,1;0,55\n1;5\n10;40\n100;200",
+    "remarks": "shear rate [1/min],viscosity [Pa s]\n6,5.5  # first\n60,5\n600,4 # of, three\n6000,2",
     "unsorted, cP": "γ̇ [s^-1],η [cP]\n100,2000\n1,5000\n0.1,5500\n10,4000",
 }  # fmt: skip
 
@@ -28,9 +28,10 @@ WRITTEN = {
 def test_what_rheometers_export(kind: str, tmp_path: Path):
     path = tmp_path / "curve.csv"
     path.write_bytes(WRITTEN[kind].encode("utf-16" if kind == "RheoCompass" else "utf-8"))
-    rate, viscosity = flow_curve_of(path)
-    assert rate == pytest.approx([0.1, 1, 10, 100])
-    assert viscosity == pytest.approx([5.5, 5, 4, 2])
+    fitted = flow_curve(path)
+    assert fitted.rate == pytest.approx([0.1, 1, 10, 100])
+    assert fitted.viscosity == pytest.approx([5.5, 5, 4, 2])
+    assert "4 points are too few for all parameters of cross, carreau, herschel-bulkley" in str(fitted)
 
 
 @pytest.mark.parametrize(
@@ -38,12 +39,30 @@ def test_what_rheometers_export(kind: str, tmp_path: Path):
     [("shear rate,viscosity\n1,2\n2,3\n3,4", "no unit"), ("speed [m/s],viscosity [Pa s]\n1,2", "no line that names"),
      ("shear rate [1/s],viscosity [Pa s]\n1,2\n2,-3\n3,4", "> 0"),
      ("shear rate [1/s],viscosity [m]\n1,2\n2,3\n3,4", "a length"),
-     ("shear rate [1/s],viscosity [Pa s]\n1,2\n2,3", "three rates")],
+     ("shear rate [1/s],viscosity [Pa s]\n1,2\n2,3", "three rates"),
+     ("shear rate [Hz],viscosity [Pa s]\n1,2\n2,3\n3,4", "speed of rotation"),
+     ("shear rate [rpm],viscosity [Pa s]\n1,2\n2,3\n3,4", "speed of rotation"),
+     ("shear rate [1/s],viscosity [Pa s],stress [Pa]\n1,2,2\n2,3,6000\n3,4,12", "6 Pa, to 5%"),
+     ("shear rate [1/s],viscosity [Pa s],stress [kPa]\n1,2,2\n2,3,6\n3,4,12", "contradicts the viscosity")],
 )  # fmt: skip
 def test_what_is_refused(text: str, says: str, tmp_path: Path):
     (tmp_path / "curve.csv").write_text(text)
     with pytest.raises(InputError, match=says):
         flow_curve(tmp_path / "curve.csv")
+
+
+def test_ramps_that_differ_are_mentioned():
+    """Up and down, or down and up, by a fifth; not a difference within the scatter, nor one ramp."""
+    up = np.geomspace(0.1, 100, 12)
+    rates, viscosity = np.concatenate([up, up[-2::-1]]), np.concatenate([up**-0.4, 0.8 * up[-2::-1] ** -0.4])
+    (remark,) = flow_curve((rates, viscosity)).remarks
+    assert "on the way down the viscosity is 0.8" in remark
+    (remark,) = flow_curve(
+        (np.concatenate([up[::-1], up[1:]]), np.concatenate([up[::-1] ** -0.4, 0.8 * up[1:] ** -0.4]))
+    ).remarks
+    assert "on the way up the viscosity is 0.8" in remark
+    assert flow_curve((rates, rates**-0.4 * (1 + 0.01 * np.cos(rates)))).remarks == ()
+    assert flow_curve((up, up**-0.4)).remarks == ()
 
 
 RATES = np.geomspace(0.1, 1000, 40)

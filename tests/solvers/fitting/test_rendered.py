@@ -54,7 +54,7 @@ def test_films_tracked_well_give_their_collisions() -> None:
 @pytest.mark.parametrize("kind", BAD)
 def test_films_tracked_badly_are_refused_or_said(kind: str) -> None:
     """No outcome is wrong, and where the impact is off by more than four deviations a remark tells of the tracker."""
-    for one, pictures, settings in shots(3, 5):
+    for one, pictures, settings in shots(2, 5):
         try:
             found = tracks(tracked(pictures, **BAD[kind]), "lactose-pvp", **settings)
         except InputError as error:

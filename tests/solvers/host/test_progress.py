@@ -72,6 +72,7 @@ def test_a_bar_on_a_terminal_forecasts_once(counts, said, capsys):
     assert capsys.readouterr() == ("", "")
 
 
+@pytest.mark.usefixtures("optimized")
 @pytest.mark.slow
 @pytest.mark.parametrize(
     "compute",
@@ -93,6 +94,7 @@ def test_progress_never_falls_and_ends_at_the_total(compute):
     assert calls[-1][0] == calls[-1][1] > 0
 
 
+@pytest.mark.usefixtures("optimized")
 @pytest.mark.slow
 def test_an_interrupted_fit_says_what_is_most_likely_so_far():
     def interrupt(done: int, total: int) -> None:

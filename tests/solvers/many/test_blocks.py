@@ -13,7 +13,7 @@ from wetdoublet.solvers.many.blocks import blocks
 
 from ...helpers.command import run
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.usefixtures("optimized")]
 pytest.importorskip("zarr")
 distributed = pytest.importorskip("distributed")
 dask = pytest.importorskip("dask")

@@ -13,6 +13,8 @@ from wetdoublet.solvers.planning.information import information
 
 NOISE = 0.03
 
+pytestmark = pytest.mark.usefixtures("optimized")
+
 
 def planned(scene: Scene, stokes: list[float], degrees: list[float], speed_sd: float, angle_sd: float) -> Measurements:
     """Impacts with restitution to be measured, scatter relative and in degrees."""
@@ -37,7 +39,7 @@ def test_information_is_the_covariance_of_the_score(
     scene = Scene.load(preset)
     plan = planned(scene, [stokes], [degrees], 0.03, 0.5)
     values = np.array([scene.entries[name] for name in names])
-    step = NOISE / 2
+    step = NOISE  # sums over normal distributions are their integrals to 1e-8
     seen = np.arange(-5 * NOISE, 1.6, step)
     rows = plan.subset(np.zeros(1 + 2 * seen.size, int))
     measured = np.concatenate([[np.nan], seen, seen])

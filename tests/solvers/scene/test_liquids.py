@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from scipy import integrate, interpolate, optimize, special
 from wetdoublet.generated.laws import film_finite, glass_film_corrected, glass_literal, shear_film, shear_immersed
-from wetdoublet.solvers import Scene, collide, collide_many
+from wetdoublet.solvers import Scene, collide, collide_many, sensitivities
 from wetdoublet.solvers.errors import InputError, ModelWarning
 from wetdoublet.solvers.scene.liquids import cheng
 from wetdoublet.solvers.scene.quantities import common_angle
@@ -173,6 +173,16 @@ def test_a_scene_of_a_liquid_is_written_and_read():
     assert idle.law_of("film") == "finite"
 
 
+def test_what_a_liquid_that_thins_is_said_to_be():
+    """Where its viscosity holds, of which St and Ca are, is said with the values that are assumed."""
+    (line,) = (line for line in Scene.load("granulation").with_entries(THINNING).assumed if "liquid.viscosity" in line)
+    assert "at rest; St and Ca are of it" in line
+    power = Scene.load("granulation").with_entries({"liquid.law": "power-law", "liquid.flow_index": 0.6})
+    assert any("liquid.reference_rate = 1 1/s (default)" in line for line in power.assumed)
+    given = power.with_entries({"liquid.reference_rate": "3 1/s"})
+    assert any("liquid.reference_rate = 3 1/s; St" in line for line in given.assumed)
+
+
 @pytest.mark.slow
 def test_collisions_of_a_thinning_liquid():
     """Three engines agree; a liquid that does not thin collides as the library's; one that thins is stopped later."""
@@ -187,6 +197,23 @@ def test_collisions_of_a_thinning_liquid():
     assert collisions[0].smallest_gap < newtonian.smallest_gap
     many = collide_many(scene, stokes=0.2, angle=0.8, vary={"liquid.flow_index": [0.5, 1.0]}, rtol=1e-11)
     assert many["restitution"].values == pytest.approx([found[0], plain.restitution], rel=1e-9)
+
+
+@pytest.mark.slow
+def test_derivatives_of_a_thinning_liquid():
+    """The kernel's, by entries of the liquid's own, against differences; the surface of the glass moves with them."""
+    scene = Scene.load("granulation").with_entries(THINNING)
+    entries = ("liquid.viscosity", "liquid.flow_index", "liquid.relaxation_time", "liquid.film_thickness")
+    found = sensitivities(scene, of=["restitution"], wrt=entries, stokes=0.2, angle=0.8, rtol=1e-10)
+    assert found.engine == "taylor"
+    speed, values = collide(scene, stokes=0.2, angle=0.8).speed, dict(scene.si)
+    for name in entries:
+        high, low = (
+            collide(scene.with_entries({name: values[name] * part}), speed=speed, angle=0.8, rtol=1e-12).restitution
+            for part in (1.0001, 0.9999)
+        )
+        expected = (high - low) / (2e-4 * values[name])
+        assert found.to_dict()["gradient"]["restitution"][name] == pytest.approx(expected, rel=1e-6)
 
 
 @pytest.mark.slow
@@ -217,13 +244,16 @@ NAMED = [
     ("glycerine/water 85%, 298.15 K", 0.0802),
     ("water, 20 degC", 0.0010016), ("ethylene glycol, 40 degC", 0.0095), ("glycerol, 20 C", 1.414),
     ("propylene glycol 40 %, 25 degC", 0.00358), ("ethanol, 20 degC", 0.001194),
+    ("glycerol 85 %, 77 degF", 0.0802), ("water, 68 °F", 0.0010016),
 ]  # fmt: skip
 UNNAMED = [
     ("water, 120 degC", "99.97"), ("glycerol 85 %, 120 degC", "0 to 100 degC"),
     ("ethylene glycol 80 %, 20 degC", "60%"),
     ("glycerol 85 vol%, 20 degC", "volume"), ("glycerol 120 %, 20 degC", "fraction"), ("mud 80 %, 20 degC", "in water"),
     ("oleic acid, 20 degC", "no source"), ("polyethylene glycol, 20 degC", "no source"),
-    ("glycerol 85 %, 77 degF", "temperature"),
+    ("glycerol 85, 25 degC", '"glycerol 85 %" is a mass fraction'), ("glycerol -5 %, 25 degC", "no such fraction"),
+    ("glyzerol, 25 degC", "did you mean glycerol"), ("glyzerol 85 %, 25 degC", "did you mean glycerol"),
+    ("carbon dioxide, 20 degC", "no liquid at atmospheric pressure"),
 ]  # fmt: skip
 
 

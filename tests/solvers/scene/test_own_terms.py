@@ -39,8 +39,7 @@ CASES = {
     "added mass": (LIQUID + "energy(added*u**2/2*x0/(x0 + x))", "4e-10*u**2*x0/(x0 + x)", {}),
     "added spin": (LIQUID + "energy(added*R**2*xi**2*x/x0)", "8e-10*4*a**2*xi**2*x/x0", {}),
     "added inertia": (
-        LIQUID + "energy(added*R**2*omega**2/2*(1 + cos(beta)/2) + added*R**2*xi**2*x/x0)",
-        "4e-10*4*a**2*omega**2*(1 + cos(beta)/2) + 8e-10*4*a**2*xi**2*x/x0", {},
+        LIQUID + "energy(added*R**2*omega**2/2*(1 + cos(beta)/2))", "4e-10*4*a**2*omega**2*(1 + cos(beta)/2)", {},
     ),
     "torque": (TWIST + 'force_on("rotation", twist)', "0", {"beta": "1e-10"}),
     "spring": (TWIST + "energy(50*twist*beta**2/2)", "-50e-10*beta**2/2", {}),
@@ -98,7 +97,7 @@ def reference(given: Scene, lagrangian: str, forces: dict[str, str]) -> np.ndarr
 
     parts.terminal, parts.direction = True, 1
     first = np.array([1.0 - 1e-15, 0.0, 0.0, -1.0, 1.0, 0.0])
-    found = solve_ivp(rate, (0, 1e4), first, "DOP853", events=[parts], rtol=1e-11, atol=1e-13)
+    found = solve_ivp(rate, (0, 1e4), first, "LSODA", events=[parts], rtol=1e-11, atol=1e-13)
     last = found.y_events[0][0] * units
     return np.array([last[1], *last[3:], found.t_events[0][0] * time])
 
@@ -205,11 +204,21 @@ def test_a_criterion_is_a_roughness_of_its_own_name(tmp_path: Path):
     assert collide(own.with_entries({"custom.soft": "0.1 um"}), rtol=1e-11).reversal == "rough"
 
 
+@pytest.mark.parametrize(
+    ("gap", "says"), [("2*soft", "not below the film"), ("-soft", "is negative"), ("soft*v0/soft*soft/v0*3", "film")]
+)
+def test_a_criterion_outside_the_film_is_refused(gap: str, says: str, tmp_path: Path):
+    """As a roughness is: with the criterion, its gap, and the film's thickness; at any speed and at one."""
+    body = f'soft = quantity("soft", unit="m", default="5 um", bounds=">= 0")\ncriterion("layer", gap={gap})'
+    with pytest.raises(InputError, match=says) as caught:
+        collide(scene(tmp_path, body, FREE))
+    assert caught.value.field == "criterion layer"
+    assert "8e-06 m" in str(caught.value)
+
+
 @pytest.mark.slow
 @pytest.mark.filterwarnings("ignore::wetdoublet.solvers.ModelWarning")
-@pytest.mark.parametrize(
-    ("number", "verdict"), [(0, "right"), (1, "right"), (5, "refused"), (13, "right"), (101, "right")]
-)
+@pytest.mark.parametrize(("number", "verdict"), [(0, "right"), (1, "right"), (5, "refused"), (13, "right")])
 def test_models_drawn_at_random(number: int, verdict: str, tmp_path: Path):
     """Terms, criteria, events and laws: refused with a sentence, or right by three engines, with the derivatives."""
     found, how = judged(number, tmp_path)

@@ -62,20 +62,6 @@ def test_verify_has_the_models_own_checks(mine: Path):
     assert all(finding.ok is not False for finding in found.values())
 
 
-@pytest.mark.parametrize(("law", "library"), [("yielding", "mikami"), ("plain", "mikami"), ("lambert", "lambert")])
-def test_a_law_written_the_same_is_the_librarys(mine: Path, law: str, library: str):
-    """Without yield stress e_n is that of `mikami`; a law of the library takes no notice of what the model adds.
-
-    The engine's steps do not depend on the last digit of the force, so 1e-14 is some rounding errors of e_n.
-    """
-    own = with_model(mine, bridge__law=law, custom__yield_stress="0 Pa" if library == "mikami" else "5 kPa")
-    other = Scene.load("granulation").with_entries({"bridge.law": library})
-    for stokes, angle in ((0.03, "60 deg"), (0.02, "75 deg")):
-        pair = [collide(one, stokes=stokes, angle=angle, engine="rosenbrock", ledger=False) for one in (own, other)]
-        assert pair[0].restitution == pytest.approx(pair[1].restitution, rel=1e-14 if law == "plain" else 1e-12)
-        assert pair[0].outcome == pair[1].outcome
-
-
 def test_many_and_workers_have_the_model(mine: Path):
     """A batch sees the declared quantity vary: a yield stress adds to the bridge, until the doublet sticks."""
     scene = with_model(mine, custom__yield_stress="3 Pa")

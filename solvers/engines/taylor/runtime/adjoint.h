@@ -81,6 +81,10 @@ static void unmeet(sweep *r, mask falls, mask damped)
     for (int which = 0; which < MOVING_GAPS; which++)
         r->at_gap[which] -= only(m.moving[which], value);
     r->by_group[BY_GLASS_NUMBER] += only(m.glass, value);
+#if OWN_GLASS
+    for (int own = 0; own < OWN_GLASS; own++)
+        r->by_group[OWN_GLASS_GROUP[own]] += only(m.glass, value*m.by_own[own]);
+#endif /* OWN_GLASS */
 }
 
 static vec flagged(mask flags, int64_t bit)

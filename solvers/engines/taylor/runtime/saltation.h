@@ -12,6 +12,9 @@ typedef struct {
     mask moving[MOVING_GAPS];  /* of those at a gap that moves with a group, at which */
     vec rate[STATES];          /* of the states at the event */
     vec by_gap, by_approach;   /* of the glass criterion */
+#if OWN_GLASS
+    vec by_own[OWN_GLASS];     /* of the same, by groups of a model */
+#endif /* OWN_GLASS */
     vec pace;                  /* rate of the event's function along the trajectory */
     vec at[STATES];            /* the states at the event */
 } meeting;
@@ -28,9 +31,13 @@ static meeting met(const fixed *f, const vec (*a)[TERMS], vec h, mask falls, mas
     m.gap = falls & is_on_gap(event);
     m.velocity = falls & is_on_normal_velocity(event);
     m.glass = falls & is_on_glass_clearance(event);
+#if OWN_GLASS
+    own_glass_slopes(&f->c, m.at, &m.by_gap, &m.by_approach, m.by_own);
+#else
     vec limit;
     glass_pressure_margin_slopes(
         m.at[GAP], -m.at[NORMAL_VELOCITY], f->c.glass_number, &m.by_gap, &m.by_approach, &limit);
+#endif /* OWN_GLASS */
     m.pace = choose(m.gap, m.rate[GAP], choose(m.velocity, m.rate[NORMAL_VELOCITY],
         m.by_gap*m.rate[GAP] - m.by_approach*m.rate[NORMAL_VELOCITY]));
     return m;

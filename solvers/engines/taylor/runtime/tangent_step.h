@@ -67,6 +67,11 @@ static void carry(lanes *l, const fixed *f, const series *s, const tangents *all
             m.by_gap*here[GAP] - m.by_approach*here[NORMAL_VELOCITY]));
         if (group == BY_GLASS_NUMBER)
             value += only(m.glass, splat(1.0));
+#if OWN_GLASS
+        for (int own = 0; own < OWN_GLASS; own++)
+            if (group == OWN_GLASS_GROUP[own])
+                value += only(m.glass, m.by_own[own]);
+#endif /* OWN_GLASS */
         vec later = only(falls, -value/choose(falls, m.pace, splat(1.0)));
         for (int state = 0; state < STATES; state++)
             here[state] += only(falls, m.rate[state]*later);
