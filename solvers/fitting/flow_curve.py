@@ -175,8 +175,12 @@ def flow_curve(source: str | Path | tuple[Any, Any]) -> FlowCurve:
     """
     rate, viscosity = source if isinstance(source, tuple) else flow_curve_of(source)
     rate, viscosity = np.asarray(rate, float), np.asarray(viscosity, float)
-    if rate.shape != viscosity.shape or rate.ndim != 1 or len(set(rate.tolist())) < 3 or not (viscosity > 0).all():
-        raise InputError("CURVE.csv", len(rate), "three rates at least, each with its viscosity", "is no flow curve")
+    if rate.shape != viscosity.shape or rate.ndim != 1 or len(set(rate.tolist())) < 3:
+        raise InputError("CURVE.csv", rate.size, "three rates at least, each with its viscosity", "is no flow curve")
+    for name, values in (("rate", rate), ("viscosity", viscosity)):
+        wrong = values[~((values > 0) & np.isfinite(values))]
+        if wrong.size:
+            raise InputError(f"CURVE.csv, {name}", float(wrong[0]), "positive numbers", "is none")
     ramps = _ramps(rate, viscosity)
     order = np.argsort(rate, kind="stable")
     rate, viscosity = rate[order], viscosity[order]

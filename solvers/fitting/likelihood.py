@@ -142,8 +142,9 @@ class Likelihood:
     def refine(self, values: np.ndarray, tolerance: float) -> None:
         """Choose each row's factor of lines: the last of `FINER` that still changes its log-likelihood, else 1.
 
-        A change counts if it is larger than `tolerance`. Rows beside a place where three outcomes meet have the largest
-        factor: as the free entries move it across a line, their log-likelihood has a kink.
+        A change counts if it is larger than `tolerance`. Rows whose lines have unlike outcomes have the largest factor:
+        as the free entries move a place where three outcomes meet, or the end of a boundary along the lines, across a
+        line, their log-likelihood has a kink.
         """
         experiment, size, noise = self.experiment_at(values), self.size, self._factors(values)
         self.line_factors = np.ones(size, int)

@@ -23,6 +23,7 @@ _UNLIKELY = 3.0  # part of the drop beyond which a predicted end is no start
 _FLAT = 0.1  # a profile is flat if at its last slope this part of the distance from the maximum is still to go
 _BETTER = 0.05  # of the drop, by which a point must be more likely to replace the maximum
 _STEPS = 25
+_DIRECT = 8  # iterations of SLSQP after which the profile is followed: it takes some four unless a ridge is curved
 _NARROW = 1e-6  # width of a bracket in which the profile jumps, relative to the distance of the bound
 _FARTHER = 4.0  # largest factor from one step outwards to the next
 _FIRST = 0.6  # first step, as a part of what the information matrix predicts; a profile point far outside is costly
@@ -98,8 +99,9 @@ def _ends(objective: Objective, best: np.ndarray) -> list[list[End]]:
         for k in entries:
             for side, sign in enumerate((-1.0, 1.0)):
                 point = _likely_outside(objective, best, k, ends[k][side], sign)
-                if point is not None:
-                    ends[k][side], moved = _end(objective, best, k, sign, point), True
+                end = None if point is None else _end(objective, best, k, sign, point)
+                if end is not None and sign * (end.inner[k] - ends[k][side].inner[k]) > 0:
+                    ends[k][side], moved = end, True
         if not moved:
             break
     return ends
@@ -109,7 +111,7 @@ def _end(objective: Objective, best: np.ndarray, k: int, sign: float, after: np.
     """The end of the interval of entry k below (-1) or above (1) its estimate.
 
     Arguments:
-        after: a point within the interval from which to go on.
+        after: a point from which to go on, within the interval or about at its end.
     """
     free = objective.free
     bound = free.low[k] if sign < 0 else free.high[k]
@@ -143,10 +145,17 @@ def _farthest(objective: Objective, best: np.ndarray, k: int, sign: float, after
         possible = np.isfinite(objective.value(point(z)))
         return white.T @ objective.gradient(point(z)) if possible else np.zeros(z.size)
 
+    def is_end(at: np.ndarray) -> bool:
+        """True if a Newton step of the other entries, but those held by a bound, cannot make up for what is lost."""
+        slopes, margin = objective.gradient(at), _NARROW * span
+        pressed = ((at <= free.low + margin) & (slopes < 0)) | ((at >= free.high - margin) & (slopes > 0))
+        others = np.flatnonzero(~pressed & (np.arange(at.size) != k))
+        matrix = (objective.information(at) + free.vague)[np.ix_(others, others)]
+        gain = slopes[others] @ np.linalg.solve(matrix, slopes[others]) / 2
+        return bool(gain < _WITHIN * goal**2 and sign * slopes[k] < 0)
+
     def stop(z: np.ndarray) -> None:
-        """End the search where the likelihood is that of the end, and falls along the entry alone."""
-        down = -slope(z)
-        if abs(spare(z)) < _WITHIN * goal**2 and along @ down > (1 - _WITHIN) * np.linalg.norm(down):
+        if abs(spare(z)) < _WITHIN * goal**2 and is_end(point(z)):
             raise _Reached(point(z))
 
     start = goal * along if after is None else np.linalg.solve(white, after - best)
@@ -157,15 +166,17 @@ def _farthest(objective: Objective, best: np.ndarray, k: int, sign: float, after
         optimum = minimize(
             lambda z: -float(along @ z), start, jac=lambda _z: -along, method="SLSQP", callback=stop,
             constraints=[{"type": "ineq", "fun": spare, "jac": slope}, box],
-            options={"maxiter": _STEPS, "ftol": _SLACK},
+            options={"maxiter": _DIRECT, "ftol": _SLACK},
         )  # fmt: skip
+        end = point(optimum.x)
     except _Reached as reached:
-        return End(reached.inner, False)
-    end, bound = point(optimum.x), free.low[k] if sign < 0 else free.high[k]
-    enough = abs(spare(optimum.x)) < _WITHIN * goal**2
-    if abs(end[k] - bound) < _NARROW * span[k] and (enough or spare(optimum.x) > 0):
+        end = reached.inner
+    bound, over = free.low[k] if sign < 0 else free.high[k], objective.value(end) - least
+    if after is not None and sign * (end[k] - after[k]) < 0:
+        return None
+    if abs(end[k] - bound) < _NARROW * span[k] and over > -_WITHIN * goal**2:
         return End(end, True)
-    return End(end, False) if optimum.success and enough else None
+    return End(end, False) if abs(over) < _WITHIN * goal**2 and is_end(end) else None
 
 
 def _followed(objective: Objective, best: np.ndarray, k: int, sign: float, after: np.ndarray | None) -> End:

@@ -76,6 +76,7 @@ def impacts_of(request: Impacts) -> tuple[call.Impacts, np.ndarray]:
             sound, unit = np.full(request.size, _usual_scene(scene)), scene.stokes_per_speed
         speed = request.speed if request.speed is not None else np.asarray(request.stokes) / unit
         sound &= _usual(speed, _MOST)
+        sound &= _within_film(scene, {**(values or scene.material), "speed": speed})
     impacts = call.Impacts(scene, speed, request.angle, values)
     return impacts if sound.all() else impacts.subset(np.flatnonzero(sound)), sound
 
@@ -112,6 +113,17 @@ def admissible(scene: Scene, values: Mapping[str, np.ndarray]) -> np.ndarray:
     for ratio in ("radius_ratio", "mass_ratio"):
         if scene.partner is not None and ratio in values:
             sound &= (values[ratio] * FARTHEST > 1 + _NEAR) & (values[ratio] < FARTHEST * (1 - _NEAR))
+    return sound & _within_film(scene, values)
+
+
+def _within_film(scene: Scene, values: Mapping[str, np.ndarray | float]) -> np.ndarray | bool:
+    """Mask of collisions whose declared criteria have gaps within the film, with a margin; all whose are not known."""
+    sound: np.ndarray | bool = True
+    for criterion in scene.package.criteria if scene.package is not None else ():
+        formula, arguments = formulas(scene)[criterion.group]
+        if all(map(values.__contains__, arguments)):
+            gap = np.asarray(formula(*(values[name] for name in arguments)))
+            sound &= (gap >= 0) & (gap < 1 - _NEAR)
     return sound
 
 

@@ -303,8 +303,10 @@ def _finite(name: str, formula: Formula, values: Mapping[str, float]) -> float:
 
 def check_criteria(scene: System, speed: float | None) -> None:
     """InputError for a criterion of a model whose gap is not within the film; a gap by the speed needs that."""
+    if scene.package is None:
+        return
     values = si_values(scene, speed, None)
-    for criterion in scene.package.criteria if scene.package is not None else ():
+    for criterion in scene.package.criteria:
         formula = formulas(scene)[criterion.group]
         gap = _value(formula, values) if all(map(values.__contains__, formula[1])) else 0.0
         if not 0 <= gap < 1:

@@ -122,6 +122,8 @@ def _unknown(name: str) -> str:
     words, _, last = name.rpartition(" ")
     if last.replace(".", "", 1).isdigit():
         return f'has a number without a unit: "{words} {last} %" is a mass fraction in water'
+    if name in _SOLUTIONS:
+        return f'is a solution, which needs its mass fraction, as in "{name} 20 %"'
     return "is a liquid whose viscosity no source has" + did_you_mean(name, {*_SOLUTIONS, *_NUMBERS, *_ALIASES})
 
 

@@ -65,7 +65,7 @@ def sensitivities(
 
     Example:
         >>> from wetdoublet.solvers import sensitivities
-        >>> found = sensitivities("granulation", of=["restitution"], stokes=0.02, angle="75 deg")
+        >>> result = sensitivities("granulation", of=["restitution"], stokes=0.02, angle="75 deg")
         >>> result.gradient["restitution"]["bridge.surface_tension"] < 0
         True
     """

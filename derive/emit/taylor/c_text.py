@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from collections.abc import Set as AbstractSet
 
@@ -19,6 +20,7 @@ _FUNCTIONS = {
 }  # fmt: skip
 _EXTREMES = {sp.Max: "vec_larger", sp.Min: "vec_smaller"}
 _ADD, _MUL, _ATOM = range(3)
+_NUMBER = re.compile(r"\(?-?[\d.]+(e[-+]?\d+)?\)?")  # as `number` prints it
 
 
 class Text:
@@ -255,9 +257,10 @@ class Recurrences:
     @staticmethod
     def _table(name: str, texts: Sequence[str]) -> str:
         """C text of constants over nodes."""
-        if not any("c->" in text for text in texts):
+        plain = [_NUMBER.fullmatch(text) is not None for text in texts]
+        if all(plain):
             return f"static const double {name}[{len(texts)}] = {{{', '.join(texts)}}};"
-        vectors = (text if "c->" in text else f"splat({text})" for text in texts)
+        vectors = (f"splat({text})" if number else text for text, number in zip(texts, plain, strict=True))
         return f"const vec {name}[{len(texts)}] = {{{', '.join(vectors)}}};"
 
     def _factors(self, operation: Operation) -> list[str]:

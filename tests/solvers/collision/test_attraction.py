@@ -1,4 +1,4 @@
-"""Van der Waals attraction: where it enters, and the generalised centrifugal number."""
+"""Van der Waals attraction: its closed-form work, where it enters, and the generalised centrifugal number."""
 
 import math
 
@@ -9,6 +9,35 @@ from ...helpers.reference import collide
 
 A_H = 2e-12  # J, far above any real one, so that it shows in granulation
 X0 = 8e-6
+
+
+def scene_of(bridge, **changes):
+    """Granulation with van der Waals attraction, contact at 50 nm only, with or without the constant bridge."""
+    preset = Scene.load("granulation")
+    given = {name: value for name, value in preset.given if "young" not in name and "poiss" not in name}
+    if not bridge:
+        given = {name: value for name, value in given.items() if not name.startswith("bridge")}
+    entries = {
+        "attraction.hamaker": A_H,
+        "particles.roughness": "50 nm",
+        "liquid.glass_transition_pressure": "1e6 GPa",
+        **({"bridge.law": "constant", "bridge.volume": 0.05} if bridge else {}),
+    }
+    return Scene("", tuple({**given, **entries, **changes}.items()))
+
+
+@pytest.mark.parametrize("bridge", [True, False])
+@pytest.mark.parametrize(("stokes", "angle"), [(0.12, 75.0), (12.0, 0.0)])
+def test_the_work_is_the_potentials(bridge, stokes, angle):
+    """The ledger's `attraction` is W(x_f) - W(x0) with W = -A a/(6 x), on any path, reversals included."""
+    scene = scene_of(bridge)
+    one = collide(scene, stokes=stokes, angle=math.radians(angle), rtol=1e-11)
+    assert one.outcome != "stick"
+    expected = A_H * scene.reduced_radius / 6 * (1 / X0 - 1 / scene.rupture_gap)
+    # the integral runs down to the smallest gap and back: its error is relative to the work there
+    size = A_H * scene.reduced_radius / (6 * one.smallest_gap)
+    assert one.energy.attraction == pytest.approx(expected, abs=1e-7 * size)
+    assert abs(one.energy.residual) < 1e-8 * one.energy.initial
 
 
 def test_nothing_changes_without_it():
@@ -23,10 +52,9 @@ def test_nothing_changes_without_it():
 
 def test_the_generalised_number():
     """Ce_F = m omega0^2 a/F(x0): Ce/(4 pi cos phi) for the constant bridge, 6 m omega0^2 x0^2/A for van der Waals."""
-    constant = {"bridge.law": "constant", "attraction.hamaker": 0.0}
-    one = collide(Scene.load("granulation").with_entries(constant), stokes=0.1, angle="60 deg", ledger=False)
+    one = collide(scene_of(True, **{"attraction.hamaker": 0.0}), stokes=0.1, angle="60 deg", ledger=False)
     assert one.generalised_centrifugal == pytest.approx(one.centrifugal / (4 * math.pi), rel=1e-12)
-    dry = Scene.load("granulation-dry-bridge").with_entries({"attraction.hamaker": A_H})
+    dry = scene_of(False)
     one = collide(dry, stokes=0.1, angle="60 deg", ledger=False)
     omega0 = one.speed * math.tan(one.angle) / (4 * dry.reduced_radius)
     expected = dry.reduced_mass * omega0**2 * 6 * X0**2 / A_H

@@ -1,9 +1,39 @@
-"""Ranges of bridge laws that are left."""
+"""Bridge laws as parts: the critical centrifugal number of each, own rupture distances, ranges that are left."""
+
+import json
+import math
+import subprocess
+import sys
 
 import pytest
-from wetdoublet.solvers import ModelWarning, Scene, collide_many
+from wetdoublet.solvers import InputError, ModelWarning, Scene, collide_many
+from wetdoublet.solvers.host.emitted import LAWS
 
 from ...helpers.reference import collide
+
+# an independent prototype's Ce* at 45 deg with the surface arm, granulation
+
+
+OWN = {
+    "mikami": lambda v, phi: (0.62 * phi + 0.99) * v**0.34,
+    "mikami-log10": lambda v, phi: (0.62 * phi + 0.99) * v**0.34,
+    "willett": lambda v, phi: (1 + phi / 2) * (v ** (1 / 3) + v ** (2 / 3) / 10),
+    "willett-simple": lambda v, phi: (1 + phi / 2) * (v ** (1 / 3) + v ** (2 / 3) / 10),
+    "soulie": lambda v, phi: (1 + phi / 2) * v ** (1 / 3),
+}
+
+
+@pytest.mark.parametrize("law", LAWS["bridge"])
+def test_own_rupture(law):
+    """`own` is the distance that the law's authors give; a law without one says which have."""
+    entries = {"bridge.law": law, "bridge.rupture": "own", "bridge.contact_angle": "20 deg"}
+    scene = Scene.load("granulation")
+    if law not in OWN:
+        with pytest.raises(InputError, match="one of mikami, mikami-log10, willett, willett-simple, soulie"):
+            scene.with_entries(entries)
+        return
+    expected = OWN[law](0.1, math.radians(20)) * 1e-4
+    assert scene.with_entries(entries).rupture_gap == pytest.approx(expected, rel=1e-12)
 
 
 def test_a_range_that_is_left_is_said_once():
@@ -23,3 +53,14 @@ def test_a_range_that_is_left_is_said_once():
     inside = {"bridge.law": "willett", "bridge.contact_angle": "50 deg"}  # the ends of a range belong to it
     said = collide(Scene.load("granulation").with_entries(inside)).validity
     assert not any("range of the law" in each for each in said)
+
+
+def test_json_stays_pure():
+    """On the command line the remark is one line on standard error, and standard output is one JSON object."""
+    command = [sys.executable, "-m", "wetdoublet.solvers", "collide", "granulation", "--json", "--engine", "cvodes"]
+    done = subprocess.run(
+        [*command, "--set", "bridge.law=willett-simple"], capture_output=True, text=True, timeout=900, check=True
+    )
+    assert json.loads(done.stdout)["outcome"] == "stick-rotate-separate"
+    (line,) = done.stderr.splitlines()
+    assert line.startswith("warning: bridge.volume = 0.1")

@@ -1,16 +1,41 @@
-"""Limits of one collision, and what the paper says of them; the harness has the reference."""
+"""One collision against closed forms, limits, similarity and the paper's statements."""
 
 import math
 
 import pytest
+from scipy.optimize import brentq
 from wetdoublet.solvers import Scene, collide_many
 
 from ...helpers.reference import collide
+
+ENGINES = ("cvodes", "rosenbrock")
+
+
+# neither glass nor elasticity before a roughness of x0/10
+
+
+def film_loss(s: float) -> float:
+    """Lf(s) = ln(1/s) - 3/2 + 2s - s^2/2: loss of u/v0 times St between x0 and s x0."""
+    return math.log(1 / s) - 1.5 + 2 * s - s * s / 2
 
 
 def dry_scene(**entries: object) -> Scene:
     """Granulation without a bridge, some entries changed."""
     return Scene.load("granulation-dry-bridge").with_entries(entries)
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+def test_head_on_glass_rebound_has_a_closed_form(engine: str) -> None:
+    """Film only, head-on, reversed where (1 - Lf(s)/St)/s^2 first reaches the glass number."""
+    scene, stokes = dry_scene(), 0.2
+    a, mu, x0, p_gt = 50e-6, 2.0, 8e-6, 20e6
+    speed = scene.speed_of(stokes)
+    glass = p_gt * x0**2 / (3 * mu * a * speed)
+    s = brentq(lambda s: (1 - film_loss(s) / stokes) / s**2 - glass, 0.5, 1.0, xtol=1e-15)
+    before = 1 - film_loss(s) / stokes
+    found = collide(scene, stokes=stokes, angle=0.0, rtol=1e-11, engine=engine)
+    assert found.reversal == "glass"
+    assert found.restitution == pytest.approx(0.99 * before - film_loss(s) / stokes, rel=1e-9)
 
 
 def test_rebound_at_initial_contact_without_a_bridge_ruptures_at_once() -> None:
