@@ -61,6 +61,8 @@ def test_a_power_law_turns(tmp_path: Path):
 
 KINKED = "1 + Max(Abs(u/v0 + 0.4) - 0.2, 0)"
 ARC = "acos(1 - 2/(1 + x/x0)) + atan(x0/x)/4"
+DEPTH = 'depth = quantity("depth", unit="1", default="0.3", bounds=">= 0")\n'
+NODES = "sum(sqrt(1 + (1 + k*depth)*x/x0)*exp(-k*depth*x/x0) for k in range(1, 8))"  # constants that differ by node
 
 
 @pytest.mark.parametrize(
@@ -68,8 +70,9 @@ ARC = "acos(1 - 2/(1 + x/x0)) + atan(x0/x)/4"
     [
         f'law("film", "mine", resistance=6*pi*mu*a**2*u/x*(1 - x/x0)**2*({KINKED}))',  # met again on opening, elsewhere
         f'law("bridge", "mine", force=R*sigma*({ARC}))',  # with the angle that a cap of liquid takes
+        f'{DEPTH}law("film", "mine", resistance=6*pi*mu*a**2*u/x*(1 - x/x0)**2*{NODES})',
     ],
-    ids=["kinks", "arcs"],
+    ids=["kinks", "arcs", "nodes"],
 )
 def test_values_and_derivatives_by_every_engine(body: str, tmp_path: Path):
     """The engines agree to 1e-8, and derivatives with differences to 1e-6."""

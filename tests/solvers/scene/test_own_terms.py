@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 import sympy as sp
 from scipy.integrate import solve_ivp
-from wetdoublet.solvers import InputError, Scene, collide, sensitivities
+from wetdoublet.solvers import InputError, Scene, collide, collide_many, sensitivities
 from wetdoublet.solvers.export.hybrid import equations
 from wetdoublet.solvers.export.law.kernels import kernels
 
@@ -214,6 +214,17 @@ def test_a_criterion_outside_the_film_is_refused(gap: str, says: str, tmp_path: 
         collide(scene(tmp_path, body, FREE))
     assert caught.value.field == "criterion layer"
     assert "8e-06 m" in str(caught.value)
+
+
+def test_of_many_impacts_those_with_a_criterion_outside_the_film_fail(tmp_path: Path):
+    """By an entry that varies, and by the speed: the others are as by themselves."""
+    body = 'soft = quantity("soft", unit="m", default="1 um")\nlag = quantity("lag", unit="s", default="1e-6 s")\n'
+    own = scene(tmp_path, body + 'criterion("layer", gap=soft + lag*v0)')
+    for axis in ({"speed": [1.0, 10.0]}, {"speed": 1.0, "vary": {"custom.soft": [1e-6, 9e-6]}}):
+        many = collide_many(own, angle=0.5, **axis)
+        assert many.outcome.values.tolist()[1] == -1
+        assert str(many.reason.values[1]).startswith("criterion layer: ")
+        assert float(many.restitution[0]) == pytest.approx(collide(own, speed=1.0, angle=0.5).restitution, rel=1e-9)
 
 
 @pytest.mark.slow
