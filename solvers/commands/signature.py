@@ -207,7 +207,7 @@ def _read_by(name: str, option: Option, hint: Any) -> Option:
     kind, *more = get_args(hint) if get_origin(hint) is Annotated else (hint,)
     settings = {"multiple": True} if get_origin(kind) in (tuple, dict) or kind in (tuple, dict) else {}
     entry = FIELDS.get(f"impact.{name}")
-    if more or kind is str or str in get_args(kind):
+    if more or kind is str or (str in get_args(kind) and get_origin(kind) is not list):
         return replace(option, read=more[0] if more else None, settings={**option.settings, **settings})
     if option.read is None and entry is not None and option.metavar in ("RANGE", "LO:HI"):
         return replace(option, read=partial(texts.entry_range if option.metavar == "RANGE" else texts.span, entry))
