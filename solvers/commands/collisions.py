@@ -215,7 +215,7 @@ def prove(
         --depth N: Halvings of a cell of the map that is not proved [12].
     """
     mapped = cells or boundary
-    refuse({"--boundary": "--map" * (cells and boundary)}, "one of the two", "is given together with --map")
+    refuse({"--boundary": "--map" * (cells and boundary)}, "one of the two", "is asked for, too")
     refuse({"--within": mapped and within}, "a single proof", "is given together with a map or a boundary")
     refuse({"--depth": not cells and depth}, "--depth with --map")
     if mapped:

@@ -11,7 +11,7 @@ from typing import Annotated, Any
 
 import click
 
-from ..errors import CheckFailed, InputError
+from ..errors import CheckFailed, ComputationError, InputError
 from ..host.outputs import check_file
 from ..scene.ranges import MOST, MOST_STORED, check_cells
 from ..scene.schema import FIELDS
@@ -57,8 +57,9 @@ def map_(
 ) -> None:
     """Outcome and restitution of SCENE over a grid of impact angles, Stokes numbers and further varied entries.
 
-    Without -o and --plot a map of characters is printed. Collisions that fail are marked, and counted at the end. The
-    picture has the exact boundaries over the cells, and hatches those where the model leaves its range.
+    Without -o and --plot a map of characters is printed. Collisions that fail are marked, and counted at the end; exit
+    status 1 if all do. The picture has the exact boundaries over the cells, and hatches those where the model leaves
+    its range.
 
     Example:
       wetdoublet map granulation --stokes log:0.005:0.5:60 --angle 0:85:60 -o map.nc --plot map.png
@@ -91,6 +92,7 @@ def map_(
     from ..many.csv_map import write_csv
     from ..many.regime_map import regime_map, write
     from ..many.text_map import failures, table
+    from ..results import FAILED
 
     checked_vary(scene, varied, "--vary")
     with (
@@ -112,6 +114,8 @@ def map_(
     elif output is None:
         click.echo(table(data))
     failed = failures(data)
+    if failed is not None and bool((data["outcome"] == FAILED).all()):
+        raise ComputationError(failed)
     if failed is not None:
         click.echo(failed, err=True)
 

@@ -194,6 +194,7 @@ def explore(output: str, others: tuple[str, ...], request: Request) -> None:
         -o FILE (output): File to write, .html.
         --with SCENE (others): Another scene to choose from; may be repeated.
     """
+    check_file(output, "-o", (".html", ".htm"))
     scene = request.scene(remark=True)
 
     from ..explorer.page_of_scene import explore

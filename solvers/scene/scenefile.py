@@ -79,6 +79,8 @@ def parse(text: str, origin: str) -> dict[str, Any]:
         raise InputError(origin, text, "a scene in TOML", "is not text")
     if len(text) > _LARGEST:
         raise InputError(origin, None, "a scene in TOML", f"is larger than {_LARGEST} characters")
+    if not text.strip():
+        raise InputError(origin, None, "a scene in TOML, as `wetdoublet scenes NAME` prints one", "is empty")
     if bounded.too_deep(text):
         raise InputError(origin, None, "a scene in TOML: [TABLE] and KEY = VALUE", "is nested too deeply")
     try:

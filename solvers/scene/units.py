@@ -225,6 +225,8 @@ def spelling(unit: str) -> str:
 
 def _pint_factor(unit: str, si: str, value: object, field: str, accepted: str) -> float:
     """Return the factor from `unit` to `si` by pint; InputError for an unknown unit or another dimension."""
+    if ":" in unit:
+        raise InputError(field, value, accepted, "is a range, where one value is asked")
     for word in re.findall(r"[^\W\d]+", unit):
         for misread, meant in _MISREAD:
             if misread.fullmatch(word):
