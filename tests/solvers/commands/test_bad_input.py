@@ -116,6 +116,12 @@ BAD = [
     ("verify --stress 8 -o x.md", "-o", "", ""),
     ("verify --out x", "--out", "", "--stress"),
     ("verify granulation --stress 8", "SCENE", "", "--stress"),
+    ("design granulation --free liquid.viscosity,liquid.nothing --over stokes=0.1:1,angle=0:60", "--free",
+     '"liquid.nothing" is not known', "liquid.viscosity"),
+    ("fit pendulum docs/how-to/data/synthetic-pendulum.csv --free liquid.viscosity,liquid.nothing", "--free",
+     '"liquid.nothing" is not known', "liquid.viscosity"),
+    ("sensitivity granulation --of restitution,nothing", "--of", '"nothing" is not known', "restitution"),
+    ("sensitivity granulation --wrt liquid.viscosity,nothing", "--wrt", '"nothing"', "liquid.viscosity"),
     ("verify granulation -o ./x.pdf", "-o", "has an unsupported suffix", "ending in .md"),
 ]  # fmt: skip
 

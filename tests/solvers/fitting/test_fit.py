@@ -126,18 +126,6 @@ def test_data_that_contradict_the_model_identify_nothing(tmp_path):
     assert told["remarks"][0] in found.stderr
 
 
-def test_several_entries_by_the_command(tmp_path):
-    """A list of names, as the help has it; the JSON is that of the function."""
-    data = tmp_path / "impacts.csv"
-    data.write_text("speed [m/s],angle [deg],restitution,outcome\n0.5,0,,S\n2,0,0.4,B\n3,20,0.6,B\n4,40,0.7,B\n")
-    names = [VISCOSITY, "particles.dry_restitution"]
-    told = run("fit", "granulation", data, "--free", ",".join(names), "--json")
-    assert told.exit_code == 0, told.output
-    expected = fit("granulation", data, names).to_dict()["estimates"]
-    assert json.loads(told.stdout)["estimates"] == expected
-    assert list(expected) == names
-
-
 def test_estimates_at_the_edge_of_what_is_possible_are_written(tmp_path):
     """A film as thick as the bridge allows is a scene that can be read again."""
     data = {"stokes": [1.0, 2.0], "angle": [0.4, 0.4], "contact_time": [1e-3, 1e-3], "outcome": ["B", "B"]}
