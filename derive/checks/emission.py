@@ -67,7 +67,8 @@ def _at_rest(exact: LawFunction, samples: Samples) -> str:
     """What is wrong with a film whose force does not vanish, or change its sign, with the velocity; "" if nothing."""
     if normal_velocity not in exact.arguments:
         return ""
-    resistance = sp.lambdify(exact.arguments, exact(*exact.arguments), modules=["math"])
+    named = list(exact.definitions)
+    resistance = sp.lambdify(exact.arguments, exact.result, modules=["math"], cse=lambda result: (named, result))
 
     def force(at: Mapping[sp.Symbol, float], velocity: float) -> float:
         try:

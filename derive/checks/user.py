@@ -138,14 +138,14 @@ def _samples(
     model: UserModel, law: Law, function: LawFunction, tried: Mapping[str, tuple[float, ...]] = _TRIED
 ) -> Iterator[dict[sp.Symbol, float]]:
     ranges = [tried.get(symbol.name) or _tried(model, symbol) for symbol in function.arguments]
+    edge = _evaluated(law["edge"]) if f"{law.slot}.{function.name}" == "shear.log_factor" else None
     for values in product(*ranges):
         at = dict(zip(function.arguments, values, strict=True))
         reach = next((s for s in at if s.name == "gap_over_radius"), None)
         if reach is not None:  # up to the rupture distance over R
             at[reach] *= at.get(volume, 0.1) ** (1 / 3) * (1 + at.get(contact_angle, 0.0) / 2)
-        if f"{law.slot}.{function.name}" == "shear.log_factor":
-            edge = law["edge"]
-            at[function.arguments[0]] *= float(edge(*(at.get(s, 1.0) for s in edge.arguments)))
+        if edge is not None:
+            at[function.arguments[0]] *= float(edge(*(at.get(s, 1.0) for s in law["edge"].arguments)))
         yield at
 
 
@@ -161,7 +161,8 @@ def _tried(model: UserModel, symbol: sp.Symbol) -> tuple[float, ...]:
 
 
 def _evaluated(function: LawFunction) -> sp.Lambda:
-    return sp.lambdify(function.arguments, function(*function.arguments), modules=["math"])
+    named = list(function.definitions)  # statements of the compiled function: nothing is substituted
+    return sp.lambdify(function.arguments, function.result, modules=["math"], cse=lambda result: (named, result))
 
 
 def _value(compiled: sp.Lambda, at: Mapping[sp.Symbol, float]) -> float:
