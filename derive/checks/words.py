@@ -6,6 +6,7 @@ from functools import cache
 import sympy as sp
 
 from ..equations.invariants import invariants
+from ..equations.model import Model
 from ..laws import LAWS, Law, filled
 from ..physics.structure import BRIDGED
 from ..user.own_events import OwnEvent
@@ -68,10 +69,14 @@ def _of_event(event: OwnEvent) -> str:
     return text + "Sticks are proved after it only."
 
 
-@cache
 def conserved(model: UserModel) -> tuple[str, ...]:
     """The conserved quantities without strings and rebounds, for any other laws."""
-    result = invariants(replace(model, events=()).derived(BRIDGED), {"arm": _arm(model)})
+    return _conserved(replace(model, events=()).derived(BRIDGED), _arm(model))
+
+
+@cache  # the library's equations are those of most models
+def _conserved(equations: Model, arm: Law) -> tuple[str, ...]:
+    result = invariants(equations, {"arm": arm})
     return tuple(_ANGULAR_MOMENTUM if invariant.is_angular_momentum else invariant.describe() for invariant in result)
 
 

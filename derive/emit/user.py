@@ -59,9 +59,10 @@ def package(
         })  # fmt: skip
     changed = {key.split(".")[0] for key in model.extra}
     digests: dict[str, str] = {}
-    for structure in structures():
-        if not changed & set(derive(structure).slots) or model.terms:
-            continue  # declared events and terms change every structure, derived where a scene needs it
+    # declared events and terms change every structure, derived where a scene needs it
+    for structure in structures() if changed and not model.terms else ():
+        if not changed & set(derive(structure).slots):
+            continue
         extended = model.derived(structure)
         files[f"{structure.name}.py"] = structure_module(extended, names)
         digests[structure.name] = model_digest(extended)

@@ -155,7 +155,9 @@ def to_groups(centres: sp.Expr = EQUAL) -> dict[sp.Symbol, sp.Expr]:
     definitions = group_definitions()
 
     def solved(group: sp.Symbol, quantity: sp.Symbol) -> sp.Expr:
-        return sp.solve(sp.Eq(definitions[group], group), quantity)[0].subs(q.x0, film)
+        # groups are monomials in the quantity: there is one solution, and nothing in it to simplify
+        (solution,) = sp.solve(sp.Eq(definitions[group], group), quantity, check=False, simplify=False)
+        return solution.subs(q.x0, film)
 
     mass = solved(q.stokes, q.m)
     return {

@@ -60,7 +60,7 @@ def derived_package(path: Path, folder: Path | None) -> Derived:
     source, words = path.read_text(encoding="utf-8"), in_words(model)
     took("find what is conserved")
     files = package(model, source, library_digest(), conserved(model), words, origin_of(path, folder))
-    emitted = Package(files["manifest.json"])
+    emitted = Package(files["manifest.json"], path, files)
     for name, value in emitted.defaults.items():
         try:
             emitted.fields[name].read(value)
@@ -68,6 +68,9 @@ def derived_package(path: Path, folder: Path | None) -> Derived:
             accepted = error.accepted.partition(", such as")[0]  # the example is this default
             accepted += f", which is {unit}" if (unit := emitted.fields[name].unit) else ""
             raise InputError(f"{path}: {name}, default", value, accepted, error.problem) from None
+    for law in model.laws:  # in the cache for the kernels: the first collisions then need no sympy
+        emitted.law_header(law.slot, law.name)
+        emitted.law_header(law.slot, law.name, slopes=True)
     took("emit")
     meanings = [f"{model.name}: {model.meaning}."]
     meanings += [f"  {law.slot} law {law.name}: {law.meaning}" for law in model.laws]

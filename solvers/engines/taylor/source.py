@@ -19,8 +19,9 @@ from .layout import MORE_RESULTS, MOST_STEPS, SHOWN, SHOWN_IN_SPACE, declaration
 # -w: the tests compile every file with -Wall -Wextra -Werror; warnings of a newer compiler should not reach users.
 _COMMON = ("-fno-math-errno", "-ffp-contract=fast", "-fPIC", "-shared", "-std=gnu11", "-w")
 FLAGS = ("-O2", "-funroll-loops", *_COMMON)
-# With the ledger or the trajectory: compiles faster, runs about 5 % slower (docs/engineering/kernel.md).
-RECORD_FLAGS = ("-O1", "-fexpensive-optimizations", "-ftree-pre", "-fgcse", *_COMMON)
+# With the ledger or the trajectory, and of a user's model, whose author waits for the compiler after every change:
+# compiles faster, runs 5 to 15 % slower (docs/engineering/kernel.md).
+QUICK_FLAGS = ("-O1", "-fexpensive-optimizations", "-ftree-pre", "-fgcse", *_COMMON)
 RUNTIME = Path(__file__).resolve().parent / "runtime"
 _LINE = re.compile(r'#(?<![^\n]#)(?:pragma once\n|include "([^"]+)"\n)')  # a search for "#" is faster than for lines
 _ONCE = "#pragma once"
@@ -145,8 +146,8 @@ def emitted_headers(variant: Variant) -> tuple[str, ...] | None:
 
 def flags(variant: Variant, instructions: InstructionSet) -> tuple[str, ...]:
     """The compiler's flags for a variant."""
-    by_purpose = RECORD_FLAGS if variant.ledger or variant.trajectory else FLAGS
-    return (*instructions.flags, *by_purpose, *more_flags())
+    quick = variant.ledger or variant.trajectory or variant.choice.package is not None
+    return (*instructions.flags, *(QUICK_FLAGS if quick else FLAGS), *more_flags())
 
 
 def stem(variant: Variant) -> str:
