@@ -1,4 +1,4 @@
-"""Whether tracked centres move uniformly before and after an impact: lost frames, uneven times, bent paths.
+"""Straight lines through tracked centres, and whether they move uniformly: lost frames, uneven times, bent paths.
 
 Lost frames and uneven times displace positions along the motion, never across it: the scatter across is the noise.
 A tracker that takes two near discs for a larger or a smaller shape displaces them along their line of centres.
@@ -167,3 +167,57 @@ def near_contact(paths: Sequence[Flight], solids: float, floor: float) -> tuple[
         if min(path.time.size for path in far) >= LEAST and _bent(far, gap, solids, floor)[1] > _STRAIGHT:
             return most, float(gap)
     return (most, math.inf) if rare < _RARE else (0.0, 0.0)
+
+
+@dataclass(frozen=True)
+class Line:
+    """A straight line through the frames of one side of an impact.
+
+    Attributes:
+        course: position at time 0 and velocity, (2, 2).
+        covariance: of the course, over the variance of the noise.
+        squares, freedom: sum of the squared residuals, and its degrees of freedom.
+    """
+
+    course: np.ndarray
+    covariance: np.ndarray
+    squares: float
+    freedom: int
+
+
+def line_through(time: np.ndarray, relative: np.ndarray, mask: np.ndarray, turned_only: np.ndarray) -> Line:
+    """The line of the frames of a mask by least squares.
+
+    Arguments:
+        turned_only: frames of which the direction counts: by symmetry a tracker displaces near discs along their line.
+    """
+    across = relative[turned_only] @ [[0, 1], [-1, 0]] / np.linalg.norm(relative[turned_only], axis=1)[:, None]
+    whole = np.kron(np.stack([np.ones(int(mask.sum())), time[mask]], axis=1), np.eye(2))
+    design = np.concatenate([whole, np.hstack([across, time[turned_only, None] * across])])
+    values = np.append(relative[mask].ravel(), np.zeros(len(across)))
+    solution = np.linalg.lstsq(design, values, rcond=None)[0]
+    squares = float(((values - design @ solution) ** 2).sum())
+    return Line(solution.reshape(2, 2), np.linalg.inv(design.T @ design), squares, values.size - 4)
+
+
+def flight_of(course: np.ndarray) -> tuple[float, float, float, float]:
+    """Speed, least distance from the origin, signed by the sense of rotation, its time, and the direction."""
+    (x, y), (u, v) = course
+    speed = math.hypot(u, v)
+    return speed, (x * v - y * u) / speed, -(x * u + y * v) / speed**2, math.atan2(v, u)
+
+
+def state_at(course: np.ndarray, distance: float, side: int) -> tuple[float, float, float, float]:
+    """Angle of the line of centres, approach and tangential speed, and time, where a path crosses a distance.
+
+    Arguments:
+        side: -1 for the earlier crossing, 1 for the later one.
+    """
+    start, velocity = course
+    speed, along = float(velocity @ velocity), float(start @ velocity)
+    root = max(along**2 - speed * (float(start @ start) - distance**2), 0.0)
+    time = (-along + side * math.sqrt(root)) / speed
+    place = start + time * velocity
+    normal = place / np.linalg.norm(place)
+    sideways = normal[0] * velocity[1] - normal[1] * velocity[0]
+    return math.atan2(place[1], place[0]), -float(normal @ velocity), float(sideways), time
