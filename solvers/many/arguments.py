@@ -30,10 +30,8 @@ def of_one_length(arrays: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
     for name, length in lengths.items():
         if length != size:
             raise InputError(name, f"{length} values", f"{size} values, or one", "differs in length from the others")
-    return {
-        name: array.reshape(-1).copy() if array.size == size else np.full(size, array.item())
-        for name, array in arrays.items()
-    }
+    columns = arrays.items()
+    return {name: array.reshape(-1) if array.size == size else np.full(size, array.item()) for name, array in columns}
 
 
 def check_outputs(of: Sequence[str], choices: Sequence[str] = MAPPED) -> tuple[str, ...]:

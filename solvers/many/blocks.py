@@ -134,7 +134,7 @@ def into_memory(
         finished(np.zeros(0, int), {})
         if client is None:
             order = impacts.order()
-            complete(impacts, results, order[~done[order]], finished)
+            complete(impacts, results, np.asarray(order)[~done[order]] if done.any() else order, finished)
         else:
             cut, flat = blocks(impacts.shape, impacts.engine), np.arange(impacts.size).reshape(impacts.shape)
             with _computing(impacts, client, cut) as (_, computed):

@@ -29,18 +29,19 @@ _NEAR = 1e-9  # relative distance to a limit of valid input below which the scen
 
 
 def collide_by_kernel(
-    request: Impacts, which: np.ndarray, threads: int, finished: Callable[[np.ndarray, Block], None]
+    request: Impacts, which: np.ndarray | range, threads: int, finished: Callable[[np.ndarray, Block], None]
 ) -> np.ndarray:
     """Compute the collisions `which` of a batch; returns the indices of those that it does not complete.
 
     Arguments:
         finished: called with the indices and results of every finished block.
     """
-    incomplete = [which[:0]]
+    incomplete = [np.zeros(0, int)]
     ledger = any(name in LEDGER for name in request.of)
     jumps = min((DEFINITIONS[name].jumps for name in request.of if name in DEFINITIONS), default=2)
-    for first in range(0, which.size, _STRETCH):
-        rows = which[first : first + _STRETCH]
+    for first in range(0, len(which), _STRETCH):
+        part = which[first : first + _STRETCH]  # of a range: the indices of all are never in memory
+        rows = np.arange(part.start, part.stop) if isinstance(part, range) else part
         whole = rows.size == request.size and bool((rows == np.arange(rows.size)).all())
         impacts, sound = impacts_of(request if whole else request.subset(rows))
         terms = np.zeros(impacts.size, OWN_LEDGER) if ledger else None

@@ -31,7 +31,7 @@ Finished = Callable[[np.ndarray, Block], None]
 def complete(
     request: Impacts,
     results: Block,
-    which: np.ndarray | None = None,
+    which: np.ndarray | range | None = None,
     finished: Finished | None = None,
     cores: int | None = None,
 ) -> None:
@@ -53,19 +53,20 @@ def complete(
     if request.texts:
         return
     keep = finished or (lambda where, block: fill(results, where, block))
-    _compute(request, np.arange(request.size) if which is None else which, keep, cores or usable_cores())
+    _compute(request, range(request.size) if which is None else which, keep, cores or usable_cores())
     results |= impact_columns(request)
     if VALIDITY in request.of:
         results[VALIDITY] = validity(request, results)
 
 
-def _compute(request: Impacts, which: np.ndarray, finished: Finished, cores: int) -> None:
+def _compute(request: Impacts, which: np.ndarray | range, finished: Finished, cores: int) -> None:
     size, few = _BLOCK, FEW
     if request.engine == "taylor":
-        incomplete = collide_by_kernel(request, which, cores if which.size > FEW else 1, finished)
-        if 0 < incomplete.size < which.size:
+        incomplete = collide_by_kernel(request, which, cores if len(which) > FEW else 1, finished)
+        if 0 < incomplete.size < len(which):
             size, few = max(1, min(_BLOCK, incomplete.size // (4 * cores))), _SLOW
         which = incomplete
+    which = np.asarray(which)
     blocks = [which[k : k + size] for k in range(0, which.size, size)]
     cores = min(len(blocks), cores)
     if which.size <= few or cores == 1:

@@ -64,8 +64,9 @@ class Impacts:
     def size(self) -> int:
         return math.prod(self.shape)
 
-    def order(self) -> np.ndarray:
-        return np.arange(self.size)
+    def order(self) -> np.ndarray | range:
+        """The order in which the impacts are computed."""
+        return range(self.size)
 
     def _flat(self, name: str) -> np.ndarray | None:
         """The values of an entry for all impacts, in one dimension; None if it is no column."""
@@ -81,7 +82,8 @@ class Impacts:
     @cached_property
     def angle(self) -> np.ndarray:
         angle = np.asarray(self._flat("impact.angle"))
-        return np.where(angle < LEAST_ANGLE, 0.0, angle)
+        head_on = angle < LEAST_ANGLE
+        return np.where(head_on, 0.0, angle) if head_on.any() else angle
 
     @cached_property
     def stokes(self) -> np.ndarray | None:
