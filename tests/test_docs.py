@@ -15,6 +15,7 @@ from wetdoublet.generated.automaton import KINDS
 from wetdoublet.solvers import Scene, collide
 from wetdoublet.solvers.collision.outcome import Energy
 from wetdoublet.solvers.commands.cli import cli
+from wetdoublet.solvers.scene import schema
 from wetdoublet.solvers.scene.schema import FIELDS, TABLES
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -31,11 +32,9 @@ SCENES, RESULTS = (
 def test_every_table_entry_and_choice_has_its_meaning(monkeypatch):
     """What the reference of scenes is made from knows each table, entry and choice, and no other."""
     monkeypatch.syspath_prepend(ROOT / "docs/_ext")
-    meanings = import_module("meanings")
-    assert set(meanings.TABLES) == set(TABLES)
-    assert set(meanings.ENTRIES) == set(FIELDS)
-    choices = {name: set(field.choices) for name, field in FIELDS.items() if field.choices}
-    assert {name: set(found) for name, found in meanings.CHOICES.items()} == choices
+    meanings = import_module("scene_entries").declared_meanings()
+    assert {*meanings} == {*FIELDS} and all(meanings.values()) and all(kind.__doc__ for kind in schema.KINDS.values())
+    assert not [name for name, field in FIELDS.items() if not all(field.choices.values())]
 
 
 def test_the_complete_scene_loads():

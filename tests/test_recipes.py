@@ -24,14 +24,13 @@ ROOT = Path(__file__).resolve().parents[1]
 QUANTITIES, SCALING, AUTOMATON = (
     f"derive/{name}.py" for name in ("vocabulary/quantities", "physics/scaling", "equations/automaton")
 )
-ENTRY = [  # a quantity of the vocabulary, an entry of a scene that is it, and its place in the table of the scene
+ENTRY = [  # a quantity of the vocabulary, and an entry of a scene that is it
     (QUANTITIES, "e_dry = ", 'w = _quantity("waviness", "w", LENGTH, "height of the waves", nonnegative=True)\n{}'),
     (
         "solvers/scene/schema.py",
-        '    Field("particles.dry_restitution"',
-        '    Field("particles.waviness", "a waviness", \'"1 um"\', NOT_NEGATIVE, unit="m"),\n{}',
+        "    dry_restitution: float = entry(",
+        '    waviness: float | None = entry("a waviness", \'"1 um"\', NOT_NEGATIVE, unit="m")\n    """Height."""\n{}',
     ),
-    ("solvers/scene/tables.py", "    poisson_ratio: float | None = None\n", "{}    waviness: float | None = None\n"),
 ]
 GROUP = [  # its name and formula
     (

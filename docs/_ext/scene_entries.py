@@ -2,47 +2,56 @@
 
 from __future__ import annotations
 
-from dataclasses import MISSING, fields
+import ast
+import inspect
+from itertools import pairwise
 
-from meanings import CHOICES, ENTRIES
-from meanings import TABLES as MEANING
-from wetdoublet.solvers.scene import tables
-from wetdoublet.solvers.scene.schema import ALTERNATIVES, FIELDS, TABLES, Field
+from wetdoublet.solvers.scene import schema
+from wetdoublet.solvers.scene.fields import Field
+from wetdoublet.solvers.scene.schema import ALTERNATIVES, FIELDS, KINDS, TABLES
 
 
 def pages() -> dict[str, str]:
     """The tables of a scene as Markdown."""
-    return {"_emitted/scene-tables.md": "\n".join(_table(name) for name in TABLES)}
+    meanings = declared_meanings()
+    return {"_emitted/scene-tables.md": "\n".join(_table(name, meanings) for name in TABLES)}
 
 
-def _table(name: str) -> str:
-    lines = [f"## `[{name}]`", "", MEANING[name], ""]
+def declared_meanings() -> dict[str, str]:
+    """Dotted name -> the text below the entry's declaration."""
+    classes = (node for node in ast.parse(inspect.getsource(schema)).body if isinstance(node, ast.ClassDef))
+    return {
+        f"{kind.name.lower()}.{line.target.id}": " ".join(below.value.value.split())
+        for kind in classes
+        for line, below in pairwise(kind.body)
+        if isinstance(line, ast.AnnAssign) and isinstance(line.target, ast.Name)
+        if isinstance(below, ast.Expr) and isinstance(below.value, ast.Constant)
+        if f"{kind.name.lower()}.{line.target.id}" in FIELDS
+    }
+
+
+def _table(name: str, meanings: dict[str, str]) -> str:
+    lines = [f"## `[{name}]`", "", " ".join((inspect.getdoc(KINDS[name]) or "").split()), ""]
     for entry in TABLES[name]:
-        lines += _entry(FIELDS[entry])
+        lines += _entry(FIELDS[entry], meanings[entry].removesuffix("."))
     return "\n".join(lines)
 
 
-def _entry(field: Field) -> list[str]:
-    table, _, key = field.name.partition(".")
+def _entry(field: Field, meaning: str) -> list[str]:
     facts = [_kind(field)]
-    if not field.choices and not field.flag:
+    if field.numeric:
         facts.append(field.range.text)
     others = [other for group in ALTERNATIVES if field.name in group for other in group if other != field.name]
     if field.required:
         facts.append("**required**")
     elif others:
-        alternatives = dict.fromkeys(f"`{other.partition('.')[2]}`" for other in others)
-        facts.append("or " + ", ".join(alternatives))
-    default = _default(table, key)
-    if default is not None:
+        facts.append("or " + ", ".join(dict.fromkeys(f"`{FIELDS[other].key}`" for other in others)))
+    if field.default is not None:
+        default = {"contact_angle": "0 deg", "gravity": "9.81 m/s^2"}.get(field.key, field.default)
         facts.append(f"default `{default}`")
-    lines = [f"`{key}`", f": {_sentence(ENTRIES[field.name])}<br>{', '.join(facts)}", ""]
-    lines += [f"  * `{choice}`: {CHOICES[field.name][choice]}" for choice in field.choices]
+    lines = [f"`{field.key}`", f": {meaning}<br>{', '.join(facts)}", ""]
+    lines += [f"  * `{choice}`: {meaning}" for choice, meaning in field.choices.items()]
     return [*lines, ""] if field.choices else lines
-
-
-def _sentence(text: str) -> str:
-    return text[0].upper() + text[1:]
 
 
 def _kind(field: Field) -> str:
@@ -53,15 +62,3 @@ def _kind(field: Field) -> str:
     if field.unit:
         return f"text with its unit ({field.unit if field.unit != 'rad' else 'angle'}), as `{field.example}`"
     return f"number, as `{field.example}`"
-
-
-def _default(table: str, key: str) -> object:
-    """The default of an entry, if it has one of its own."""
-    kind = next(kind for kind in vars(tables).values() if getattr(kind, "name", None) == table)
-    number = FIELDS[f"{table}.{key}"].default
-    if number is not None:
-        return {"contact_angle": "0 deg", "gravity": "9.81 m/s^2"}.get(key, number)
-    for field in fields(kind):
-        if field.name == key and field.default is not MISSING and field.default is not None:
-            return field.default
-    return None

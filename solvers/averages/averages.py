@@ -18,8 +18,8 @@ from ..host.outputs import check_file
 from ..host.progress import Progress
 from ..many.arguments import checked_numbers, first_accepted
 from ..model.validity import warn
+from ..scene.fields import Field, Range
 from ..scene.scene import Scene
-from ..scene.schema import Field, Range
 from .dataset import dataset
 from .matrix import Request, averages
 from .sizes import FILMS, FIXED

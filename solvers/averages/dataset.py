@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from importlib.metadata import version
 from itertools import product
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..scene.origin import provenance, release
 from ..scene.scene import Scene
 from .geometry import BOUNCES, ENERGY, LOST, NORMAL, ROTATES, SLOPES, STICKS, TANGENTIAL, TURNING
 from .matrix import Columns
@@ -92,10 +92,10 @@ def dataset(
     all_attributes = {
         "Conventions": "CF-1.11",
         "title": f"Collision averages: {scene.name or 'unnamed scene'}",
-        "source": f"wetdoublet {version('wetdoublet')}",
+        "source": f"wetdoublet {release()}",
         "geometry": "isotropic relative velocities: density sin(2 theta) of impact angles",
         **attributes,
-        "scene": scene.to_toml(),
+        **provenance(scene),
         **({} if scene.package is None else {"model": scene.package.text}),
     }
     return xr.Dataset(variables, coordinates, all_attributes)

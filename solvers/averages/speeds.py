@@ -15,7 +15,8 @@ from scipy.integrate import fixed_quad
 from ..errors import InputError
 from ..scene import units
 from ..scene.columns import columns_of
-from ..scene.schema import FIELDS, Field, Range
+from ..scene.fields import Field, Range
+from ..scene.schema import FIELDS
 from ..scene.values import array
 
 _SPEED = FIELDS["impact.relative_speed"]

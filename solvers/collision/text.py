@@ -6,7 +6,7 @@ from textwrap import wrap
 
 from ...generated.automaton import BOUNCE, CRITERIA, KINDS, STICK, EventKind
 from ..scene.scene import Scene
-from ..scene.tables import Model
+from ..scene.schema import Model
 from ..scene.user_model_declared import OwnEvent
 from .outcome import Event, Outcome
 

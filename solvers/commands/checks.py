@@ -13,7 +13,7 @@ from ..host.arguments import check_name
 from ..host.files import write, write_all_in
 from ..host.outputs import check_file, check_folder
 from ..host.progress import Estimated
-from ..scene.schema import Field, Range
+from ..scene.fields import Field, Range
 from .bar import Bar
 from .options import Request, Shown, json_text, refuse
 from .signature import command

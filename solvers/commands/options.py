@@ -14,8 +14,9 @@ import click
 from ..engines.settings import check_engine, check_rtol
 from ..errors import InputError, excerpt
 from ..host import files, outputs
+from ..scene.fields import Field
 from ..scene.held import check_hold
-from ..scene.schema import FIELDS, SPEEDS, SPINS, Field, unknown_entry
+from ..scene.schema import FIELDS, SPEEDS, SPINS, unknown_entry
 from ..scene.user_model import Package, fields, unknown
 from ..scene.user_model_source import open_package
 from .signature import SHARED, Group, options_of, passed

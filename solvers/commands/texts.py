@@ -7,8 +7,9 @@ from collections.abc import Mapping, Sequence
 
 from ..errors import InputError, excerpt
 from ..scene import units
+from ..scene.fields import Field
 from ..scene.ranges import MOST, Ends, parse_range
-from ..scene.schema import FIELDS, Field
+from ..scene.schema import FIELDS
 
 Range = tuple[float, float] | tuple[str, str]
 """Two ends in SI; texts where a plain number is something else than a quantity."""

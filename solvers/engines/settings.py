@@ -1,7 +1,7 @@
 """Numerical settings of a run: relative tolerance, engine and step budget."""
 
 from ..host.arguments import check_name
-from ..scene.schema import Field, Range
+from ..scene.fields import Field, Range
 
 CASADI_ENGINES = ("cvodes", "rosenbrock")  # plugins of CasADi's `integrator`
 ENGINES = (*CASADI_ENGINES, "taylor")

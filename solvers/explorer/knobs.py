@@ -6,8 +6,9 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 from ..export.law.material import Number
+from ..scene.fields import Range
 from ..scene.scene import Scene
-from ..scene.schema import SPEEDS, Range
+from ..scene.schema import SPEEDS
 
 _LABELS = {
     "particles.radius": "Diameter",

@@ -14,8 +14,8 @@ from ..changes.experiment import Rows, free_names
 from ..errors import InputError
 from ..host.arguments import check_mapping, check_names
 from ..scene import units
+from ..scene.fields import ANY, FRACTION, NOT_NEGATIVE, PART, POISSON, POSITIVE, WETTING_ANGLE
 from ..scene.scene import Scene
-from ..scene.schema import ANY, FRACTION, NOT_NEGATIVE, PART, POISSON, POSITIVE, WETTING_ANGLE
 from .measurements import Measurements, rows_of
 
 IDENTIFIED = "identified"

@@ -14,9 +14,10 @@ from ..errors import InputError
 from ..host.arguments import check_mapping, check_names
 from ..model.validity import NEEDS
 from ..results import MAPPED, VALIDITY
+from ..scene.fields import Field
 from ..scene.held import HOLDS, held_quantity, held_text, impact_quantity, impact_value
 from ..scene.scene import Scene
-from ..scene.schema import FIELDS, MEETING, SPEEDS, SPINS, Field, unknown_entry
+from ..scene.schema import FIELDS, MEETING, SPEEDS, SPINS, unknown_entry
 from ..scene.user_model import Package, fields, unknown
 from ..scene.values import array, carries_unit
 

@@ -12,8 +12,9 @@ import numpy as np
 from ..errors import InputError, did_you_mean
 from ..fitting.measurements import ANGLE_SD, RESULT_SD, SPEED_SD, UNKNOWN, Measurements, rows_of
 from ..scene import units
+from ..scene.fields import Field, Range
 from ..scene.scene import Scene
-from ..scene.schema import FIELDS, Field, Range
+from ..scene.schema import FIELDS
 
 RESTITUTION = "restitution"
 SPEEDS = ("stokes", "speed", "relative_speed")

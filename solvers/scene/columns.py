@@ -32,6 +32,11 @@ class Column:
     cells: list[Any]
 
 
+def file_label(source: Any, label: str) -> str:
+    """What names a table in messages: with the path of its file, if it is one."""
+    return f"{label} {source}" if isinstance(source, (str, Path)) else label
+
+
 def columns_of(source: Any, label: str) -> tuple[list[Column], list[int]]:
     """The columns of a source, and the line of each row where it is a file, else the number of the row.
 

@@ -13,9 +13,9 @@ from ..errors import InputError
 from ..host import emitted
 from ..host.emitted import LAWS
 from .contact import GAPS
+from .fields import Field, Raw
 from .quantities import Ways, normal_speed, over_equal, quantities
-from .schema import MEETING, Field, Raw
-from .tables import Attraction, Bridge, Impact, Liquid, Model, Particles, Partner, Pendulum
+from .schema import FIELDS, MEETING, SPEEDS, Attraction, Bridge, Impact, Liquid, Model, Particles, Partner, Pendulum
 from .user_model import ENTRIES, Package, features, fields
 
 Formula = tuple[Callable[..., Any], tuple[str, ...]]
@@ -272,7 +272,6 @@ def _value(formula: Formula, values: Mapping[str, float]) -> float:
         return math.inf
 
 
-_ENTRIES = {"speed": "impact.speed", "impact_spin": "impact.spin", "impact_partner_spin": "impact.partner_spin"}
 # Ranges of groups and scales in which products and quotients of several stay within a double's range. Divisors have a
 # lower limit.
 _RANGES = (
@@ -286,8 +285,8 @@ _SCALES: dict[str, Formula] = {
 }
 
 
-def _finite(name: str, formula: Formula, values: Mapping[str, float]) -> float:
-    """A group or scale by its formula; InputError outside its range in `_RANGES`."""
+def _finite(scene: System, name: str, formula: Formula, values: Mapping[str, float]) -> float:
+    """A group or scale by its formula; InputError outside its range in `_RANGES`, which names what the scene gives."""
     value, arguments = _value(formula, values), formula[1]
     least, most = _RANGES.get(name, (0.0, math.inf))
     if least <= abs(value) <= most and math.isfinite(value):
@@ -295,10 +294,14 @@ def _finite(name: str, formula: Formula, values: Mapping[str, float]) -> float:
     numbers = {argument: values[argument] for argument in arguments}
     spins = [spin for spin in ("impact_spin", "impact_partner_spin") if numbers.get(spin)]
     quantity = spins[0] if spins else "speed" if "speed" in arguments else arguments[0]
-    entry, number = _ENTRIES.get(quantity, quantity), numbers[quantity]
+    names = [key for key, item in FIELDS.items() if item.quantity == quantity] or [quantity]
+    given: tuple[str, Raw] = names[0], numbers[quantity]
+    if quantity != "speed" or numbers[quantity] == scene.speed:  # of the scene, not of an impact beside it
+        names = [*SPEEDS] if quantity == "speed" else names
+        given = next((pair for pair in scene.given if pair[0] in names), given)
     kind = "scale" if name in _SCALES else "number"
     span = "within a double's range" if most == math.inf else f"from {least:g} to {most:g}"
-    raise InputError(entry, number, f"quantities whose {name.replace('_', ' ')} {kind} is {span}", "is too far off")
+    raise InputError(*given, f"quantities whose {name.replace('_', ' ')} {kind} is {span}", "is too far off")
 
 
 def check_criteria(scene: System, speed: float | None) -> None:
@@ -335,5 +338,5 @@ def groups_and_scales(scene: System, speed: float, angle: float) -> tuple[dict[s
     groups |= dict.fromkeys(GAPS.values(), 0.0)
     for name, formula in formulas(scene).items():
         if all(map(values.__contains__, formula[1])):
-            groups[name] = values[name] = _finite(name, formula, values)
-    return groups, {name: _finite(name, formula, values) for name, formula in _SCALES.items()}
+            groups[name] = values[name] = _finite(scene, name, formula, values)
+    return groups, {name: _finite(scene, name, formula, values) for name, formula in _SCALES.items()}

@@ -1,12 +1,12 @@
 """A scene as a table: every entry with its unit, what is a default or assumed, and what follows from them."""
 
-import dataclasses
 import math
 from collections.abc import Iterator
 from textwrap import shorten
 
 from ..formatting.notebook import view
 from .groups import System
+from .schema import FIELDS, TABLES
 
 _WIDTH = 100  # characters of a line
 _VALUE = 16  # at least, of a value
@@ -60,16 +60,12 @@ def _value(scene: System, name: str) -> str:
 
 
 def _defaults(scene: System) -> Iterator[tuple[str, str]]:
-    present = dict(scene.given)
+    given = dict(scene.given)
     for table in (scene.particles, scene.liquid, scene.bridge, scene.attraction, scene.pendulum, scene.model):
-        if table is None:
-            continue
-        for field in dataclasses.fields(table):
-            name, value = f"{table.name}.{field.name}", getattr(table, field.name)
-            if name in present or name not in scene.fields or value is None or value != field.default:
-                continue
-            unit = scene.fields[name].unit
-            yield name, f"{value:.6g} {unit or ''}".rstrip() if isinstance(value, float) else str(value)
+        for name in TABLES[table.name] if table else ():
+            value, unit = FIELDS[name].default, FIELDS[name].unit
+            if name not in given and value is not None and getattr(table, FIELDS[name].key) == value:
+                yield name, f"{value:.6g} {unit or ''}".rstrip() if isinstance(value, float) else str(value)
 
 
 def _si(value: float, unit: str) -> str:

@@ -3,6 +3,7 @@
 import math
 from collections.abc import Mapping
 from dataclasses import fields, is_dataclass
+from functools import cache
 from operator import attrgetter
 from typing import Any, ClassVar
 
@@ -11,15 +12,26 @@ import numpy as np
 from .scene import Scene
 
 
+@cache
+def release() -> str:
+    """The version of the toolkit."""
+    from importlib.metadata import version
+
+    return version("wetdoublet")
+
+
+def provenance(scene: Scene | None = None, **more: Any) -> dict[str, Any]:
+    """Attributes of a Dataset: the version of the toolkit, the scene as TOML, and more."""
+    return {"version": release()} | ({"scene": scene.to_toml()} if scene is not None else {}) | more
+
+
 def origin(scene: Scene) -> dict[str, Any]:
     """`version` of the toolkit, `scene`, its entries by dotted name in SI units and radians, and `held` if it says so.
 
     A bridge volume that is no V/R^3 is text with its unit, so that the entries make the same scene again.
     """
-    from importlib.metadata import version
-
     entries = {name: scene.as_given(name, value) for name, value in scene.si}
-    return {"version": version("wetdoublet"), "scene": entries} | ({"held": scene.held} if scene.held else {})
+    return {"version": release(), "scene": entries} | ({"held": scene.held} if scene.held else {})
 
 
 class Recorded:

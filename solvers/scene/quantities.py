@@ -14,7 +14,8 @@ from typing import Any, Literal
 import numpy as np
 
 from ...generated import scaling
-from .schema import FIELDS, FROM_COATING, acting_defaults
+from ..errors import InputError
+from .schema import FIELDS, FROM_COATING, KINDS, MEETING, Table, acting_defaults
 
 _OWN = "custom."
 SHADOW = "Shi & McCarthy 2008"
@@ -79,6 +80,33 @@ def quantities(entries: Mapping[str, Any], ways: Ways) -> dict[str, Any]:
     elif "impact.relative_speed" in entries and "impact.angle" in entries:
         result["speed"] = normal_speed(entries["impact.relative_speed"], entries["impact.angle"])
     return result
+
+
+def tables(values: Mapping[str, Any], ways: Ways) -> dict[str, Table | None]:
+    """The tables of a scene by name, each with what its entries (SI) determine; None for one that is not there.
+
+    Raises:
+        InputError: radii, masses or a volume that are beyond a double.
+    """
+    derived = {f"particles.{name}": value for name, value in sphere(values).items()}
+    derived |= {"partner.radius": partner_radius(values), "partner.mass": partner_mass(values)}
+    read = {name: FIELDS[name].read(value) for name, value in derived.items() if value is not None}
+    si = {**values, **read, "liquid.film_thickness": initial_gap(values)}
+    if "bridge.volume" in values and ways.volume != "relative":
+        si["bridge.volume"] = _relative_volume(values, ways)
+    here = {"model", "impact", *(name.partition(".")[0] for name in values)}
+    return {name: kind.of(si) if name in here else None for name, kind in KINDS.items()}
+
+
+def _relative_volume(values: Mapping[str, Any], ways: Ways) -> float:
+    """V/R^3 of a volume that is given in m^3 or by coatings."""
+    try:
+        volume = float(quantities({k: v for k, v in values.items() if k not in MEETING}, ways)["volume"])
+    except (OverflowError, ZeroDivisionError):
+        volume = math.inf
+    if not 0 < volume < math.inf:
+        raise InputError("bridge.volume", values["bridge.volume"], FIELDS["bridge.volume"].accepts, "is too far off")
+    return volume
 
 
 def sphere(entries: Mapping[str, Any]) -> dict[str, Any]:

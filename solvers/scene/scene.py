@@ -13,12 +13,12 @@ from ..errors import InputError
 from ..host.arguments import check_mapping
 from . import entry_rules as rules
 from . import scenefile
+from .fields import Field, Raw
 from .groups import System, check_criteria
 from .held import adjusted_impact, held_quantity, impact_quantity
 from .liquids import is_named, liquid
-from .quantities import SHADOW, Ways, coating_fraction
-from .schema import FIELDS, LEAST_ANGLE, LIQUIDS, NEWTONIAN, SPEEDS, TABLES, Field, Raw
-from .tables import Attraction, Bridge, Impact, Liquid, Model, Particles, Pendulum
+from .quantities import SHADOW, Ways, coating_fraction, tables
+from .schema import FIELDS, LEAST_ANGLE, LIQUIDS, NEWTONIAN, SPEEDS, TABLES, Impact
 from .user_model import Package, fields
 from .user_model_source import liquid_package, open_package
 
@@ -47,35 +47,27 @@ class Scene(System):
 
     def __post_init__(self) -> None:
         """Read the tables and check the rules."""
-        rules.check_name(self.name)
-        rules.check_pairs(self.given, "given")
-        rules.check_pairs(self.comments, "comments")
-        rules.check_package(self.package)
-        entries = rules.grouped(dict(self.given))
-        rules.check_liquid(entries, self.package)
-        law = entries.get("liquid.law", NEWTONIAN)
-        if self.package is None or self.package.table == "liquid":
-            object.__setattr__(self, "package", None if law == NEWTONIAN else liquid_package(law))
-        if self.package is not None:
-            entries = self.package.completed(entries)
-        rules.check_entries(entries, self.package)
-        schema = fields(self.package)
-        values = {name: schema[name].read(raw) for name, raw in entries.items()}
-        rules.check_complete(entries)
+        rules.check_arguments(self.name, self.given, self.comments, self.package)
+        entries = _grouped(dict(self.given))
+        rules.refuse(rules.liquid_rules(entries, self.package), entries)
+        law, package = entries.get("liquid.law", NEWTONIAN), self.package
+        if package is None or package.table == "liquid":
+            package = None if law == NEWTONIAN else liquid_package(law)
+        if package is not None:
+            entries = package.completed(entries)
+        values = rules.check_entries(entries, package)
+        rules.refuse(rules.missing(entries), entries)
+        schema = fields(package)
         entries = {name: self._canonical(schema[name], raw) for name, raw in entries.items()}
-        rules.check_ways(entries, values)
+        rules.refuse(rules.way_rules(entries, values), entries)
         ways = Ways.of(entries)
         chosen = {
+            "package": package,
             "given": tuple(entries.items()),
             "ways": ways,
             "comments": tuple((name, text) for name, text in self.comments if name in entries),
             "si": tuple(values.items()),
-            "particles": Particles(**rules.spheres(values)),
-            "partner": rules.partner(values),
-            **{
-                table.name: rules.table(table, values, ways)
-                for table in (Liquid, Bridge, Attraction, Pendulum, Model, Impact)
-            },
+            **tables(values, ways),
         }
         for name, value in chosen.items():
             object.__setattr__(self, name, value)
@@ -124,12 +116,12 @@ class Scene(System):
 
         Plain numbers are SI and radians, unless they come from a file, where a quantity must carry its unit.
         """
-        rules.check_package(package)
+        rules.check_arguments("", (), (), package)
         check_mapping(tables, "tables", "{'liquid': {'viscosity': '2 Pa s', ...}, ...}")
         check_mapping({} if comments is None else comments, "comments", "texts by dotted name")
         entries = scenefile.flatten(tables, package)
         rules.check_entries(entries, package, from_file=from_file)
-        rules.check_complete(entries, tables)
+        rules.refuse(rules.missing(entries, tables), entries)
         return cls(tables.get("name", ""), tuple(entries.items()), tuple((comments or {}).items()), package)
 
     def to_toml(self) -> str:
@@ -309,7 +301,7 @@ class Scene(System):
         again = changes.keys() <= entries.keys()  # then the order is the same
         entries |= {name: self._canonical(schema[name], raw) for name, raw in changes.items()}
         return self._at_impact(
-            tuple(entries.items() if again else _in_order({**dict(self.given), **changes}, entries)),
+            tuple((entries if again else _grouped(entries, {**dict(self.given), **changes})).items()),
             read,
             "" if replaced else self.held,
         )
@@ -334,7 +326,7 @@ class Scene(System):
             comments=tuple((name, text) for name, text in self.comments if name in unchanged),
             si=si,
             held=held,
-            impact=Impact.of({name.partition(".")[2]: value for name, value in si if name.startswith("impact.")}),
+            impact=Impact.of(dict(si)),
         )
         rules.check_speed(result)
         return result
@@ -356,13 +348,12 @@ def _read(text: str, origin: str) -> Scene:
     return Scene.from_toml(text, origin)
 
 
-def _in_order(tables: Iterable[str], entries: Mapping[str, Raw]) -> list[tuple[str, Raw]]:
-    """Return the entries with their tables in the order of `tables` (dotted names), and [impact] in the schema's."""
-    order = list(dict.fromkeys(name.partition(".")[0] for name in tables))
-    impact = TABLES["impact"]
+def _grouped(entries: Mapping[str, Any], like: Iterable[str] = ()) -> dict[str, Any]:
+    """Return the entries by table, in order; or as `like` has the tables, with [impact] as the schema has it."""
+    order = [*dict.fromkeys(name.partition(".")[0] for name in like or entries)]
+    impact = TABLES["impact"] if like else ()
 
-    def place(entry: tuple[str, Raw]) -> tuple[int, int]:
-        name = entry[0]
+    def place(name: str) -> tuple[int, int]:
         return order.index(name.partition(".")[0]), impact.index(name) if name in impact else 0
 
-    return sorted(entries.items(), key=place)
+    return {name: entries[name] for name in sorted(entries, key=place)}

@@ -14,7 +14,8 @@ from ..errors import InputError, did_you_mean
 from ..host import bounded
 from . import units
 from . import user_model as custom
-from .schema import FIELDS, TABLES, Raw
+from .fields import Raw
+from .schema import FIELDS, TABLES
 
 if TYPE_CHECKING:
     from .user_model import Package

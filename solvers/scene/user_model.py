@@ -11,7 +11,7 @@ import json
 import math
 import os
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property, lru_cache
 from pathlib import Path
 from types import ModuleType
@@ -20,7 +20,8 @@ from typing import Any
 from ..errors import InputError, did_you_mean
 from ..host import bounded
 from ..host.emitted import LAWS, derived_once, executed
-from .schema import FIELDS, TABLES, Field, Range, Raw
+from .fields import Field, Range, Raw
+from .schema import FIELDS, TABLES
 from .user_model_declared import OwnCriterion, OwnEvent, Terms
 
 TABLE = "custom"
@@ -81,8 +82,7 @@ class Package:
         for slot, entry in ENTRIES.items():
             names = tuple(law["name"] for law in self.manifest["laws"] if law["slot"] == slot)
             if names and entry in result:
-                base = result[entry]
-                result[entry] = Field(entry, base.what, base.example, base.range, None, (*base.choices, *names))
+                result[entry] = replace(result[entry], choices={**result[entry].choices, **dict.fromkeys(names, "")})
         for quantity in self.manifest["quantities"]:
             result[f"{TABLE}.{quantity['name']}"] = _field(quantity)
         return result

@@ -22,10 +22,11 @@ from ..formatting.markdown import numbers_aligned
 from ..host.arguments import check_name
 from ..many.collide_many import collide_many
 from ..results import DEFINITIONS, DIFFERENTIATED, INTEGRATED, OF_IMPACT, REVERSALS
+from ..scene.fields import ANY, Field
 from ..scene.held import held_quantity
 from ..scene.origin import origin
 from ..scene.scene import Scene
-from ..scene.schema import ANY, MEETING, SPEEDS, Field
+from ..scene.schema import MEETING, SPEEDS
 from .parameters import check_wrt
 from .sensitivities import sensitivities
 

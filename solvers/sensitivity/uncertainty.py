@@ -16,10 +16,12 @@ from ..host.progress import Progress
 from ..many.arguments import checked_numbers
 from ..many.collide_many import collide_many
 from ..results import BY_DEFAULT, attributes
+from ..scene.fields import Field
 from ..scene.held import held_quantity, impact_value
+from ..scene.origin import provenance
 from ..scene.quantities import normal_speed
 from ..scene.scene import Scene
-from ..scene.schema import DEFAULTS, FIELDS, MEETING, SPEEDS, Field
+from ..scene.schema import DEFAULTS, FIELDS, MEETING, SPEEDS
 from .gradients_many import gradients_many
 from .parameters import RELATIVE, check_wrt
 from .result import Sensitivities
@@ -168,11 +170,12 @@ def band(
             "outcome": (over, np.where(valid, np.array(OUTCOMES)[gradients.outcome.values], "")),
         },
         {over: (over, where, {"units": FIELDS[over].unit or "1"})},
-        {
-            "uncertainty": ", ".join(f"{name}: {text}" for name, text in uncertainty.items()),
-            "samples": samples,
-            "hold": hold,
-        },
+        provenance(
+            loaded,
+            uncertainty=", ".join(f"{name}: {text}" for name, text in uncertainty.items()),
+            samples=samples,
+            hold=hold,
+        ),
     )
 
 

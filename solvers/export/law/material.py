@@ -10,10 +10,11 @@ from ...errors import CheckFailed
 from ...scene import user_model
 from ...scene.contact import NEVER_MET
 from ...scene.entry_rules import FARTHEST
+from ...scene.fields import Range
 from ...scene.groups import si_values
 from ...scene.quantities import NO_GLASS
 from ...scene.scene import Scene
-from ...scene.schema import FIELDS, Range
+from ...scene.schema import FIELDS
 from .kernels import HEAD_ON, PLANE, Kernel
 
 LARGEST = 1e30

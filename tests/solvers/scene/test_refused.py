@@ -4,8 +4,9 @@ import math
 
 import pytest
 from wetdoublet.solvers.errors import InputError
+from wetdoublet.solvers.scene.fields import Field
 from wetdoublet.solvers.scene.scene import Scene
-from wetdoublet.solvers.scene.schema import FIELDS, Field
+from wetdoublet.solvers.scene.schema import FIELDS
 
 from ...helpers.entries import BASE, BRIDGE, PEOPLE, refused, tables
 
@@ -15,7 +16,7 @@ def spoilt(field: Field) -> list[object]:
     if field.flag:
         return ["true", False, 1]
     if field.choices:
-        return [f"{field.choices[0]}x", 3]
+        return [f"{next(iter(field.choices))}x", 3]
     low, high, unit = field.range.low, field.range.high, field.unit
     numbers = [math.nan, math.inf, -math.inf, *([low] if field.range.low_open and math.isfinite(low) else [])]
     numbers += [each for each in (low - 1, high + 1, *([high] if field.range.high_open else [])) if math.isfinite(each)]
