@@ -159,7 +159,7 @@ def quantity(
     name: str,
     latex: str = "",
     *,
-    unit: str = "1",
+    unit: str | None = None,
     default: str | float | None = None,
     bounds: str = "> 0",
     meaning: str = "",
@@ -171,8 +171,8 @@ def quantity(
     Arguments:
         name: its name in scene files and in emitted code.
         latex: its symbol in print; by default the name, upright.
-        unit: coherent SI, as "Pa", "N/m", "kg m^2/s"; "1" for a plain number. One that is declared before may stand as
-            an exponent, as in "Pa s^index".
+        unit: coherent SI, as "Pa", "N/m", "kg m^2/s"; "1", the default, for a plain number. One that is
+            declared before may stand as an exponent, as in "Pa s^index".
         default: value with unit for scenes that give none, as "10 Pa"; None: scenes must give one.
         bounds: allowed values, in `unit`: ">", ">=", "<" or "<=" and a number, two of them joined by "and", or
             "0 to 1", which includes its ends.
@@ -185,6 +185,10 @@ def quantity(
     model = declarations()
     group = group or f"{name}_number"
     numbers = {item.name: item.symbol for item in model.quantities.values() if item.dimension == ONE}
+    if unit is None and _is_unit(latex):
+        accepted = f'unit="{latex}", or unit="1" beside it for a plain number that has this symbol in print'
+        raise ModelFileError(f"{name}.latex", latex, accepted, "is a unit, where the symbol in print stands")
+    unit = "1" if unit is None else unit
     try:
         dimension, limits = dimension_of_unit(unit, numbers), Bounds.read(bounds)
     except UnitError as error:
@@ -201,6 +205,14 @@ def quantity(
     printed, meaning = latex or upright, meaning or name.replace("_", " ")
     model.quantities[name] = Declared(symbol, printed, unit, dimension, default, limits, meaning, over, group)
     return symbol
+
+
+def _is_unit(text: str) -> bool:
+    try:
+        dimension_of_unit(text)
+    except UnitError:
+        return False
+    return True
 
 
 def let(name: str, expression: object, latex: str = "") -> sp.Symbol:

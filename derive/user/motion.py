@@ -5,7 +5,7 @@ from collections.abc import Mapping
 import sympy as sp
 
 from ..physics.terms import VELOCITIES
-from ..vocabulary.dimensions import ENERGY, FORCE, LENGTH, ONE, Dimension, DimensionError, dimension_of
+from ..vocabulary.dimensions import ENERGY, FORCE, LENGTH, ONE, Dimension, DimensionError
 from ..vocabulary.quantities import DIMENSIONS, omega, u, x, xi
 from ..vocabulary.quantities import t as time
 from . import own_events
@@ -20,6 +20,7 @@ from .declarations import (
     unfolded,
 )
 from .kinks import guarded
+from .names import as_written, dimension_as_written
 
 
 def event(
@@ -88,7 +89,7 @@ def event(
         if target != u and still != 0:
             accepted = "a jump that vanishes with omega and xi, as omega/2"
             raise ModelFileError(
-                f"{label}.jump", str(new), accepted, "turns what does not turn, as in a head-on collision"
+                f"{label}.jump", str(as_written(new)), accepted, "turns what does not turn, as in a head-on collision"
             )
         after.append((target, new))
     if ends == "stick" and after:
@@ -124,7 +125,7 @@ def criterion(name: str, *, gap: object, meaning: str = "", source: str = "") ->
     check_texts(label, meaning=meaning, source=source)
     value = unfolded(_of_event(f"{label}.gap", gap, model, LENGTH), model)
     marks = {other.mark for other in model.events.values()}
-    if moving := sorted(str(s) for s in value.free_symbols & {*own_events.MOVING, *marks}):
+    if moving := sorted(str(as_written(s)) for s in value.free_symbols & {*own_events.MOVING, *marks}):
         accepted = "a length of quantities and v0, which stays as it is during a collision"
         raise ModelFileError(f"{label}.gap", ", ".join(moving), accepted, "varies along a trajectory")
     meaning = meaning or f"the {name.replace('_', ' ')}"
@@ -149,7 +150,7 @@ def energy(expression: object) -> None:
     rest = sp.simplify(whole - whole.subs(dict.fromkeys(squares, 0)) - kinetic)
     if rest != 0 or any(factor.free_symbols & squares.keys() for factor in inertia.values()):
         accepted = "a potential of x and beta, and squares of u, omega and xi, as added*u**2/2"
-        raise ModelFileError("energy", str(value), accepted, "is neither a potential nor a kinetic energy")
+        raise ModelFileError("energy", str(as_written(value)), accepted, "is neither a potential nor a kinetic energy")
     model.energies.append(value)
 
 
@@ -175,10 +176,11 @@ def _of_term(label: str, value: object, model: Declarations, wanted: Dimension) 
     whole, marks = unfolded(result, model), {other.mark for other in model.events.values()}
     for symbol in sorted(whole.free_symbols & {time, *marks}, key=str):
         problem = "is in a term: resting contact would not end with it"
-        raise ModelFileError(label, str(symbol), "an expression of x, u, omega, xi, beta and quantities", problem)
+        accepted = "an expression of x, u, omega, xi, beta and quantities"
+        raise ModelFileError(label, str(as_written(symbol)), accepted, problem)
     if kinks := guarded(whole, own_events.MOVING):
         accepted = "a smooth expression, as sqrt(u**2 + c**2) for Abs(u); laws and events may have kinks"
-        raise ModelFileError(label, str(kinks[0]), accepted, "has a kink where it vanishes")
+        raise ModelFileError(label, str(as_written(kinks[0])), accepted, "has a kink where it vanishes")
     return result
 
 
@@ -192,14 +194,14 @@ def _of_event(label: str, value: object, model: Declarations, wanted: Dimension 
         if symbol not in dimensions and not own_events.may_use(symbol):
             raise ModelFileError(
                 label,
-                str(symbol),
+                str(as_written(symbol)),
                 own_events.ACCEPTED,
                 f"is not known to {'an event' if label.startswith('event') else 'a term'}",
             )
     try:
-        dimension = dimension_of(whole, {**DIMENSIONS, **dimensions})
+        dimension = dimension_as_written(whole, {**DIMENSIONS, **dimensions})
     except DimensionError as error:
-        raise ModelFileError(label, str(whole), "terms of one dimension", str(error)) from None
+        raise ModelFileError(label, str(as_written(whole)), "terms of one dimension", str(error)) from None
     if wanted is not None and dimension not in (None, wanted):
-        raise ModelFileError(label, str(whole), f"dimension {wanted}", f"has dimension {dimension}")
+        raise ModelFileError(label, str(as_written(whole)), f"dimension {wanted}", f"has dimension {dimension}")
     return result

@@ -10,6 +10,8 @@ import sympy as sp
 from sympy.printing.c import known_functions_C99, reserved_words, reserved_words_c99
 from sympy.printing.cxx import reserved
 
+from ..vocabulary import quantities
+from ..vocabulary.dimensions import LENGTH, Dimension, DimensionError, dimension_of
 from ..vocabulary.quantities import VOCABULARY
 
 EMITTED = "a name in emitted functions"
@@ -57,6 +59,32 @@ _MORE = {
     "approach": ("1", "speed of approach, -u/v0: argument of a glass law"),
     "offset_squared": ("1", "squared offset of the pendulum over a^2: argument of a law of the strings"),
 }
+
+
+_LETTERS = {value.name: key for key, value in reversed(vars(quantities).items()) if isinstance(value, sp.Symbol)}
+_LETTERS |= {"volume": "V", "contact_angle": "phi"}
+"""Vocabulary name -> name in model files."""
+
+
+def as_written(expression: sp.Expr) -> sp.Expr:
+    """An expression in the names of model files, for messages: x for the separation, R for 2 a where shorter."""
+    letters = {
+        symbol: sp.Symbol(_LETTERS[symbol.name], **symbol.assumptions0)
+        for symbol in expression.free_symbols
+        if symbol.name in _LETTERS
+    }
+    by_radius = letters | {quantities.a: sp.Symbol("R", positive=True) / 2}
+    return min((expression.xreplace(names) for names in (letters, by_radius)), key=lambda text: len(str(text)))
+
+
+def dimension_as_written(expression: sp.Expr, of: Mapping[sp.Basic, Dimension]) -> Dimension | None:
+    """`dimension_of`, whose errors have the names of model files."""
+    try:
+        return dimension_of(expression, of)
+    except DimensionError:
+        letters = {as_written(symbol): of[symbol] for symbol in expression.free_symbols & of.keys()}
+        dimension_of(as_written(expression), {**of, **letters, sp.Symbol("R", positive=True): LENGTH})
+        raise
 
 
 def listed(names: Mapping[str, object]) -> str:

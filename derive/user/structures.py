@@ -33,6 +33,7 @@ from . import own_events
 from .declarations import Criterion, Declarations, Declared, Proposed, unfolded
 from .kinks import freed, smooth
 from .laws import published
+from .names import as_written, dimension_as_written
 from .own_events import OwnEvent
 
 _ALWAYS = (a, x0, mu, v0, m)  # quantities of every scene, in the order in which a scale is sought
@@ -225,9 +226,9 @@ def _groups(declared: Declarations) -> dict[str, Group]:
             continue
         over = item.over if item.over is not None else _scale(item, declared)
         of = DIMENSIONS | {other.symbol: other.dimension for other in declared.quantities.values()}
-        dimension = dimension_of(over, of)
+        dimension = dimension_as_written(over, of)
         if dimension != item.dimension:
-            problem = f"{over} has dimension {dimension}, {item.name} has {item.dimension}"
+            problem = f"{as_written(over)} has dimension {dimension}, {item.name} has {item.dimension}"
             raise DimensionError(f"{item.name}.over: {problem}")
         signs = [key for key in ("positive", "nonnegative", "real") if item.symbol.assumptions0.get(key)]
         result[item.name] = Group(sp.Symbol(item.group, **dict.fromkeys(signs, True)), item, over)
@@ -258,7 +259,9 @@ def _scale(quantity: Declared, declared: Declarations) -> sp.Expr:
                 continue  # dependent, or too few
             powers = (matrix.T * matrix).inv() * matrix.T * target
             return sp.prod([s**power for s, power in zip(chosen, powers, strict=True)])
-    raise ScalingError(f"{quantity.name}: no monomial of {', '.join(s.name for s in candidates)} has its dimension")
+    raise ScalingError(
+        f"{quantity.name}: no monomial of {', '.join(map(str, map(as_written, candidates)))} has its dimension"
+    )
 
 
 def _by_vocabulary(symbols: Iterable[sp.Symbol]) -> list[sp.Symbol]:
@@ -279,21 +282,23 @@ def _function(name: str, proposed: Proposed, declared: Declarations, groups: Map
     try:
         reached = _reached(expression, declared)
         for step in (item for item in declared.intermediates.values() if item.symbol in reached):
-            dimension = dimension_of(step.expression, of) or ONE
+            dimension = dimension_as_written(step.expression, of) or ONE
             of[step.symbol] = dimension
             value = step.expression.xreplace(inline)
             if dimension == ONE:
                 parts.append((step.symbol, _settled(label, place, value, groups)))
             else:
                 inline[step.symbol] = value
-        total = dimension_of(expression, of)
+        total = dimension_as_written(expression, of)
     except DimensionError as error:
         raise DimensionError(f"{label}: {error}") from None
     value = expression.xreplace(inline)
     if total not in (None, ONE):
         if total != place.dimension:
             wanted = "" if place.dimension == ONE else f"{place.dimension} or "
-            raise DimensionError(f"{label}: {expression} has dimension {total}, expected {wanted}a pure number")
+            raise DimensionError(
+                f"{label}: {as_written(expression)} has dimension {total}, expected {wanted}a pure number"
+            )
         value = sp.Add(*(term / place.scale for term in sp.Add.make_args(value)))
     result = _settled(label, place, value, groups)
     named = {symbol for symbol, _ in parts}

@@ -17,7 +17,7 @@ from ..engines.settings import RTOL
 from ..formatting.notebook import view
 from ..host.pictures import Drawn
 from ..results import outcome_attributes
-from ..scene.origin import Recorded, origin
+from ..scene.origin import Recorded, origin, provenance
 from ..scene.quantities import quantities
 from ..scene.scene import Scene
 from ..scene.schema import FIELDS, MEETING
@@ -156,10 +156,9 @@ class Boundaries(Drawn):
             rows = [[OUTCOMES.index(getattr(change, side)) for change in line] for line in self.changes]
             variables[side] = over, _padded(rows, most, NONE).astype(np.int8), outcome_attributes(meaning, "none")
         angle = "line", np.array(self.angles), {"units": "rad", "long_name": "impact angle"}
-        attributes: dict[str, Any] = {"resolution": self.resolution, "collisions": self.collisions,
-                                      "searched": self.range_text}  # fmt: skip
-        if self.scene is not None:
-            attributes["scene"] = self.scene.to_toml()
+        attributes = provenance(
+            self.scene, resolution=self.resolution, collisions=self.collisions, searched=self.range_text
+        )
         return xr.Dataset(variables, {"angle": angle}, attributes)
 
     def _repr_html_(self) -> str:

@@ -112,14 +112,13 @@ def compile_(
     """
     scenes = [request.scene() for request in requests]
 
-    from importlib.metadata import version
-
     from ..engines.kernels import compile_kernels
+    from ..scene.origin import release
 
     with Bar("kernels") as progress:
         kernels = compile_kernels(scenes, progress=progress, **passed(rtol=rtol or None), **chosen)
     record = {
-        "version": version("wetdoublet"),
+        "version": release(),
         "kernels": [kernel.to_dict() for kernel in kernels],
         "units": {"seconds": "s", "bytes": "B"},
     }

@@ -14,6 +14,7 @@ import click
 from ..engines.settings import UNTIL
 from ..errors import InputError
 from ..host import outputs
+from ..scene.scenefile import read_text
 from ..scene.schema import FIELDS
 from . import texts
 
@@ -135,7 +136,7 @@ def built(name: str) -> click.Command:
                     values[key] = item.read(**{name: typed[name] for name in item.options})
                 else:
                     values[key] = typed[key] if typed[key] is None or item.read is None else item.read(typed[key])
-            _check_present(values, flags, required)
+            _check_present(values, flags, required, typed.get("source"))
             given = {key: value for key, value in values.items() if key in hints or not _is_absent(value)}
             function(**given)
         except InputError as error:
@@ -160,9 +161,14 @@ def _is_absent(value: Any) -> bool:
     return value is None or value is False or value in ((), {})
 
 
-def _check_present(values: Mapping[str, Any], flags: Mapping[str, str], required: Mapping[str, str]) -> None:
+def _check_present(
+    values: Mapping[str, Any], flags: Mapping[str, str], required: Mapping[str, str], source: Any
+) -> None:
+    """InputError for a required parameter that is absent, or before it for a scene that is none."""
     for key, accepted in required.items():
         if values[key] is None:
+            for scene in source[:1] if isinstance(source, tuple) else () if source is None else (source,):
+                read_text(scene)
             raise InputError(flags[key], None, accepted)
 
 

@@ -17,7 +17,7 @@ from ..changes.experiment import Rows, check_derivatives
 from ..errors import InputError, did_you_mean
 from ..results import DEFINITIONS
 from ..scene import units
-from ..scene.columns import DECIMAL_COMMA, Column, columns_of, row_name
+from ..scene.columns import DECIMAL_COMMA, Column, columns_of, file_label, row_name
 from ..scene.held import NAMES
 from ..scene.quantities import quantities
 from ..scene.scene import Scene
@@ -219,7 +219,7 @@ def read_data(source: Any, scene: Scene, label: str = "data") -> Measurements:
     """
     if isinstance(source, Measurements):
         return source
-    return _Table(*columns_of(source, label), scene, label).measurements()
+    return _Table(*columns_of(source, label), scene, file_label(source, label)).measurements()
 
 
 class _Table:
@@ -301,7 +301,10 @@ class _Table:
             if value is not None:
                 numbers[row] = value * factor
                 if not (math.isfinite(value) and holds(numbers[row])):
-                    raise InputError(self._where(row, name), cell, words, "is out of range")
+                    problem = "is out of range"
+                    if si == "rad" and column.unit is None and holds(math.radians(value)):
+                        problem += f': plain numbers are radians, did you mean a column "{name} [deg]"?'
+                    raise InputError(self._where(row, name), cell, words, problem)
         if not gaps:
             self._refuse(np.isnan(numbers), name, None, "a number in every row", "is empty")
         return numbers

@@ -18,6 +18,7 @@ from ..host.pictures import register
 from ..many.arguments import checked_numbers
 from ..many.collide_many import collide_many
 from ..results import attributes
+from ..scene.origin import provenance
 from ..scene.ranges import MOST
 from ..scene.schema import FIELDS
 from .joint import Part
@@ -102,9 +103,8 @@ def predicted(
     share = np.stack([np.tensordot(weight, outcome == code, 1) for code in range(len(OUTCOMES))])
     columns = {"probability": (("outcome", "angle", kind), share, {"units": "1", "long_name": "probability"})}
     axes = {"angle": (("angle",), across, attributes("angle")), kind: ((kind,), along, attributes(kind))}
-    about = {
-        "title": member.scene.name, "scene": member.scene.to_toml(), "draws": int(weight.size),
-        "effective_draws": float(1 / (weight**2).sum()),
-    }  # fmt: skip
+    attrs = provenance(
+        member.scene, title=member.scene.name, draws=int(weight.size), effective_draws=float(1 / (weight**2).sum())
+    )
     register()
-    return xarray.Dataset(columns, axes | {"outcome": list(OUTCOMES)}, about)
+    return xarray.Dataset(columns, axes | {"outcome": list(OUTCOMES)}, attrs)

@@ -243,7 +243,8 @@ def _rounding(values: np.ndarray) -> float:
 def _factor(column: Column, si: str, plain: float | None, option: str) -> float:
     if column.unit in _PIXELS:
         if plain is None:
-            accepted = f"{option}, or a unit in the column's name" if option else "a unit in the column's name"
+            accepted = f"--{option}, {option}=, or a unit" if option else "a unit"
+            accepted += " in the column's name"
             raise InputError("tracks, header", column.name, accepted, "has no unit")
         return plain
     return units.factor(column.unit, si, "tracks, header", f"{column.name} in {si}", column.name)

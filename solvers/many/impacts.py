@@ -7,7 +7,6 @@ import math
 from collections.abc import Hashable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache, partial
-from importlib.metadata import version
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -19,6 +18,7 @@ from ..formatting.labelled import Column, labelled
 from ..host.pictures import register
 from ..model.validity import flag_attributes, warn
 from ..results import ALWAYS, FAILED, NONE, REQUESTED, VALIDITY, attributes, outcome_attributes
+from ..scene.origin import provenance, release
 from ..scene.quantities import normal_speed, quantities
 from ..scene.scene import Scene
 from ..scene.schema import LEAST_ANGLE, MEETING
@@ -210,7 +210,7 @@ class Impacts:
     def about(self) -> dict[str, Any]:
         """Attributes of the Dataset."""
         attrs = {
-            "scene": self.scene.to_toml(),
+            **provenance(self.scene),
             "rtol": self.rtol,
             "engine": self.engine,
             "held": self.held,
@@ -289,7 +289,7 @@ def software(scene: Scene) -> dict[str, Any]:
     """Version, equations, and how a scene's entries are read, for the identity of a request."""
     manifest = Path(scaling.__file__).with_name("manifest.json").read_text()
     reads = {"volume": scene.ways.volume, "model": scene.package and scene.package.digest}
-    return {"version": version("wetdoublet"), "equations": manifest, **reads}
+    return {"version": release(), "equations": manifest, **reads}
 
 
 def _digest(values: np.ndarray) -> str:

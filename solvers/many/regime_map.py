@@ -5,7 +5,6 @@ from __future__ import annotations
 import io
 import math
 from collections.abc import Hashable, Mapping, Sequence
-from importlib.metadata import version
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -20,6 +19,7 @@ from ..host.outputs import check_file
 from ..host.progress import Progress
 from ..results import BY_DEFAULT, IMPACT, VALIDITY, attributes
 from ..scene.groups import formulas
+from ..scene.origin import release
 from ..scene.ranges import MOST, MOST_STORED, most_collisions
 from ..scene.scene import Scene
 from ..scene.schema import MEETING, SPEEDS
@@ -47,13 +47,11 @@ class Grid(Impacts):
 
     def about(self) -> dict[str, Any]:
         """Attributes of the Dataset."""
-        release = version("wetdoublet")
         return {
             "Conventions": "CF-1.11",
             "title": f"Outcomes of oblique wet collisions: {self.scene.name or 'unnamed scene'}",
-            "source": f"wetdoublet {release}",
+            "source": f"wetdoublet {release()}",
             **super().about(),
-            "version": release,
         }
 
     def coordinates(self) -> dict[str, Column]:

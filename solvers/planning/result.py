@@ -15,7 +15,7 @@ from ..fitting.measurements import Measurements
 from ..formatting.markdown import aligned
 from ..host.pictures import Drawn
 from ..scene.held import NAMES
-from ..scene.origin import Recorded, origin
+from ..scene.origin import Recorded, origin, provenance
 from ..scene.scene import Scene
 from .information import information
 from .search import Choice
@@ -166,7 +166,7 @@ class Design(Drawn, Recorded):
             {"information": (of_entry, told[0]), "by_outcome": (of_entry, told[1]),
              "probability": (of_outcome, single.probability.reshape(*speed.shape, -1))},
             {"entry": list(self.free.names), "outcome": list(OUTCOMES), "angle": angle[:, 0], key: speed[0]},
-            {"name": self.window.scene.name},
+            provenance(self.window.scene, name=self.window.scene.name),
         ).transpose("entry", "outcome", ...)  # fmt: skip
 
     def to_dict(self) -> dict[str, Any]:

@@ -21,7 +21,7 @@ from ..errors import ComputationError, InputError
 from ..host.cores import usable_cores
 from ..many.collide_many import collide_many
 from ..results import outcome_attributes
-from ..scene.origin import Recorded
+from ..scene.origin import Recorded, provenance
 from ..scene.scene import Scene
 from .cells import UNDECIDED, Cell
 
@@ -82,7 +82,7 @@ class ProvedMap(Recorded):
             for name, unit in (("stokes", "1"), ("angle", "rad"))
         }
         outcome = ("cell", self.outcome, outcome_attributes("proved outcome", "undecided"))
-        attributes = {"undecided_area": self.undecided_area, "scene": self.scene.to_toml()}
+        attributes = provenance(self.scene, undecided_area=self.undecided_area)
         return xarray.Dataset({"outcome": outcome, **ends}, attrs=attributes)
 
     def __str__(self) -> str:

@@ -22,6 +22,7 @@ from ..errors import ComputationError, InputError
 from ..formatting.markdown import numbers_aligned
 from ..host.arguments import check_function
 from ..host.pictures import Drawn
+from ..scene.origin import provenance
 from ..scene.scene import Scene
 from ..scene.schema import DEFAULTS, MEETING, SPEEDS
 from .parameters import Row, cell, check_wrt, elasticities, kind_of, numbers, parameter_map, references
@@ -113,9 +114,8 @@ class BoundarySensitivities(Drawn):
         angles = np.array([angle for angle, _ in pairs], dtype=float)
         columns = {name: ("change", np.array([getattr(shift.change, name) for _, shift in pairs]))
                    for name in ("stokes", "before", "after")}  # fmt: skip
-        return xr.Dataset(
-            data, {"angle": ("change", angles, {"units": "rad"}), **columns, "parameter": list(self.parameters)}
-        )
+        coordinates = {"angle": ("change", angles, {"units": "rad"}), **columns, "parameter": list(self.parameters)}
+        return xr.Dataset(data, coordinates, provenance(self.boundaries.scene))
 
     @property
     def pairs(self) -> list[tuple[float, Moving]]:

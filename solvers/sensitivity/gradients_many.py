@@ -25,6 +25,7 @@ from ..many.arguments import checked_columns, of_one_length
 from ..model.validity import warn
 from ..results import DEFINITIONS, FAILED, attributes, check_differentiated, outcome_attributes
 from ..scene.held import held_quantity
+from ..scene.origin import provenance
 from ..scene.scene import Scene
 from . import by_kernel as kernel
 from .boundary_distance import limit, refused
@@ -272,5 +273,5 @@ def _dataset(request: _Gradients) -> xarray.Dataset:
         **{name: (along, values, attributes(name)) for name, values in
            (("speed", request.speed), ("stokes", stokes), ("angle", request.angle))},
     }  # fmt: skip
-    about = {"scene": request.scene.to_toml(), "rtol": request.rtol, "hold": request.hold}
-    return labelled(variables, coordinates, about, {"quantity": request.of, "parameter": request.wrt})
+    attrs = provenance(request.scene, rtol=request.rtol, hold=request.hold)
+    return labelled(variables, coordinates, attrs, {"quantity": request.of, "parameter": request.wrt})

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import InputError, did_you_mean
-from ..scene.columns import columns_of, row_name
+from ..scene.columns import columns_of, file_label, row_name
 from ..scene.scene import Scene
 from ..scene.schema import FIELDS
 
@@ -42,16 +42,17 @@ def materials_of(source: Any, changes: Mapping[str, Any] | None = None) -> list[
         scene = Scene.load(source)
         return [Material(scene.name, scene.with_entries(changes) if changes else scene)]
     columns, lines = columns_of(source, "materials")
+    table = file_label(source, "materials")
     if not lines:
-        raise InputError("materials", None, "at least one row", "has no rows")
+        raise InputError(table, None, "at least one row", "has no rows")
     for column in columns:
         name = column.name.removesuffix(_SD)
         if "." in name and name not in FIELDS:
             accepted = "entries of a scene by dotted name"
-            raise InputError("materials, header", column.name, accepted, f"is unknown{did_you_mean(name, FIELDS)}")
+            raise InputError(f"{table}, header", column.name, accepted, f"is unknown{did_you_mean(name, FIELDS)}")
         if name in FIELDS and FIELDS[name].unit and column.unit is None and isinstance(source, (str, Path)):
             accepted = f"the unit in brackets, such as {name} [{FIELDS[name].unit}]"
-            raise InputError("materials, header", column.name, accepted, "has no unit")
+            raise InputError(f"{table}, header", column.name, accepted, "has no unit")
     rows = []
     for k, line in enumerate(lines):
         cells = {column.name: _cell(column.unit, column.cells[k]) for column in columns}
@@ -62,7 +63,7 @@ def materials_of(source: Any, changes: Mapping[str, Any] | None = None) -> list[
         try:
             scene = _scene(cells.get("scene"), entries).with_entries(changes or {})
         except InputError as error:
-            where = f"materials, {label}{f' (line {line})' * bool(names)}, {error.field}"
+            where = f"{table}, {label}{f' (line {line})' * bool(names)}, {error.field}"
             raise InputError(where, error.value, error.accepted, error.problem) from None
         rows.append(Material(label, scene, spread))
     return rows

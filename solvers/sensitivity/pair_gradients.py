@@ -24,6 +24,7 @@ from ..model.dimensionless import Problem, nondimensionalise
 from ..model.model import load, select_model
 from ..model.validity import warn
 from ..results import FAILED, outcome_attributes
+from ..scene.origin import provenance
 from ..scene.scene import Scene
 from ..space.by_replay import groups_of, own_axes, sequence_in_space
 from ..space.collide_pair import NUMBERS, VECTORS, check_scene, refusals
@@ -118,16 +119,16 @@ def pair_gradients(
     ends = np.cumsum([math.prod(shape) for shape in RESULTS.values()])[:-1]
     columns = zip(RESULTS.items(), np.split(value, ends, axis=1), np.split(slope, ends, axis=1), strict=True)
     for (name, shape), values, slopes in columns:
-        more, about = ((), NUMBERS[name]) if name in NUMBERS else VECTORS[name]
-        data[name] = (*dims, *more), values.reshape((*pairs.shape, *shape)), about
-        meaning = {"long_name": f"derivative of the {about['long_name']}"}
+        more, attrs = ((), NUMBERS[name]) if name in NUMBERS else VECTORS[name]
+        data[name] = (*dims, *more), values.reshape((*pairs.shape, *shape)), attrs
+        meaning = {"long_name": f"derivative of the {attrs['long_name']}"}
         data[f"d_{name}"] = (
             (*dims, *more, "parameter"),
             slopes.reshape((*pairs.shape, *shape, len(parameters))),
             meaning,
         )
     coordinates = {"axis": list(AXES), "parameter": parameters}
-    return xr.Dataset(data, coordinates, {"scene": loaded.to_toml(), "rtol": rtol, "engine": "rosenbrock"})
+    return xr.Dataset(data, coordinates, provenance(loaded, rtol=rtol, engine="rosenbrock"))
 
 
 def _components(scene: Scene, names: Sequence[str]) -> dict[int, str]:

@@ -14,7 +14,7 @@ from ..formatting.notebook import view
 from ..host.pictures import Drawn
 from ..results import DEFINITIONS
 from ..scene.held import NAMES
-from ..scene.origin import origin
+from ..scene.origin import origin, provenance
 from ..scene.schema import SPEEDS
 from .parameters import Row, cell
 
@@ -140,7 +140,9 @@ class Sensitivities(Drawn):
             "units": ("quantity", [DEFINITIONS[name].unit for name in self.value]),
             "reference": ("parameter", list(self.reference.values())),
         }
-        return xr.Dataset(variables, coordinates, {name: getattr(self, name) for name in _ABOUT})
+        return xr.Dataset(
+            variables, coordinates, provenance(self.scene, **{name: getattr(self, name) for name in _ABOUT})
+        )
 
     def __str__(self) -> str:
         names = list(self.value)

@@ -15,6 +15,7 @@ from ..host.pictures import register
 from ..model.validity import sentences, warn
 from ..results import attributes, outcome_attributes
 from ..scene.groups import si_values
+from ..scene.origin import provenance
 from ..scene.scene import Scene
 from .beside_wall import beside_wall
 from .by_kernel import by_kernel
@@ -120,7 +121,7 @@ def collide_pair(
     until = ends.put_at_contact(pairs)
     with np.errstate(invalid="ignore"):
         motions = after(pairs, ends)
-    attrs = {"scene": loaded.to_toml(), "rtol": rtol, "engine": chosen, "validity": _validity(pairs, ends, motions)}
+    attrs = provenance(loaded, rtol=rtol, engine=chosen, validity=_validity(pairs, ends, motions))
     return _dataset(pairs, ends, until, motions, attrs, ledger)
 
 

@@ -15,6 +15,7 @@ from ...generated.automaton import OUTCOMES
 from ..collision.collide import collide
 from ..collision.result import Collision
 from ..errors import WetDoubletError
+from ..scene.origin import provenance
 from ..scene.scene import Scene
 from .sample import Collide
 
@@ -82,7 +83,7 @@ def budgeted(
     return xr.Dataset(
         {"outcome": (("angle", "stokes"), outcome), **data, "reason": (("angle", "stokes"), reason)},
         coords=coordinates,
-        attrs={"scene": scene.to_toml(), "rtol": rtol, "unit": "m v0^2/2"},
+        attrs=provenance(scene, rtol=rtol, unit="m v0^2/2"),
     )
 
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from textwrap import wrap
 from typing import TYPE_CHECKING
 
-from ..scene.origin import Recorded
+from ..scene.origin import Recorded, provenance
 
 if TYPE_CHECKING:
     import xarray
@@ -71,7 +71,7 @@ class Report(Recorded):
 
         texts = {name: ("check", [getattr(row, name) for row in self.findings]) for name in _COLUMNS if name != "ok"}
         held = [-1 if finding.ok is None else int(finding.ok) for finding in self.findings]
-        return xr.Dataset({**texts, "ok": ("check", held)})
+        return xr.Dataset({**texts, "ok": ("check", held)}, attrs=provenance())
 
     @property
     def ok(self) -> bool:

@@ -2,7 +2,6 @@
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from importlib.metadata import version
 
 import numpy as np
 import xarray as xr
@@ -11,6 +10,7 @@ from ...errors import ComputationError
 from ...model.dimensionless import Problem
 from ...model.model import Model
 from ...model.phases import extra_units
+from ...scene.origin import provenance, release
 from .integrators import IntegrationFailed, plain
 from .replay import Piece, Replay
 
@@ -141,9 +141,8 @@ def dataset(
         "time": ("time", time, {"units": "s", "long_name": "time since initial contact"}),
         "phase": ("time", np.array(phases)),
     }
-    release = version("wetdoublet")
     return xr.Dataset(variables, coordinates, {
         "title": f"Trajectory of an oblique wet collision: {n.scene.name or 'unnamed scene'}",
-        "source": f"wetdoublet {release}", "scene": n.scene.to_toml(), "outcome": outcome, "engine": engine,
-        "rtol": rtol, "version": release,
+        "source": f"wetdoublet {release()}", **provenance(n.scene), "outcome": outcome, "engine": engine,
+        "rtol": rtol,
     })  # fmt: skip

@@ -146,6 +146,7 @@ def test_structures_without_the_slot_are_untouched():
     ("body", "name", "figure"),
     [
         ('law("bridge", "mine", force=pi*R*sigma + mu*a)', "dimensions", "law bridge mine, force: term"),
+        ('law("bridge", "mine", force=x + R*sigma)', "dimensions", "beside x of dimension L in R*sigma + x"),
         ('law("bridge", "mine", force=mu*u*a**2)', "dimensions", "expected M L T^-2 or a pure number"),
         ('law("bridge", "mine", force=mu*a*u)', "groups", "depends on normal_velocity"),
         ('law("bridge", "mine", force=m*omega**2*a)', "groups", "rotation_rate"),
@@ -212,6 +213,7 @@ def test_template_says_what_it_is_without_stress():
         ("law('bridge', 'mine', force=1, validity={'angle': (0, 1)})", "accepted: volume, contact_angle, separation"),
         ("law('bridge', 'mine', force='x')", "a sympy expression"),
         ("k = quantity('viscosity')", "is taken already"),
+        ("k = quantity('k', 'kg')", 'is a unit, where the symbol in print stands; accepted: unit="kg"'),
         ("k = quantity('k', unit='ergs')", "unknown unit 'ergs'"),
         ("k = quantity('k', bounds='small')", "k.bounds"),
         ("law('bridge', 'mine', force=undefined)", "line 2: None NameError: name 'undefined'"),

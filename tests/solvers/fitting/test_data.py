@@ -36,6 +36,17 @@ def test_units_missing_cells_and_comments(tmp_path):
     ]  # fmt: skip
 
 
+def test_a_plain_angle_is_radians():
+    """Degrees as plain numbers are told so; what is wrong in degrees as well is not."""
+    for value, says in (
+        (75.0, 'plain numbers are radians, did you mean a column "angle [deg]"?'),
+        (95.0, "range; acc"),
+    ):
+        with pytest.raises(InputError) as refused:
+            read_data({"speed": [0.5], "angle": [value], "restitution": [0.3]}, SCENE)
+        assert refused.value.field == "data, row 1, column angle" and says in str(refused.value)
+
+
 USUAL = "speed [m/s],angle [deg],restitution"
 BAD = (
     (USUAL, "0.5,95,0.4", "row 1 (line 2), column angle", "out of range"),
@@ -58,10 +69,11 @@ BAD = (
 
 @pytest.mark.parametrize(("header", "row", "field", "said"), BAD)
 def test_bad_cells_are_named(tmp_path, header, row, field, said):
-    """What is wrong is said with the row, the line and the column."""
+    """What is wrong is said with the file, the row, the line and the column."""
+    path = written(tmp_path, f"{header}\n{row}\n")
     with pytest.raises(InputError) as error:
-        read_data(written(tmp_path, f"{header}\n{row}\n"), SCENE)
-    assert field in error.value.field
+        read_data(path, SCENE)
+    assert field in error.value.field and str(path) in error.value.field
     assert said in str(error.value)
 
 

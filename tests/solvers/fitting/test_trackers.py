@@ -213,9 +213,9 @@ def test_what_a_file_lacks_can_be_supplied_as_it_is_asked_for(tmp_path: Path, fi
     old = table.assign(TRACK_ID=table.particle, POSITION_X=1e6 * PIXEL * table.x, POSITION_Y=1e6 * PIXEL * table.y,
                        POSITION_T=table.frame / RATE, FRAME=table.frame, VISIBILITY=1)  # fmt: skip
     old[[name for name in old if name.isupper()]].to_csv(path)
-    with pytest.raises(InputError, match="accepted: scale"):
+    with pytest.raises(InputError, match="accepted: --scale, scale="):
         tracks(path, "lactose-pvp")
-    with pytest.raises(InputError, match='"frame" has no unit; accepted: rate'):
+    with pytest.raises(InputError, match='"frame" has no unit; accepted: --rate, rate='):
         tracks(path, "lactose-pvp", scale="1 um")
     same(read(path, scale="1 um"), film, 1e-6)
     text = "\n".join(["Phantom v2512", "at 150 kHz", *wide(film, PLACES).splitlines()])

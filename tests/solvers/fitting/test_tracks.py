@@ -122,8 +122,8 @@ def test_what_is_wrong_is_named() -> None:
     late = {name: values[23:] for name, values in film.items()}
     past = film | {"y2": film["y2"] + 1e3, "x2": film["x2"] + 1e3}
     for wrong, settings, words in (
-        (film, {"rate": rate}, "x1 has no unit; accepted: scale"),
-        (film, {"scale": PIXEL}, "frame has no unit; accepted: rate"),
+        (film, {"rate": rate}, "x1 has no unit; accepted: --scale, scale="),
+        (film, {"scale": PIXEL}, "frame has no unit; accepted: --rate, rate="),
         ({name: values for name, values in film.items() if name != "y2"}, {}, "has no y2"),
         (late, {"rate": rate, "scale": PIXEL}, "at least 4 frames before the impact"),
         (past, {"rate": rate, "scale": PIXEL}, "pass each other"),

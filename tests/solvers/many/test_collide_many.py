@@ -3,10 +3,12 @@
 import sys
 import warnings
 from functools import partial
+from importlib.metadata import version
 
 import numpy as np
 import pint
 import pytest
+import wetdoublet
 import xarray as xr
 from loky import process_executor
 from wetdoublet.solvers import ModelWarning, Scene, collide, collide_many, gradients_many
@@ -183,3 +185,16 @@ def test_validity_of_laws_that_vary():
             alone = collide_many(single, stokes=0.3, angle=1.0, of="validity")
         assert both.validity.values[k] == alone.validity.values[0]
         assert both.validity.attrs["flag_meanings"] == alone.validity.attrs["flag_meanings"]
+
+
+def test_every_dataset_says_which_version_made_it():
+    """Of many impacts, of pairs in space, of gradients, and of results that become one."""
+    made = [
+        wetdoublet.collide_many("granulation", angle=[0.3, 0.4]),
+        wetdoublet.collide_pair("granulation", [1.0, 0, 0], [[0.5, 0, 0], [-0.5, 0, 0]], np.zeros((2, 3))),
+        wetdoublet.gradients_many("granulation", of=["restitution"], wrt=["liquid.viscosity"], angle=[0.3]),
+        wetdoublet.sensitivities("granulation", of=["restitution"], wrt=["liquid.viscosity"]).to_dataset(),
+        wetdoublet.boundary("granulation", angle=0.3, stokes=(0.01, 1.0)).to_dataset(),
+    ]
+    assert {data.attrs["version"] for data in made} == {version("wetdoublet")}
+    assert {Scene.from_toml(data.attrs["scene"]) for data in made} == {Scene.load("granulation")}

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from wetdoublet.solvers import Scene, collide, critical
+from wetdoublet.solvers import InputError, Scene, collide, critical
 
 from tests.helpers.command import run
 
@@ -78,6 +78,19 @@ TABLE = """size;particles.diameter [um];liquid.coating_thickness [um];liquid.vis
 fine;150;3;0.07;5;lactose-pvp
 coarse;600;12;0.4;;lactose-pvp
 """
+
+
+@pytest.mark.parametrize(
+    ("before", "after", "where"),
+    [("coarse;600", "coarse;-600", "coarse (line 3), particles.diameter"), ("viscosity [P]", "viscosity", "header")],
+)
+def test_a_wrong_material_is_named_with_its_file(tmp_path: Path, before: str, after: str, where: str) -> None:
+    """The row that makes no scene, or the header, of the file."""
+    file = tmp_path / "materials.csv"
+    file.write_text(TABLE.replace(before, after), encoding="utf-8")
+    with pytest.raises(InputError) as refused:
+        critical(str(file))
+    assert refused.value.field == f"materials {file}, {where}"
 
 
 @pytest.mark.slow
