@@ -16,7 +16,7 @@ from ..errors import InputError, excerpt
 from ..host import files, outputs
 from ..scene.fields import Field
 from ..scene.held import check_hold
-from ..scene.schema import FIELDS, SPEEDS, SPINS, unknown_entry
+from ..scene.schema import FIELDS, SPEEDS, SPINS
 from ..scene.user_model import Package, fields, unknown
 from ..scene.user_model_source import open_package
 from .signature import SHARED, Group, options_of, passed
@@ -123,7 +123,7 @@ class SceneRequest:
     def numeric(self, name: str) -> Field | None:
         """The entry of this name if it is a number, of a user's model too."""
         entry = fields(self.package).get(name)
-        return None if entry is None or entry.choices or entry.flag else entry
+        return entry if entry is not None and entry.numeric else None
 
     def varying(self, name: str, text: str, label: str, others: Mapping[str, Any] | None = None) -> Field:
         """The entry that an option varies; InputError for another name, or one that is given otherwise too."""
@@ -165,7 +165,7 @@ def _entries(changes: Sequence[str], package: Package | None) -> dict[str, str]:
     for name, value in values.items():
         if name != "name":
             if name not in schema:
-                raise unknown(name, value, package) or unknown_entry(name, value)
+                raise unknown(name, value, package)
             values[name] = with_degrees(schema[name], value)
             schema[name].read(values[name])
     return values

@@ -14,7 +14,6 @@ import click
 from ..engines.settings import UNTIL
 from ..errors import InputError
 from ..host import outputs
-from ..scene.scenefile import read_text
 from ..scene.schema import FIELDS
 from . import texts
 
@@ -165,6 +164,8 @@ def _check_present(
     values: Mapping[str, Any], flags: Mapping[str, str], required: Mapping[str, str], source: Any
 ) -> None:
     """InputError for a required parameter that is absent, or before it for a scene that is none."""
+    from ..scene.scenefile import read_text
+
     for key, accepted in required.items():
         if values[key] is None:
             for scene in source[:1] if isinstance(source, tuple) else () if source is None else (source,):

@@ -17,7 +17,7 @@ from ..results import MAPPED, VALIDITY
 from ..scene.fields import Field
 from ..scene.held import HOLDS, held_quantity, held_text, impact_quantity, impact_value
 from ..scene.scene import Scene
-from ..scene.schema import FIELDS, MEETING, SPEEDS, SPINS, unknown_entry
+from ..scene.schema import FIELDS, MEETING, SPEEDS, SPINS
 from ..scene.user_model import Package, fields, unknown
 from ..scene.values import array, carries_unit
 
@@ -118,7 +118,7 @@ def checked_vary(
         if entry.choices:
             columns[name] = checked_choices(name, values, entry)
             continue
-        measured = bool(entry.or_unit) and _carry_units(name, values)
+        measured = bool(entry.or_unit) and carries_unit(values, name)
         column = columns[name] = checked_numbers(name, values, entry.measured if measured else entry, most)
         other_unit = entry.or_unit and scene.ways.volume != ("absolute" if measured else "relative")
         if column.size and (other_unit or (name in SPINS and name not in scene.entries)):
@@ -127,17 +127,6 @@ def checked_vary(
             # the first value that the scene accepts makes its entry of the same kind as the values
             scene = first_accepted(partial(scene.with_entries, {name: text}) for text in texts_of)
     return scene, columns
-
-
-def _carry_units(name: str, values: Any) -> bool:
-    """True if the values are quantities, False if they are plain numbers; InputError for a list of both."""
-    leaves = values.tolist() if isinstance(values, np.ndarray) and values.dtype.kind in "OU" else values
-    if not isinstance(leaves, (list, tuple)):
-        return carries_unit(values)
-    kinds = {_carry_units(name, leaf) for leaf in leaves}
-    if len(kinds) > 1:
-        raise InputError(name, values, "quantities with their units, or plain numbers, not both", "is a list of both")
-    return kinds == {True}
 
 
 def first_accepted(attempts: Iterable[Callable[[], T]]) -> T:
@@ -158,10 +147,10 @@ def check_varies(
     """Raise InputError unless the entry is a number (with `texts`, or a choice) and not the impact's speed or angle."""
     entries = fields(package)
     if name not in entries:
-        raise unknown(name, values, package) or unknown_entry(name, values)
+        raise unknown(name, values, package)
     if name in MEETING:
         raise InputError(label, name, "entries other than the impact's speed and angle", "has an argument of its own")
-    if entries[name].flag or (entries[name].choices and not texts):
+    if not (entries[name].numeric or (entries[name].choices and texts)):
         raise InputError(label, name, "entries that are numbers", "is a choice")
 
 

@@ -25,7 +25,6 @@ from .schema import (
     SPEEDS,
     SPINS,
     TABLES,
-    unknown_entry,
 )
 
 if TYPE_CHECKING:
@@ -44,10 +43,10 @@ _NEEDS = {
 """Entry -> another that it is nothing without."""
 
 
-def refuse(refused: Iterable[tuple[str, str, str]], entries: Mapping[str, Any]) -> None:
+def refuse(refused: Iterable[tuple[str, str, str]], entries: Mapping[str, Any] | Iterable[tuple[str, Any]]) -> None:
     """Raise InputError for the first refused entry, with its value; one that is not there is missing."""
     for name, accepted, problem in refused:
-        raise InputError(name, entries.get(name), accepted, problem)
+        raise InputError(name, dict(entries).get(name), accepted, problem)
 
 
 def check_arguments(name: object, given: object, comments: object, package: object) -> None:
@@ -79,12 +78,13 @@ def check_entries(
     fields = custom.fields(package)
     for name, raw in entries.items():
         if name not in fields:
-            raise custom.unknown(name, raw, package) or unknown_entry(name, raw)
+            raise custom.unknown(name, raw, package)
     read = {name: fields[name].read(raw, from_file=from_file) for name, raw in entries.items()}
     for ways in ALTERNATIVES:
         first, *others = [name for name in ways if name in entries] or [""]
-        problem = f"is given together with {first} = {excerpt(entries.get(first))}"
-        refuse(((name, "only one of " + ", ".join(ways), problem) for name in others), entries)
+        for name in others:
+            problem = f"is given together with {first} = {excerpt(entries[first])}"
+            raise InputError(name, entries[name], "only one of " + ", ".join(ways), problem)
     return read
 
 
@@ -179,12 +179,12 @@ def way_rules(entries: Mapping[str, Any], values: Mapping[str, Any]) -> Refused:
 def check_together(scene: System) -> None:
     """Raise InputError where entries are valid one by one but not together."""
     for rule in (_partner, _laws, _lengths, _speeds):
-        refuse(rule(scene), dict(scene.given))
+        refuse(rule(scene), scene.given)
 
 
 def check_speed(scene: System) -> None:
     """Raise InputError if the Stokes number or the speed leaves the range of a double."""
-    refuse(_speeds(scene), dict(scene.given))
+    refuse(_speeds(scene), scene.given)
 
 
 def _lengths(scene: System) -> Refused:

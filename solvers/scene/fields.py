@@ -167,7 +167,7 @@ class Field:
             return raw.strip() not in self.words and not units.is_number(raw)
         from .values import carries_unit  # imports numpy
 
-        return carries_unit(raw)
+        return carries_unit(raw, self.name)
 
     def _number(self, raw: object, label: str, from_file: bool) -> float:
         if isinstance(raw, str):

@@ -14,7 +14,7 @@ from ..host import emitted
 from ..host.emitted import LAWS
 from .contact import GAPS
 from .fields import Field, Raw
-from .quantities import Ways, normal_speed, over_equal, quantities
+from .quantities import Ways, normal_speed, quantities
 from .schema import FIELDS, MEETING, SPEEDS, Attraction, Bridge, Impact, Liquid, Model, Particles, Partner, Pendulum
 from .user_model import ENTRIES, Package, features, fields
 
@@ -101,26 +101,22 @@ class System:
     @property
     def radius_ratio(self) -> float | None:
         """R_2/R_1: 1 without a partner, None for a wall."""
-        if self.partner is None:
-            return 1.0
-        return None if self.partner.radius is None else self.partner.radius / (2 * self.particles.reduced_radius)
+        return self.material.get("radius_ratio")
 
     @property
     def mass_ratio(self) -> float | None:
         """M_2/M_1: 1 without a partner, None for a wall."""
-        if self.partner is None:
-            return 1.0
-        return None if self.partner.mass is None else self.partner.mass / (2 * self.particles.reduced_mass)
+        return self.material.get("mass_ratio")
 
     @property
     def reduced_radius(self) -> float:
         """The pair's a = R_1 R_2/(R_1 + R_2) in m; R_1 with a wall."""
-        return float(self.particles.reduced_radius * over_equal(self.radius_ratio))
+        return float(self.material["reduced_radius"])
 
     @property
     def reduced_mass(self) -> float:
         """The pair's m = M_1 M_2/(M_1 + M_2) in kg; M_1 with a wall."""
-        return float(self.particles.reduced_mass * over_equal(self.mass_ratio))
+        return float(self.material["reduced_mass"])
 
     # ---- lengths, and the impact as Stokes number and as speed
 

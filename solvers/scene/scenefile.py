@@ -13,9 +13,10 @@ from typing import TYPE_CHECKING, Any
 from ..errors import InputError, did_you_mean
 from ..host import bounded
 from . import units
-from . import user_model as custom
 from .fields import Raw
 from .schema import FIELDS, TABLES
+from .user_model import unknown
+from .user_model_declared import TABLE
 
 if TYPE_CHECKING:
     from .user_model import Package
@@ -126,18 +127,15 @@ def flatten(tables: Mapping[str, Any], package: Package | None = None) -> dict[s
     for table, content in tables.items():
         if table == "name":
             continue
-        if table == custom.TABLE and isinstance(content, Mapping):
-            entries.update({f"{table}.{key}": value for key, value in content.items()})
-            if not content and package is None:
-                raise custom.unknown(table, content, None) or AssertionError
-            continue
-        if table not in TABLES:
+        if table not in (*TABLES, TABLE):
             homes = [f"[{home}]" for home in TABLES if f"{home}.{table}" in FIELDS]
             hint = f", belongs in {' or '.join(homes)}" if homes else did_you_mean(table, (*TABLES, "name"))
             raise InputError(str(table), content, "name, " + ", ".join(TABLES), "has an unknown name" + hint)
         if not isinstance(content, Mapping):
             raise InputError(table, content, f"a table [{table}]", "is not a table")
-        entries.update({f"{table}.{key}": value for key, value in content.items()})
+        if table == TABLE and not content and package is None:
+            raise unknown(table, content, None)
+        entries |= {f"{table}.{key}": value for key, value in content.items()}
     return entries
 
 

@@ -11,7 +11,6 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any, ClassVar, Self
 
-from ..errors import InputError, did_you_mean
 from ..host.emitted import LAWS
 from .fields import ANY, FRACTION, IMPACT_ANGLE, NOT_NEGATIVE, PART, POISSON, POSITIVE, WETTING_ANGLE, Field, Range
 
@@ -41,30 +40,29 @@ class Table:
     """Base of the tables. An entry whose type allows None has that value where it is not given, not its default."""
 
     name: ClassVar[str]
+    keys: ClassVar[Mapping[str, str]]  # by dotted name
 
     def __init_subclass__(cls) -> None:
         """Give every declaration its name, and the attribute its default."""
         cls.name = cls.__name__.lower()
-        for key, kind in cls.__annotations__.items():
+        cls.keys = {f"{cls.name}.{key}": key for key in cls.__annotations__}
+        for name, key in cls.keys.items():
             declared = vars(cls)[key]
-            field = FIELDS[f"{cls.name}.{key}"] = Field(f"{cls.name}.{key}", **declared.metadata)
-            declared.default = None if kind.endswith("None") else field.default
-        KINDS[cls.name] = cls
-        TABLES[cls.name] = tuple(name for name in FIELDS if name.startswith(f"{cls.name}."))
+            field = FIELDS[name] = Field(name, **declared.metadata)
+            declared.default = None if cls.__annotations__[key].endswith("None") else field.default
+        KINDS[cls.name], TABLES[cls.name] = cls, tuple(cls.keys)
 
     def __post_init__(self) -> None:
         """Read every entry by its `Field`; InputError names the first wrong one."""
-        for field in map(FIELDS.__getitem__, TABLES[self.name]):
-            if (value := getattr(self, field.key)) is not None:
-                object.__setattr__(self, field.key, field.read(value))
+        for name, key in self.keys.items():
+            if (value := getattr(self, key)) is not None:
+                object.__setattr__(self, key, FIELDS[name].read(value))
 
     @classmethod
     def of(cls, values: Mapping[str, Any]) -> Self:
         """Return the table of entries already read, by dotted name (a user's model may add laws)."""
         table = object.__new__(cls)
-        for name in TABLES[cls.name]:
-            key = FIELDS[name].key
-            object.__setattr__(table, key, values.get(name, getattr(cls, key)))
+        table.__dict__.update((key, values.get(name, getattr(cls, key))) for name, key in cls.keys.items())
         return table
 
 
@@ -327,15 +325,3 @@ def acting_defaults(entries: Iterable[str]) -> dict[str, float]:
     names = {*entries}
     tables = {name.partition(".")[0] for name in names} - ({"liquid"} if "liquid.flow_index" not in names else set())
     return {name: value for name, value in DEFAULTS.items() if name.partition(".")[0] in tables}
-
-
-def unknown_entry(name: str, value: object) -> InputError:
-    """Return the error for an unknown entry, with the nearest known one."""
-    table, _, key = name.partition(".")
-    here = TABLES.get(table, ())
-    if here and not key:
-        return InputError(name, value, ", ".join(here), "is given to a table, not to one of its entries")
-    elsewhere = [entry for entry in FIELDS if entry.endswith("." + (key or table))]
-    hint = f", did you mean {elsewhere[0]}?" if elsewhere else did_you_mean(name, here) or did_you_mean(name, FIELDS)
-    accepted = ", ".join(here) if here else "entries TABLE.KEY of the tables " + ", ".join(TABLES)
-    return InputError(name, value, accepted, "has an unknown name" + hint)

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import hashlib
 import json
-import math
 import os
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
@@ -20,11 +19,10 @@ from typing import Any
 from ..errors import InputError, did_you_mean
 from ..host import bounded
 from ..host.emitted import LAWS, derived_once, executed
-from .fields import Field, Range, Raw
+from .fields import Field, Raw
 from .schema import FIELDS, TABLES
-from .user_model_declared import OwnCriterion, OwnEvent, Terms
+from .user_model_declared import TABLE, OwnCriterion, OwnEvent, Terms, field_of
 
-TABLE = "custom"
 ACCEPTED = "a folder made by `wetdoublet generate MODEL.py --out DIR`, or a model file MODEL.py"
 ENTRIES = {
     "bridge": "bridge.law",
@@ -79,12 +77,11 @@ class Package:
         result = dict(FIELDS)
         if self.table != TABLE:
             return result
-        for slot, entry in ENTRIES.items():
-            names = tuple(law["name"] for law in self.manifest["laws"] if law["slot"] == slot)
-            if names and entry in result:
+        for entry, names in ((ENTRIES.get(slot, ""), names) for slot, names in self._laws.items()):
+            if entry in result:
                 result[entry] = replace(result[entry], choices={**result[entry].choices, **dict.fromkeys(names, "")})
         for quantity in self.manifest["quantities"]:
-            result[f"{TABLE}.{quantity['name']}"] = _field(quantity)
+            result[f"{TABLE}.{quantity['name']}"] = field_of(quantity)
         return result
 
     @property
@@ -119,7 +116,7 @@ class Package:
         """Entries that select the model's laws; InputError if the scene lacks the table that a law needs."""
         present = {name.partition(".")[0] for name in entries} | {"model"}
         result = {}
-        for slot in dict.fromkeys(law["slot"] for law in self.manifest["laws"]):
+        for slot in self._laws:
             entry = ENTRIES.get(slot, "")
             if entry.partition(".")[0] not in present:
                 table = entry.partition(".")[0] or slot
@@ -131,19 +128,26 @@ class Package:
     @property
     def unnamed(self) -> tuple[str, ...]:
         """Slots of the model's laws that no entry of a scene selects."""
-        slots = dict.fromkeys(law["slot"] for law in self.manifest["laws"])
-        return tuple(slot for slot in slots if ENTRIES.get(slot) not in FIELDS)
+        return tuple(slot for slot in self._laws if ENTRIES.get(slot) not in FIELDS)
 
     # ---- emitted code
 
+    @cached_property
+    def _laws(self) -> dict[str, dict[str, dict[str, Any]]]:
+        """The laws as the manifest has them, by slot and name."""
+        slots: dict[str, dict[str, dict[str, Any]]] = {}
+        for law in self.manifest["laws"]:
+            slots.setdefault(law["slot"], {})[law["name"]] = law
+        return slots
+
     def laws(self, slot: str) -> tuple[str, ...]:
         """Names of the model's laws for a slot; the first is the default."""
-        return tuple(law["name"] for law in self.manifest["laws"] if law["slot"] == slot)
+        return tuple(self._laws.get(slot, ()))
 
     def features(self, slot: str, name: str) -> tuple[str, ...]:
         """Functions that not every law of the slot has, and properties, of a law of the model or of the library."""
-        own = (law.get("features", ()) for law in self.manifest["laws"] if (law["slot"], law["name"]) == (slot, name))
-        return tuple(next(own, LAWS[slot].get(name, ())))
+        own = self._laws.get(slot, {}).get(name)
+        return tuple(LAWS[slot].get(name, ()) if own is None else own.get("features", ()))
 
     def extra(self, slot: str, function: str) -> tuple[str, ...]:
         """States and groups that a slot's function takes in addition to the slot's arguments."""
@@ -222,7 +226,7 @@ class Package:
 
     def law_file(self, slot: str, name: str) -> str:
         """Path of one of the model's laws, relative to the folder."""
-        return next(str(law["file"]) for law in self.manifest["laws"] if (law["slot"], law["name"]) == (slot, name))
+        return str(self._laws[slot][name]["file"])
 
     def text_of(self, path: str) -> str:
         """Text of one of the files, verified but not executed."""
@@ -311,20 +315,6 @@ def _module(package: Package, path: str) -> ModuleType:
     return module
 
 
-def _field(quantity: Mapping[str, Any]) -> Field:
-    bounds = quantity["bounds"]
-    low = -math.inf if bounds["low"] is None else bounds["low"]
-    high = math.inf if bounds["high"] is None else bounds["high"]
-    interval = Range(bounds["text"], low, high, bounds["low_open"], bounds["high_open"])
-    unit = None if quantity["unit"] == "1" else quantity["unit"]
-    default = quantity["default"]
-    example = f'"{default}"' if isinstance(default, str) else "1" if default is None else str(default)
-    if unit and default is None:
-        example = f'"1 {unit}"'
-    what = f"the {quantity['meaning']}" if unit else f"a number ({quantity['meaning']})"
-    return Field(f"{TABLE}.{quantity['name']}", what, example, interval, unit=unit)
-
-
 def features(package: Package | None, slot: str, name: str) -> tuple[str, ...]:
     """The features of a law of the library or of a user's model."""
     return tuple(LAWS[slot].get(name, ())) if package is None else package.features(slot, name)
@@ -335,20 +325,20 @@ def fields(package: Package | None) -> Mapping[str, Field]:
     return FIELDS if package is None else package.fields
 
 
-def tables(package: Package | None) -> dict[str, tuple[str, ...]]:
-    """All tables that a scene with this model may have, with the dotted names of their entries."""
-    if package is None or package.table != TABLE:
-        return TABLES
-    return TABLES | {TABLE: tuple(f"{TABLE}.{name}" for name in package.quantities)}
-
-
-def unknown(name: str, value: object, package: Package | None) -> InputError | None:
-    """The error for an unknown entry of `[custom]`; None for an entry of another table."""
-    if name.partition(".")[0] != TABLE:
-        return None
-    if package is None or package.table != TABLE:
+def unknown(name: str, value: object, package: Package | None) -> InputError:
+    """The error for an unknown entry, with the nearest known one."""
+    table, _, key = name.partition(".")
+    if table == TABLE and (package is None or package.table != TABLE):
         accepted = "a scene without [custom], or its model: --model DIR, Scene.load(..., model=DIR)"
         return InputError(name, value, accepted, "is a model's, and no model is given")
-    names = tables(package)[TABLE]
-    accepted = ", ".join(names) or f"nothing: the model {package.name} declares no quantity"
-    return InputError(name, value, accepted, "has an unknown name" + did_you_mean(name, names))
+    if table == TABLE and package is not None:
+        names = [f"{TABLE}.{quantity}" for quantity in package.quantities]
+        accepted = ", ".join(names) or f"nothing: the model {package.name} declares no quantity"
+        return InputError(name, value, accepted, "has an unknown name" + did_you_mean(name, names))
+    here = TABLES.get(table, ())
+    if here and not key:
+        return InputError(name, value, ", ".join(here), "is given to a table, not to one of its entries")
+    elsewhere = [entry for entry in FIELDS if entry.endswith("." + (key or table))]
+    hint = f", did you mean {elsewhere[0]}?" if elsewhere else did_you_mean(name, here) or did_you_mean(name, FIELDS)
+    accepted = ", ".join(here) if here else "entries TABLE.KEY of the tables " + ", ".join(TABLES)
+    return InputError(name, value, accepted, "has an unknown name" + hint)

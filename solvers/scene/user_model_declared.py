@@ -1,13 +1,18 @@
-"""What a user's model declares beside laws, by its entries in the manifest: events, criteria and terms."""
+"""What a user's model declares beside laws, by its entries in the manifest: quantities, events, criteria and terms."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+from .fields import Field, Range
+
 if TYPE_CHECKING:
     from ...generated.automaton import Event
+
+TABLE = "custom"
 
 
 @dataclass(frozen=True)
@@ -87,3 +92,18 @@ class Terms:
     rotates: bool
     drives: bool
     admits_barrier: bool
+
+
+def field_of(quantity: Mapping[str, Any]) -> Field:
+    """The entry of a scene that a quantity is, by its element of the manifest's `quantities`."""
+    bounds = quantity["bounds"]
+    low = -math.inf if bounds["low"] is None else bounds["low"]
+    high = math.inf if bounds["high"] is None else bounds["high"]
+    interval = Range(bounds["text"], low, high, bounds["low_open"], bounds["high_open"])
+    unit = None if quantity["unit"] == "1" else quantity["unit"]
+    default = quantity["default"]
+    example = f'"{default}"' if isinstance(default, str) else "1" if default is None else str(default)
+    if unit and default is None:
+        example = f'"1 {unit}"'
+    what = f"the {quantity['meaning']}" if unit else f"a number ({quantity['meaning']})"
+    return Field(f"{TABLE}.{quantity['name']}", what, example, interval, unit=unit)

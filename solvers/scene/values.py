@@ -108,12 +108,17 @@ def _is_array(value: Any) -> bool:
     return not isinstance(value, type) and (hasattr(value, "__array__") or _unit(value)[0] is not None)
 
 
-def carries_unit(values: Any) -> bool:
-    """Whether what is given as numbers is given with a unit, as the first of them is; `array` judges the rest."""
-    while isinstance(values, (list, tuple)) and values:
-        values = values[0]
-    if isinstance(values, np.ndarray) and values.dtype.kind in "OU" and values.size:
-        values = values.reshape(-1)[0]
+def carries_unit(values: Any, label: str) -> bool:
+    """Whether what is given as numbers is given with a unit; InputError for a list of both."""
+    if isinstance(values, np.ndarray) and values.dtype.kind in "OU":
+        values = values.tolist()
+    if isinstance(values, (list, tuple)):
+        kinds = {carries_unit(value, label) for value in values}
+        if len(kinds) > 1:
+            raise InputError(
+                label, values, "quantities with their units, or plain numbers, not both", "is a list of both"
+            )
+        return kinds == {True}
     if isinstance(values, str):
         return not is_number(values)
     unit = _unit(values)[0]

@@ -63,7 +63,7 @@ def check_wrt(scene: Scene, wrt: Sequence[str] | str | None, label: str = "wrt")
     more = (*_defaults(scene), RELATIVE)
     for name in (wrt,) if isinstance(wrt, str) else wrt if isinstance(wrt, Collection) else ():
         entry = scene.fields.get(str(name))
-        if entry is not None and (entry.choices or entry.flag):
+        if entry is not None and not entry.numeric:
             raise InputError(label, name, ", ".join(everything), "is a choice, not a number")
     requested = check_names(wrt, (*everything, *(name for name in more if name not in everything)), label)
     if not requested:

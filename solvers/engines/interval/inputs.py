@@ -114,7 +114,7 @@ def _ends(scene: Scene, name: str, width: object) -> Range:
         raise InputError("within", name, "entries of a scene file by dotted name", "is not an entry")
     field, tables = fields[name], {entry.partition(".")[0] for entry in scene.entries}
     value = scene.entries.get(name, field.default if name.partition(".")[0] in tables else None)
-    if isinstance(value, str) or field.choices or field.flag:
+    if isinstance(value, str) or not field.numeric:
         raise InputError(label, width, "an entry that this scene gives as a number", "is no range of numbers")
     if value is None:
         same = [other for ways in ALTERNATIVES if name in ways for other in ways if other in scene.entries]

@@ -15,6 +15,7 @@ from ...scene.groups import si_values
 from ...scene.quantities import NO_GLASS
 from ...scene.scene import Scene
 from ...scene.schema import FIELDS
+from ...scene.user_model_declared import TABLE
 from .kernels import HEAD_ON, PLANE, Kernel
 
 LARGEST = 1e30
@@ -100,7 +101,7 @@ def material(scene: Scene, kernels: Iterable[Kernel]) -> tuple[Number, ...]:
 
 def _table(scene: Scene) -> str:
     """The table of a scene that has the quantities of its model."""
-    return user_model.TABLE if scene.package is None else scene.package.table
+    return TABLE if scene.package is None else scene.package.table
 
 
 def meaning_of(name: str, scene: Scene) -> str:

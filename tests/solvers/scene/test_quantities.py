@@ -5,7 +5,7 @@ from wetdoublet.derive.vocabulary.quantities import VOCABULARY
 from wetdoublet.solvers.scene.quantities import Ways, quantities
 from wetdoublet.solvers.scene.schema import FIELDS
 
-NUMBERS = [name for name, field in FIELDS.items() if not (field.choices or field.flag)]
+NUMBERS = [name for name, field in FIELDS.items() if field.numeric]
 FULL = {
     "particles.radius": 1e-4, "particles.density": 2500.0, "particles.roughness": 2e-7,
     "particles.dry_restitution": 0.9, "particles.friction": 0.2, "particles.contact_tangential_restitution": 0.3,
