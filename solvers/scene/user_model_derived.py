@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from time import perf_counter
 
-from ..errors import InputError
+from ..errors import CheckFailed, InputError
 from ..host.emitted import library_digest
 from .user_model import Package
 
@@ -82,16 +82,23 @@ def derived_package(path: Path, folder: Path | None) -> Derived:
     return Derived("\n".join(lines), files, "", seconds)
 
 
-def liquid_package(law: str) -> Package:
-    """The laws of the library for a liquid (imports sympy); they are checked where they are developed."""
+def files_of(path: Path) -> Mapping[str, str]:
+    """What a model file is derived to (imports sympy); CheckFailed if one of its checks fails."""
+    package = derived_package(path, None)
+    if not package.files:
+        raise CheckFailed(f"{path}: {package.failed}")
+    return package.files
+
+
+def files_of_liquid(law: str) -> Mapping[str, str]:
+    """What the laws of the library for a liquid are derived to; they are checked where they are developed."""
     from ...derive.emit.user import package
     from ...derive.laws.liquids import file_of
     from ...derive.laws.modelfile import read
 
     path = file_of(law)
     source = path.read_text(encoding="utf-8")
-    files = package(read(path, source, path.stem), source, library_digest(), (), (), table="liquid")
-    return Package(files["manifest.json"], path, files)
+    return package(read(path, source, path.stem), source, library_digest(), (), (), table="liquid")
 
 
 def origin_of(path: Path, folder: Path | None) -> str:

@@ -6,7 +6,7 @@ import os
 from functools import lru_cache
 from pathlib import Path
 
-from ..errors import CheckFailed, InputError
+from ..errors import InputError
 from ..host import bounded
 from ..host.emitted import DERIVING, derivation, library_digest
 from .user_model import ACCEPTED, Package
@@ -26,23 +26,28 @@ def open_package(source: str | Path | Package, label: str = "--model") -> Packag
     if bounded.is_folder(path):
         return _of_folder(path, label)
     if path.suffix == ".py" and bounded.is_file(path):
-        return _of_file(path, label)
+        return _derived_once(key_of(_read(path, label)), "files_of", path)
     raise InputError(label, str(source), ACCEPTED, "is neither a folder nor a model file")
 
 
 @lru_cache(maxsize=8)
 def liquid_package(law: str) -> Package:
     """The library's laws for a law of liquids, as a model; derived on first use, then cached."""
+    return _derived_once(f"liquid-{law}-{derivation()[:16]}-{library_digest()[:16]}.json", "files_of_liquid", law)
+
+
+def _derived_once(key: str, function: str, source: Path | str) -> Package:
+    """The model that a function of `user_model_derived` gives, from the cache of the user if it is there."""
     from ..host.user_cache import fetch
 
     def derived() -> bytes:
-        from .user_model_derived import liquid_package  # imports sympy
+        from . import user_model_derived  # imports sympy
 
         with DERIVING:
-            return json.dumps(dict(liquid_package(law).files or {})).encode()
+            return json.dumps(dict(getattr(user_model_derived, function)(source))).encode()
 
-    files = json.loads(fetch(f"liquid-{law}-{derivation()[:16]}-{library_digest()[:16]}.json", derived))
-    return Package(files["manifest.json"], Path(law), files)
+    files = json.loads(fetch(key, derived))
+    return Package(files["manifest.json"], Path(source), files)
 
 
 def _is_whole(package: Package) -> bool:
@@ -57,10 +62,6 @@ def _is_whole(package: Package) -> bool:
         and all(isinstance(text, str) for text in texts)
         and all(isinstance(t, dict) for t in tables)
     )
-
-
-def _digest(path: Path, label: str) -> str:
-    return hashlib.sha256(_read(path, label)).hexdigest()
 
 
 def _read(path: Path, label: str) -> bytes:
@@ -87,10 +88,8 @@ def _of_folder(folder: Path, label: str) -> Package:
         problem = "was emitted for other equations of the library than these"
         raise InputError(label, str(folder), package.remedy.removeprefix("run "), problem)
     source = package.original
-    same = (
-        source is None or not bounded.is_file(source) or _digest(source, label) == package.manifest["files"]["model.py"]
-    )
-    if not same:
+    digest = package.manifest["files"]["model.py"]
+    if source and bounded.is_file(source) and hashlib.sha256(_read(source, label)).hexdigest() != digest:
         problem = f"is stale: {source} has changed since"
         raise InputError(label, str(folder), f"a model emitted from it: {package.remedy}", problem)
     for path in package.manifest["files"]:
@@ -102,21 +101,3 @@ def key_of(content: bytes, origin: str = "") -> str:
     """Name of the cache's entry for the files that a model file of this content gives."""
     parts = [content, derivation().encode(), library_digest().encode(), *([origin.encode()] if origin else [])]
     return f"model-{hashlib.sha256(bytes([0]).join(parts)).hexdigest()[:32]}.json"
-
-
-def _of_file(path: Path, label: str) -> Package:
-    from ..host.user_cache import fetch
-
-    content = _read(path, label)
-
-    def derived() -> bytes:
-        from .user_model_derived import derived_package  # a late import, as it imports sympy
-
-        with DERIVING:
-            package = derived_package(path, None)
-        if not package.files:
-            raise CheckFailed(f"{path}: {package.failed}")
-        return json.dumps(dict(package.files)).encode()
-
-    files = json.loads(fetch(key_of(content), derived))
-    return Package(files["manifest.json"], path, files)
