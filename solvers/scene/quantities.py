@@ -47,11 +47,7 @@ class Ways:
 def quantities(entries: Mapping[str, Any], ways: Ways) -> dict[str, Any]:
     """Quantities by vocabulary name, SI, from entries in SI by dotted name; choices, flags and words are ignored."""
     entries = acting_defaults(entries) | dict(entries)
-    result = {
-        FIELDS[name].quantity: FIELDS[name].factor * value if FIELDS[name].factor != 1 else value
-        for name, value in entries.items()
-        if name in FIELDS and FIELDS[name].quantity and not isinstance(value, str)
-    }
+    result = _alone(entries)
     result |= {name.removeprefix(_OWN): value for name, value in entries.items() if name.startswith(_OWN)}
     result.setdefault("glass_transition_pressure", NO_GLASS)
     result.setdefault("impact_spin", 0.0)
@@ -59,10 +55,12 @@ def quantities(entries: Mapping[str, Any], ways: Ways) -> dict[str, Any]:
         result.setdefault("impact_partner_spin", result["impact_spin"])
     if "friction" in result:
         result.setdefault("contact_tangential_restitution", 0.0)
-    result |= sphere(entries)
     if "liquid.coating_thickness" in entries:
         result["film_thickness"] = initial_gap(entries)
-    radius_ratio, mass_ratio = _ratios(result, entries, ways.wall)
+    radius_ratio = mass_ratio = None if ways.wall else 1.0
+    if not ways.wall and (other := partner_radius(entries)) is not None:
+        radius_ratio = other / (2 * result["reduced_radius"])
+        mass_ratio = partner_mass(entries) / (2 * result["reduced_mass"])
     if not ways.wall:
         result |= {"radius_ratio": radius_ratio, "mass_ratio": mass_ratio}
     radius = 2 * result["reduced_radius"]
@@ -88,7 +86,7 @@ def tables(values: Mapping[str, Any], ways: Ways) -> dict[str, Table | None]:
     Raises:
         InputError: radii, masses or a volume that are beyond a double.
     """
-    derived = {f"particles.{name}": value for name, value in sphere(values).items()}
+    derived = {f"particles.{name}": _alone(values)[name] for name in ("reduced_radius", "reduced_mass")}
     derived |= {"partner.radius": partner_radius(values), "partner.mass": partner_mass(values)}
     read = {name: FIELDS[name].read(value) for name, value in derived.items() if value is not None}
     si = {**values, **read, "liquid.film_thickness": initial_gap(values)}
@@ -109,12 +107,12 @@ def _relative_volume(values: Mapping[str, Any], ways: Ways) -> float:
     return volume
 
 
-def sphere(entries: Mapping[str, Any]) -> dict[str, Any]:
-    """`reduced_radius` and `reduced_mass` of two equal spheres: half the radius (m) and mass (kg) of the first."""
+def _alone(entries: Mapping[str, Any]) -> dict[str, Any]:
+    """The quantities that an entry alone determines, and the mass of a density; sizes are those of the first sphere."""
     result = {
-        FIELDS[name].quantity: FIELDS[name].factor * value
+        FIELDS[name].quantity: FIELDS[name].factor * value if FIELDS[name].factor != 1 else value
         for name, value in entries.items()
-        if name in FIELDS and FIELDS[name].quantity in ("reduced_radius", "reduced_mass")
+        if name in FIELDS and FIELDS[name].quantity and not isinstance(value, str)
     }
     if "particles.density" in entries:
         result["reduced_mass"] = _mass(2 * result["reduced_radius"], entries["particles.density"]) / 2
@@ -208,16 +206,6 @@ def _from_coating(entries: Mapping[str, Any], radius: Any, ratio: Any) -> Any:
 def _shell(radius: Any, thickness: Any) -> Any:
     """Volume of a coating."""
     return 4 * math.pi * thickness * (radius * radius + radius * thickness + thickness * thickness / 3)
-
-
-def _ratios(sizes: Mapping[str, Any], entries: Mapping[str, Any], wall: bool) -> tuple[Any, Any]:
-    """R_2/R_1 and M_2/M_1; None for a wall."""
-    if wall:
-        return None, None
-    radius = partner_radius(entries)
-    if radius is None:
-        return 1.0, 1.0
-    return radius / (2 * sizes["reduced_radius"]), partner_mass(entries) / (2 * sizes["reduced_mass"])
 
 
 def _mass(radius: Any, density: Any) -> Any:

@@ -65,7 +65,7 @@ MUTANTS = {
         "test_reference.py::test_equals_the_reference_in_space",
     ),
     "no range": Mutant(
-        "solvers/scene/schema.py", "if not self.range.holds(value):", "if self.range is None:",
+        "solvers/scene/fields.py", "if self.range.holds(value):", "if self.range is not None:",
         "test_spoilt_scenes.py::test_a_spoilt_entry_is_named",
     ),
     "the farthest name": Mutant(

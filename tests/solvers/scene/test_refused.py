@@ -58,6 +58,10 @@ PARTNER = {"partner.diameter": "320 um", "partner.density": "2 g/cm^3", "partner
         (BASE, {"particles.radius": "0.1 mm"}, "particles.radius", 'together with particles.reduced_radius = "50 um"'),
         (BASE, {"particles.reduced_radius": None}, "particles.reduced_radius", "or particles.radius"),
         (BASE, {"particles.reduced_mass": "1e-320 kg", "liquid.viscosity": "1e20 Pa s"}, "particles.reduced_mass", ""),
+        (
+            BASE, {"particles.reduced_mass": None, "particles.mass": "1e-320 kg", "liquid.viscosity": "1e20 Pa s"},
+            "particles.mass", "1e-320 kg",
+        ),
         (BASE, {"particles.youngs_modulus": "70 GPa"}, "particles.poisson_ratio", "while particles.youngs_modulus"),
         (BASE, {"liquid.glass_transition_pressure": None, "particles.roughness": "0 um"}, "particles.roughness", ""),
         (BASE, {"liquid.viscosty": "2 Pa s"}, "liquid.viscosty", "an unknown name, did you mean liquid.viscosity?"),
@@ -120,7 +124,11 @@ def test_entries_that_do_not_go_together(scene, changes, field, says):
 
 def test_bad_tables():
     """A table that is none, an empty one that needs entries, a missing one, and a name that is no text."""
-    for change, field in (({"liquid": 3}, "liquid"), ({"bridge": {}}, "bridge.surface_tension"), ({"name": 3}, "name")):
+    changes = (
+        ({"liquid": 3}, "liquid"), ({"custom": 3}, "custom"), ({"bridge": {}}, "bridge.surface_tension"),
+        ({"name": 3}, "name"),
+    )  # fmt: skip
+    for change, field in changes:
         with pytest.raises(InputError) as caught:
             Scene.from_dict({**tables(BASE), **change})
         assert caught.value.field == field
