@@ -40,8 +40,8 @@ def collide_by_kernel(
     ledger = any(name in LEDGER for name in request.of)
     jumps = min((DEFINITIONS[name].jumps for name in request.of if name in DEFINITIONS), default=2)
     for first in range(0, len(which), _STRETCH):
-        part = which[first : first + _STRETCH]  # of a range: the indices of all are never in memory
-        rows = np.arange(part.start, part.stop) if isinstance(part, range) else part
+        stretch = which[first : first + _STRETCH]  # of a range: the indices of all are never in memory
+        rows = np.arange(stretch.start, stretch.stop) if isinstance(stretch, range) else stretch
         whole = rows.size == request.size and bool((rows == np.arange(rows.size)).all())
         impacts, sound = impacts_of(request if whole else request.subset(rows))
         terms = np.zeros(impacts.size, OWN_LEDGER) if ledger else None
