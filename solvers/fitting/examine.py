@@ -16,8 +16,9 @@ from ..formatting.markdown import aligned
 from ..scene.held import NAMES
 from ..scene.origin import Recorded
 from ..scene.scene import Scene
+from .data_table import read_data
 from .likelihood import check_energy
-from .measurements import UNKNOWN, Measurements, read_data, rows_of
+from .measurements import UNKNOWN, Measurements, rows_of
 
 RTOL = 1e-8
 _TOLERATED = 0.25  # difference from the scene's restitution at which a row counts as not as observed

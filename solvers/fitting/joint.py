@@ -14,9 +14,10 @@ from ..changes.experiment import free_names
 from ..errors import InputError
 from ..host.arguments import check_mapping, check_names
 from ..scene.scene import Scene
+from .data_table import read_data
 from .free_entries import NOISE, FreeEntries, FreeEntry, Normalisation, free_entries, in_unit
 from .likelihood import Evaluation, Likelihood
-from .measurements import SCATTER, Measurements, read_data, stacked
+from .measurements import SCATTER, Measurements, stacked
 from .scatter import Resolution
 
 _MOST = 3.0  # factor to either side within which noise is looked for

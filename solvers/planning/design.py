@@ -9,9 +9,10 @@ import numpy as np
 from ...generated.automaton import OUTCOMES, STICK
 from ..engines.settings import check_rtol
 from ..errors import InputError
+from ..fitting.data_table import read_data
 from ..fitting.fit import RTOL, fit
 from ..fitting.free_entries import FreeEntries, free_entries
-from ..fitting.measurements import Measurements, read_data
+from ..fitting.measurements import Measurements
 from ..host.arguments import check_function, check_name, check_whole
 from ..host.progress import Estimated, Progress
 from ..model.validity import warn

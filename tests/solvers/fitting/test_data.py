@@ -6,7 +6,8 @@ import numpy as np
 import pandas as pd
 import pytest
 from wetdoublet.solvers import InputError, Scene, fit
-from wetdoublet.solvers.fitting.measurements import ANGLE_SD, SPEED_SD, read_data
+from wetdoublet.solvers.fitting.data_table import read_data
+from wetdoublet.solvers.fitting.measurements import ANGLE_SD, SPEED_SD
 
 SCENE = Scene.load("granulation")
 

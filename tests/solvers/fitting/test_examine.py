@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 from wetdoublet.generated.automaton import OUTCOMES
 from wetdoublet.solvers import Scene, check_data, collide, fit
-from wetdoublet.solvers.fitting.measurements import UNKNOWN, Measurements, read_data
+from wetdoublet.solvers.fitting.data_table import read_data
+from wetdoublet.solvers.fitting.measurements import UNKNOWN, Measurements
 
 from tests.helpers.command import run
 from tests.helpers.synthetic import drawn

@@ -6,8 +6,9 @@ import numpy as np
 import pandas as pd
 import pytest
 from wetdoublet.solvers import InputError, Scene, collide, fit, tracks
+from wetdoublet.solvers.fitting.data_table import read_data
 from wetdoublet.solvers.fitting.flights import FLIGHT
-from wetdoublet.solvers.fitting.measurements import read_data, rows_of
+from wetdoublet.solvers.fitting.measurements import rows_of
 
 from tests.helpers.films import filmed
 

@@ -8,7 +8,7 @@ import numpy as np
 import pandas as pd
 import pytest
 from wetdoublet.solvers import InputError, Scene, collide, tracks
-from wetdoublet.solvers.fitting.measurements import read_data
+from wetdoublet.solvers.fitting.data_table import read_data
 
 from tests.helpers.command import run
 from tests.helpers.films import filmed

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 from wetdoublet.solvers import Design, Scene, design
-from wetdoublet.solvers.fitting.measurements import read_data
+from wetdoublet.solvers.fitting.data_table import read_data
 from wetdoublet.solvers.planning.information import information
 from wetdoublet.solvers.planning.search import Choice, Criterion, search
 
