@@ -72,7 +72,7 @@ law("bridge", "halved", source="nobody", force=cos(phi), rupture_distance=Ration
 RESULT = [  # its row, and its expression
     ("solvers/results.py", "_COLLISION = (\n", '{}    Definition("lost_speed", "1", "", derivative="casadi"),\n'),
     (
-        "solvers/sensitivity/by_casadi.py",
+        "solvers/sensitivity/trajectory.py",
         '    if "strings" in energies:\n',
         '    named["lost_speed"] = 1 - named["restitution"]\n{}',
     ),

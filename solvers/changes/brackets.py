@@ -168,19 +168,3 @@ def _divisions(brackets: Brackets, parts: np.ndarray, logarithmic: bool) -> tupl
     fraction, low, high = number / parts[owner], brackets.low[owner], brackets.high[owner]
     place: np.ndarray = low * (high / low) ** fraction if logarithmic else low + (high - low) * fraction
     return owner, place
-
-
-def bisect(
-    holds: Callable[[np.ndarray], np.ndarray], low: np.ndarray, high: np.ndarray, width: float
-) -> tuple[np.ndarray, np.ndarray]:
-    """Intervals no wider than `width` in which a property ends that holds at `low` and not at `high`.
-
-    Arguments:
-        holds: places, one for each interval -> whether it has the property there.
-    """
-    halvings = int(np.ceil(np.log2(max(np.max(np.abs(high - low), initial=0.0) / width, 1.0))))
-    for _ in range(min(halvings, _ROUNDS)):
-        middle = (low + high) / 2
-        inside = holds(middle)
-        low, high = np.where(inside, middle, low), np.where(inside, high, middle)
-    return low, high

@@ -11,13 +11,12 @@ where the gradients do not grow as they should, the change is located again with
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from functools import partial
 
 import numpy as np
 
 from ...generated.automaton import LAST_ANSWER
 from ..engines.settings import KERNEL_STEPS
-from .brackets import Brackets, Labels, bisect
+from .brackets import Brackets, Labels, enclose
 from .experiment import Experiment
 
 _SHORT = 1000  # steps of a trajectory with derivatives, where an approximation replaces what takes longer
@@ -201,13 +200,13 @@ def slopes_by_differences(
     possible = [k for k, both in ends.items() if None not in both]
     moved = [end for k in possible for end in ends[k] if end is not None]
     if moved:
-        places = _again(moved, lines, changes, step, labels or Experiment.outcomes).reshape(-1, 2, changes.size)
+        places = places_again(moved, lines, changes, step, labels or Experiment.outcomes).reshape(-1, 2, changes.size)
         of_changes = steps[possible] if steps.ndim == 1 else steps[possible][:, lines.row[changes.line]].T
         by_free[:, possible] = (places[:, 0] - places[:, 1]).T / (2 * of_changes)
     return by_free
 
 
-def _again(
+def places_again(
     experiments: Sequence[Experiment], lines: Lines, changes: Brackets, step: float, labels: ExperimentLabels
 ) -> np.ndarray:
     """Places of changes near where they were, in each experiment in turn; NaN where they are not found."""
@@ -225,9 +224,7 @@ def _again(
         low, high = (np.clip(y[rest] + side * reach * step, *limits) for side in (-1, 1))
         same = (label(rest, low) == before[rest]) & (label(rest, high) == after[rest])
         which = rest[same]
-        if which.size:
-            is_before = partial(lambda which, at: label(which, at) == before[which], which)
-            ends = bisect(is_before, low[same], high[same], _ENCLOSED * step)
-            places[which] = (ends[0] + ends[1]) / 2
+        wide = Brackets(which, low[same], high[same], np.ones(which.size, bool), np.zeros(which.size, bool))
+        places[which] = enclose(lambda which, at: label(which, at) == before[which], wide, _ENCLOSED * step).place
         rest = rest[~same]
     return places

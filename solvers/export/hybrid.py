@@ -24,8 +24,8 @@ from ..model.phases import Flow, expressions
 from ..results import DEFINITIONS
 from ..scene.held import held_quantity
 from ..scene.scene import Scene
-from ..sensitivity.by_casadi import Course, course_of
 from ..sensitivity.parameters import SCALES, kind_of, parameter_map, references
+from ..sensitivity.trajectory import Course, course_of
 
 _ENGINE = "rosenbrock"
 _OTHERS = ("right_hand_side", "resting_rates", "energy_rates", "jacobian", "event_rates", "start")  # by phase, or made

@@ -14,9 +14,9 @@ from ...generated.automaton import OUTCOMES
 from ..boundaries.boundary import boundary
 from ..boundaries.changes import Change
 from ..boundaries.result import Boundaries
-from ..changes.brackets import Brackets, enclose, locate
+from ..changes.brackets import Brackets, enclose
 from ..changes.experiment import Experiment, Rows
-from ..changes.slopes import Lines, normals, outcomes_along, slopes
+from ..changes.slopes import Lines, normals, outcomes_along, places_again, slopes
 from ..engines.settings import RTOL, check_rtol
 from ..errors import ComputationError, InputError
 from ..formatting.markdown import numbers_aligned
@@ -273,15 +273,10 @@ def _by_angle(experiment: Experiment, speed: float, angle: float, change: Change
     Raises:
         ComputationError: it is not there.
     """
-    angles = np.array([[angle - _STEP, 0.0], [angle + _STEP, 0.0]])
-    row, ends = np.zeros(2, int), np.full(2, np.expm1(_REACH))
-    beside = outcomes_along(experiment, Lines(row, np.full((2, 2), speed), angles, -ends, ends, relative=False))
-    grid = np.tile(np.expm1(_REACH * np.linspace(-1, 1, 6)), (2, 1))
-    changes = locate(beside, grid, _NARROW, unknown=-1)
-    same = [OUTCOMES.index(change.before), OUTCOMES.index(change.after)]
-    alike = (np.column_stack([changes.before, changes.after]) == same).all(axis=1)
-    places = [changes.place[alike & (changes.line == k)] for k in range(2)]
-    if not all(place.size for place in places):
+    row, end = np.zeros(2, int), np.full(2, np.expm1(_REACH))
+    aside = Lines(row, np.full((2, 2), speed), np.array([[angle - _STEP, 0.0], [angle + _STEP, 0.0]]), -end, end, False)
+    outcomes = [np.full(2, OUTCOMES.index(name)) for name in (change.before, change.after)]
+    places = places_again([experiment], aside, Brackets(np.arange(2), row, row, *outcomes), _STEP, Experiment.outcomes)
+    if not np.isfinite(places).all():
         raise ComputationError("it is not found at angles beside")
-    low, high = (math.log1p(min(place.tolist(), key=abs)) for place in places)
-    return (high - low) / (2 * _STEP)
+    return float(np.diff(np.log1p(places))[0]) / (2 * _STEP)

@@ -1,41 +1,36 @@
-"""Derivatives of a collision by CasADi: the phases that the kernel has found, as one differentiable expression.
+"""Derivatives of a collision by CasADi: of the expression in `trajectory`, which replays what the kernel has found.
 
-    groups p -> start -> flow -> landing -> jump -> flow -> landing -> ... -> outputs
-
-* `start`, the right-hand sides, the events' guards, the rebounds and `outputs` are the emitted functions of the model.
-* A *flow* is CVODES or Rosenbrock over the duration of a phase, a constant (`engines/casadi/integrators.py`).
-* A *landing* is one Taylor step onto the surface of the event that ends the phase. At the durations of the replay it is
-  almost zero, but its derivative is the saltation.
-* CasADi differentiates the whole: forward, one direction in the groups after another, or adjoint, a result at a time.
+CasADi differentiates the whole: forward, one direction in the groups after another, or adjoint, a result at a time.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass, replace
-from functools import cached_property, partial
+from collections.abc import Callable
+from dataclasses import replace
+from functools import partial
 
 import numpy as np
-from casadi import DM, MX, Function, densify, fmin, jtimes, vertcat
+from casadi import DM, MX, Function, densify, jtimes
 
 from ..collision.by_kernel import sequence_of
-from ..engines.casadi.integrators import IntegrationFailed, Tolerance, failures, landing, plain, quiet
-from ..engines.casadi.replay import Replay, Stopped, replayed
-from ..engines.casadi.sequence import EventSequence, PhaseRun
+from ..engines.casadi.integrators import IntegrationFailed, failures, quiet
+from ..engines.casadi.replay import Stopped, replayed
+from ..engines.casadi.sequence import EventSequence
 from ..errors import ComputationError
 from ..host.thread_caches import own_cache
 from ..model.key import ModelKey
-from ..model.model import Model, load, select_model
-from ..model.phases import Flow, extra_units
-from ..model.rebound import reset, rubs
+from ..model.model import load, select_model
 from ..results import DEFINITIONS
-from ..scene.contact import GAPS, contact_word
 from .boundary_distance import SADDLE, check_grip
 from .parameters import SCALES, parameter_map
-from .problem import NEAR, Problem, Query, Slopes
+from .problem import NEAR, SHARPEST, Problem, Query, Slopes
+from .trajectory import course_of, quadratures, trajectory
 
+# Steps of Rosenbrock are controlled for the states alone. Where the slope of a force grows without bound as its rate
+# vanishes, as that of a power law, derivatives are far less accurate than values: they are computed again at tolerances
+# finer by `_FINER` until two differ by no more than `_RESOLVED` of the largest elasticity. CVODES controls both.
+_FINER, _RESOLVED, _TINY = 1e-2, 1e-5, np.finfo(float).tiny
 _SHARPEST_CVODES = 3e-12  # smallest tolerance of CVODES with sensitivities; below it some integrations fail
-STATE = "state."  # begins the name of a component of the last state, among results
 # Largest landing relative to its phase, and that wanted of a trajectory that amplifies errors. The error of a
 # derivative is its square times the amplification, near a saddle one over the distance. Beyond `_LOST` no correction
 # of durations helps.
@@ -45,155 +40,7 @@ _LONG, _ROUNDED = 1e-5, 1e-13
 _TRIES = 8
 
 
-# ---- the expression
-
-
-@dataclass(frozen=True)
-class Course:
-    """A model and the legs of a collision: the key of its cached expression.
-
-    A leg is a phase of the record, without its times and words, or its part up to a kink; its duration is 1, or 0 where
-    the event happens as the last leg ends.
-    """
-
-    choice: ModelKey
-    extras: tuple[str, ...]  # quadratures
-    legs: tuple[PhaseRun, ...]
-    edge_watched: bool
-
-    @cached_property
-    def model(self) -> Model:
-        return load(self.choice)
-
-    @property
-    def durations(self) -> int:
-        """How many legs are integrated."""
-        return sum(leg.duration > 0 for leg in self.legs)
-
-    def reset(self, leg: PhaseRun) -> Function:
-        """What happens at the end of a leg (`model.rebound.reset`)."""
-        return reset(self.choice, leg.criterion, leg.holds, leg.own)
-
-    def influences(self, groups: Mapping[str, float]) -> np.ndarray:
-        """Mask of the groups that influence the course: not those of rebound criteria that it does not meet."""
-        landed = {leg.event for leg in self.legs}
-        met = GAPS[contact_word(groups)] if "contact" in landed else None
-        absent = {
-            "glass_number": "glass" not in landed,
-            **{gap: gap != met for gap in GAPS.values()},
-            "dry_restitution": not any(leg.rebounds for leg in self.legs),
-            **dict.fromkeys(
-                ("friction", "contact_tangential_restitution"),
-                not any(rubs(self.model, leg.criterion) for leg in self.legs),
-            ),
-        }
-        return np.array([not absent.get(name, False) for name in self.model.groups])
-
-
-def course_of(path: EventSequence, replay: Replay, choice: ModelKey) -> Course:
-    """The course of a replay of a collision; phases are its pieces, which kinks of a law's force divide."""
-    model, pieces, legs = load(choice), iter(replay.pieces), []
-    for step in path.steps:
-        last = replace(step, duration=0.0, event=None, kinds=step.kinds[:1] if step.rebounds else ())
-        if step.duration > 0:
-            piece = next(pieces)
-            while piece.event in model.kinks:
-                legs.append(PhaseRun(piece.phase, 1.0, piece.event, ()))
-                piece = next(pieces)
-            last = replace(last, phase=piece.phase, duration=1.0, event=piece.event)
-        legs.append(last)
-    return Course(choice, replay.extras, tuple(legs), path.edge_watched)
-
-
-@dataclass
-class End:
-    """Last state of a course and what it sums up, as expressions in the groups and durations; `y` has the extras."""
-
-    start: MX
-    y: MX
-    time: MX
-    smallest_gap: MX
-    lost: MX  # by rebounds, by their friction, to declared events
-    shifts: list[MX]  # by the landings, relative to the durations
-
-
-def follow(course: Course, p: MX, durations: MX, plugin: str, tolerance: Tolerance) -> End:
-    """A course from initial contact on."""
-    model, k = course.model, 0
-    size = len(model.state)
-    start = model.function("start")(DM.zeros(size), p)
-    y = vertcat(start, DM.ones(len(course.extras)) * tolerance.offset)
-    at = End(start, y, MX(0), start[0], MX.zeros(3), [])
-    for leg in course.legs:
-        if leg.duration > 0:
-            flow = Flow(course.choice, leg.phase.region, course.extras, course.edge_watched)
-            at.y = plain(flow, plugin, tolerance).function(x0=at.y, p=vertcat(p, durations[k]))["xf"]
-            at.time += durations[k]
-            shift = MX(0)
-            if leg.event is not None:
-                at.y, shift, _ = landing(flow, leg.event)(at.y, vertcat(p, leg.phase.motion))
-            at.time += shift
-            at.shifts.append(shift / durations[k])
-            at.smallest_gap = fmin(at.smallest_gap, at.y[0])
-            k += 1
-        if leg.rebounds or leg.holds or leg.own:
-            after, *lost, _ = course.reset(leg)(at.y[:size], p)
-            at.lost += vertcat(*lost)
-            at.y = vertcat(after, at.y[size:])
-    return at
-
-
-@own_cache(256)
-def trajectory(course: Course, of: tuple[str, ...], plugin: str, tolerance: Tolerance) -> Function:
-    """A course as a function: (groups, durations) -> results `of`, and shifts of the durations by the landings."""
-    p, durations = MX.sym("groups", len(course.model.groups)), MX.sym("durations", course.durations)
-    end = follow(course, p, durations, plugin, tolerance)
-    shifts = vertcat(*end.shifts) if end.shifts else MX(0, 1)
-    named = results(course, p, end, tolerance)
-    column = vertcat(*(named.get(name, MX(0)) for name in of))
-    return Function("trajectory", [p, durations], [column, shifts])
-
-
-def results(course: Course, p: MX, end: End, tolerance: Tolerance) -> dict[str, MX]:
-    """Results by their names in `DEFINITIONS`, and the last state by `STATE` and the names of its components."""
-    model = course.model
-    size = len(model.state)
-    y = end.y[:size]
-    outputs, before, after = (
-        model.function("outputs")(y, p),
-        *(model.function("energies")(s, p) for s in (end.start, y)),
-    )
-    named = dict(zip(model.names("outputs"), (outputs[k] for k in range(outputs.numel())), strict=True))
-    energies = {name: (before[k], after[k]) for k, name in enumerate(model.names("energies"))}
-    named |= {"contact_time": end.time, "smallest_gap": end.smallest_gap}
-    named |= {"energy.dry_contact": end.lost[0], "energy.own_events": end.lost[2]}
-    named["energy.initial"], named["energy.final"] = energies["kinetic"]
-    if "strings" in energies:
-        named["energy.strings"] = energies["strings"][1] - energies["strings"][0]
-    if model.oblique:
-        first, last = (model.function("surface_slip")(state, p) for state in (end.start, y))
-        named["slip_restitution"] = last / first
-    if "rotation" in model.state:
-        named["rotation"] = y[list(model.state).index("rotation")]
-    for k, (name, unit) in enumerate(zip(course.extras, extra_units(model, course.extras, p), strict=True)):
-        named[name if name == "rotation" else f"energy.{name}"] = unit * (end.y[size + k] - tolerance.offset)
-    if model.own_terms:
-        before, after = energies.get("own_energy", (MX(0), MX(0)))
-        named["energy.own_terms"] = after - before + named.pop("energy.own_work", MX(0))
-    named["energy.dry_friction"] = named.get("energy.dry_friction", MX(0)) + end.lost[1]
-    return named | {STATE + name: y[k] for k, name in enumerate(model.state)}
-
-
-def quadratures(model: Model, of: Iterable[str]) -> tuple[str, ...]:
-    """Names of the quadratures that results need: the rotation where it is no state, and terms of the ledger."""
-    turns = model.has("turning_rate") and not model.strings
-    has = {*model.names("energy_rates"), *(("rotation",) if turns else ())}
-    rows = (DEFINITIONS[name] for name in of if name in DEFINITIONS)
-    wanted = ["own_work" if row.term == "own_terms" else row.term for row in rows if row.integral]
-    return tuple(name for name in wanted if name in has)
-
-
-# ---- its derivatives
+# ---- of an expression
 
 
 @own_cache(256)
@@ -313,8 +160,38 @@ def differentiated(
         p, dp: groups, and directions (groups, n) along which derivatives are needed.
 
     Raises:
-        ComputationError: the replay does not agree with the record, or the trajectory cannot be differentiated.
+        ComputationError: the replay does not agree with the record, the trajectory cannot be differentiated, or its
+            derivatives are not resolved.
     """
+    z, dz, along = _at_tolerance(record, choice, query, plugin, parting, p, dp)
+    if plugin != "rosenbrock" or choice.package is None:
+        return z, dz, along
+    while True:
+        coarse, rtol = dz @ along, query.rtol
+        query = replace(query, rtol=max(rtol * _FINER, SHARPEST))
+        z, dz, along = _at_tolerance(record, choice, query, plugin, parting, p, dp)
+        fine = dz @ along
+        error = np.max(np.abs(fine - coarse) / (np.abs(fine).max(axis=1, keepdims=True) + _TINY), initial=0.0)
+        if error <= _RESOLVED:
+            return z, dz, along
+        if query.rtol <= SHARPEST:
+            raise ComputationError(
+                f"rosenbrock does not resolve the derivatives: between tolerances {rtol:.1g} and {query.rtol:.1g} they "
+                f"change by {error:.1g} of the largest",
+                advice="--engine cvodes",
+            )
+
+
+def _at_tolerance(
+    record: Callable[[float], EventSequence],
+    choice: ModelKey,
+    query: Query,
+    plugin: str,
+    parting: float,
+    p: np.ndarray,
+    dp: np.ndarray,
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """`differentiated` at the tolerance that the query has."""
     sharp, near = query.sharpened(parting), query.near
     if plugin == "cvodes":
         if query.amplified and near is not None and near.boundary == SADDLE:

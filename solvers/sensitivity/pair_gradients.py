@@ -31,10 +31,11 @@ from ..space.collide_pair import NUMBERS, VECTORS, check_scene, refusals
 from ..space.pairs import AXES, Pairs, without_spins
 from ..space.pairs import checked as checked_pairs
 from .boundary_distance import FINE, Course, Courses, checked, course, courses_of
-from .by_casadi import STATE, differentiated
+from .by_casadi import differentiated
 from .pair_maps import RESULTS, pair_maps
 from .parameters import kind_of, parameter_map, references
 from .problem import RECORDED, Query
+from .trajectory import STATE
 
 if TYPE_CHECKING:
     import xarray

@@ -7,7 +7,7 @@ from pathlib import Path as FilePath
 
 import numpy as np
 
-from ..engines.settings import check_engine, check_rtol
+from ..engines.settings import CASADI_ENGINES, check_engine, check_rtol
 from ..errors import ComputationError, InputError
 from ..host.arguments import check_name
 from ..results import DEFINITIONS, SPENT, check_differentiated
@@ -50,9 +50,9 @@ def sensitivities(
         stokes, speed, angle, relative_speed: the impact, as for `collide`.
         method: "forward" has a cost proportional to the number of parameters, "adjoint" to that of results.
         rtol: relative tolerance, 1e-13..1e-3.
-        engine: "cvodes", "rosenbrock", or "taylor" (forward; what the kernel does not know is
-            rosenbrock's); None: taylor where it can answer, else rosenbrock, which is more accurate than
-            cvodes.
+        engine: "cvodes", "rosenbrock", or "taylor" (forward); None: taylor where it can answer. What the kernel
+            does not know is rosenbrock's, or cvodes' with a law of a liquid or of one's own: its force may have no
+            bounded slope where its rate vanishes, and cvodes controls the errors of derivatives as well.
         hold: quantity held when another parameter varies, the impact's "speed", "stokes" number or "relative_speed";
             None for the relative speed where the scene gives that, else the speed.
 
@@ -120,15 +120,18 @@ def derivatives(problem: Problem, of: tuple[str, ...], method: str, rtol: float,
     odd = np.array([DEFINITIONS[name].odd for name in todo], dtype=bool)
     sideways = np.isin(names, SIDEWAYS)
     tilts = bool(todo and sideways.any() and odd.any()) and not n.oblique
-    plugin = engine or "rosenbrock"
-    if engine is None and method == "forward" and by_kernel.offers(scene, of, {n.oblique, n.oblique or tilts}):
-        plugin = "taylor"
+    # a package's forces may have slopes that only CVODES resolves at any tolerance
+    engines: tuple[str, ...] = ("rosenbrock",) if scene.package is None else ("cvodes", "rosenbrock")
+    if engine in CASADI_ENGINES:
+        engines = (str(engine),)
+    elif engine or (method == "forward" and by_kernel.offers(scene, of, {n.oblique, n.oblique or tilts})):
+        engines = ("taylor", *engines)
     values, slopes = np.full(len(of), np.nan), np.full((len(of), len(names)), np.nan)
     query = Query(todo, method, rtol, near)
     if todo:
-        (value, first), plugin = _slopes(problem, query, plugin)
+        (value, first), engines = _slopes(problem, query, engines)
         if tilts:
-            (_, tilted), plugin = _slopes(problem.tilted(), query, plugin)
+            (_, tilted), engines = _slopes(problem.tilted(), query, engines)
             first = np.where(odd[:, None] & sideways, tilted, first)
     for k, terms in enumerate(map(_terms, of)):
         if {*terms} <= {*todo}:
@@ -136,16 +139,23 @@ def derivatives(problem: Problem, of: tuple[str, ...], method: str, rtol: float,
             values[k], slopes[k] = weights @ value + 0.0, weights @ first + 0.0
         elif of[k] == "restitution":  # of a stick
             values[k], slopes[k] = 0.0, 0.0
-    return Derivatives(problem.path.outcome, plugin, near, values, slopes)
+    return Derivatives(problem.path.outcome, engines[0], near, values, slopes)
 
 
-def _slopes(problem: Problem, query: Query, engine: str) -> tuple[Slopes, str]:
-    """Derivatives by the parameters, and the engine that computed them: Rosenbrock where the kernel cannot."""
-    slopes = by_kernel.slopes(problem, query) if engine == "taylor" else None
-    if slopes is None:
-        engine = "rosenbrock" if engine == "taylor" else engine
-        slopes = by_casadi.slopes(problem, query, engine)
-    return slopes, engine
+def _slopes(problem: Problem, query: Query, engines: tuple[str, ...]) -> tuple[Slopes, tuple[str, ...]]:
+    """Derivatives by the first engine that has them, and the engines from that one on."""
+    for k, engine in enumerate(engines):
+        try:
+            slopes = (
+                by_kernel.slopes(problem, query) if engine == "taylor" else by_casadi.slopes(problem, query, engine)
+            )
+        except ComputationError:
+            if engine != "cvodes" or engine is engines[-1]:
+                raise
+            continue
+        if slopes is not None:
+            return slopes, engines[k:]
+    raise AssertionError("CasADi's engines answer or raise")
 
 
 def _terms(name: str) -> dict[str, float]:

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import re
 import warnings
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Mapping
 from pathlib import Path as FilePath
 from typing import Any
 
@@ -15,20 +14,18 @@ from scipy.optimize import brentq
 from ...generated.automaton import OUTCOMES, STICK
 from ..changes.brackets import Brackets, enclose
 from ..collision.collide import collide
-from ..collision.text import name_of
 from ..engines.settings import check_rtol
 from ..errors import ComputationError, InputError, ModelWarning, WetDoubletError
-from ..formatting.markdown import numbers_aligned
 from ..host.arguments import check_name
 from ..many.collide_many import collide_many
 from ..results import DEFINITIONS, DIFFERENTIATED, INTEGRATED, OF_IMPACT, REVERSALS
 from ..scene.fields import ANY, Field
 from ..scene.held import held_quantity
-from ..scene.origin import origin
 from ..scene.scene import Scene
 from ..scene.schema import MEETING, SPEEDS
 from .parameters import check_wrt
 from .sensitivities import sensitivities
+from .solutions import Jump, Question, Solution, Solutions
 
 TARGETS = tuple(
     name
@@ -131,53 +128,8 @@ def _target(target: Mapping[str, Any]) -> tuple[str, float]:
     return name, value
 
 
-@dataclass(frozen=True)
-class Solution:
-    """One value of the entry, SI.
-
-    Attributes:
-        outcome: of the collision there.
-        gradient: derivatives of the value by parameter, and by the result's target; empty where there are none.
-        reason: why there are none.
-    """
-
-    value: float
-    outcome: str
-    gradient: Mapping[str, float] = field(default_factory=dict)
-    reason: str = ""
-
-
-@dataclass(frozen=True)
-class Jump:
-    """Value of the entry where the result jumps over its target; outcomes, with criteria, and results beside it."""
-
-    value: float
-    before: str
-    below: float
-    after: str
-    above: float
-
-    def __str__(self) -> str:
-        return f"{self.value:.10g}: {self.before} {self.below:.4g}, {self.after} {self.above:.4g}"
-
-
-@dataclass(frozen=True)
-class Search:
-    """Where, with `free` from `low` to `high`, has the result `of` this `value`? SI; places are parts of the range.
-
-    Attributes:
-        hold: what the impact keeps.
-        rtol: relative tolerance of the collisions.
-    """
-
-    scene: Scene
-    free: str
-    low: float
-    high: float
-    of: str
-    value: float
-    hold: str
-    rtol: float
+class Search(Question):
+    """The samples, brackets and roots of a question; places are parts of the range."""
 
     def at(self, place: Any) -> Any:
         """Values of the entry, SI."""
@@ -349,62 +301,6 @@ class Search:
         same = SPEEDS if self.free in SPEEDS else (self.free,)
         gradient = {name: -slope / by_free for name, slope in slopes.items() if name not in same and slope is not None}
         return Solution(root, collision.outcome, gradient | {self.of: 1 / by_free})
-
-
-class Solutions(list[float]):
-    """The values of the entry at which the result has its target, SI, ascending.
-
-    Attributes:
-        found: each with outcome and derivatives.
-        jumps: where the target is passed and not taken.
-        throughout: parts of the range in which the result has its target all along.
-        attained: least and greatest result of the samples of the range; None if it is not defined anywhere.
-        remarks: what was not seen, a sentence each.
-    """
-
-    def __init__(
-        self, asked: Search, roots: Sequence[Solution], jumps: Sequence[Jump],
-        throughout: Sequence[tuple[float, float]], attained: tuple[float, float] | None, remarks: Sequence[str],
-    ) -> None:  # fmt: skip
-        super().__init__(root.value for root in roots)
-        self.asked, self.found, self.jumps, self.throughout = asked, tuple(roots), tuple(jumps), tuple(throughout)
-        self.attained, self.remarks = attained, tuple(remarks)
-
-    def to_dict(self) -> dict[str, Any]:
-        """The JSON object of `wetdoublet solve --json`."""
-        asked = self.asked
-        return {
-            "solutions": list(self),
-            "outcomes": [root.outcome for root in self.found],
-            "gradients": [dict(root.gradient) for root in self.found],
-            "jumps": [vars(jump) for jump in self.jumps],
-            "throughout": self.throughout,
-            "attained": self.attained,
-            "free": asked.free,
-            "within": [asked.low, asked.high],
-            "of": {asked.of: asked.value},
-            "units": {asked.free: asked.scene.fields[asked.free].unit or "1", asked.of: DEFINITIONS[asked.of].unit},
-            **origin(asked.scene),
-        }
-
-    def __str__(self) -> str:
-        asked, result = self.asked, DEFINITIONS[self.asked.of]
-        unit, of_result = asked.scene.fields[asked.free].unit or "", result.unit.removeprefix("1")
-        span = f"{asked.free} from {asked.low:.6g} to {asked.high:.6g} {unit}".rstrip()
-        lines = [f"{name_of(asked.scene)}: {result.label} = {asked.value:.6g} {of_result}".rstrip() + f", {span}"]
-        lines += [f"  {root.value:.10g} {unit}".rstrip() + f"  {root.outcome}" for root in self.found]
-        lines += [f"  all along from {low:.6g} to {high:.6g} {unit}".rstrip() for low, high in self.throughout]
-        if len(lines) == 1:
-            others = self.attained and "; collisions there have {:.6g} to {:.6g}".format(*self.attained)
-            lines.append(f"  none: no {span} has it{others or ''}")
-        lines += [f"  jumped over at {jump}" for jump in self.jumps]
-        lines += [f"  no derivatives at {root.value:.6g}: {root.reason}" for root in self.found if root.reason]
-        lines += [f"  {text}" for text in self.remarks]
-        names = dict.fromkeys(name for root in self.found for name, slope in root.gradient.items() if slope)
-        rows = [[name, *(f"{root.gradient.get(name, float('nan')):.6g}" for root in self.found)] for name in names]
-        return "\n".join([*lines, *(["", f"d({asked.free})/dp, SI", *numbers_aligned(rows)] if rows else [])])
-
-    __repr__ = __str__  # what a notebook shows
 
 
 def _runs(at_value: np.ndarray, regime: np.ndarray) -> list[tuple[int, int]]:

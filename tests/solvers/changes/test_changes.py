@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 from wetdoublet.solvers import Scene, boundary, boundary_sensitivities, collide_many
-from wetdoublet.solvers.changes.brackets import Brackets, bisect, enclose, locate
+from wetdoublet.solvers.changes.brackets import Brackets, enclose, locate
 from wetdoublet.solvers.changes.experiment import Experiment, Rows
 from wetdoublet.solvers.changes.slopes import Lines, outcomes_along, slopes, slopes_by_differences
 
@@ -81,13 +81,6 @@ def test_chatter_is_not_separated() -> None:
     edges = np.linspace(0.1, 0.9, 200)[None]
     changes = locate(steps(edges), np.array([[0.0, 1.0]]), 1e-6, most=10)
     assert 5 <= changes.size <= 20
-
-
-def test_a_property_that_ends_is_bisected() -> None:
-    """All intervals at once, to the width that is asked."""
-    edges = np.array([0.1, 0.7])
-    low, high = bisect(lambda place: place < edges, np.zeros(2), np.ones(2), 1e-8)
-    assert ((low <= edges) & (edges <= high) & (high - low <= 1e-8)).all()
 
 
 def rows(scene: Scene, viscosities: list[float], values: list[float]) -> Experiment:

@@ -14,7 +14,8 @@ from wetdoublet.solvers.engines.casadi.integrators import IntegrationFailed
 from wetdoublet.solvers.engines.casadi.replay import replayed
 from wetdoublet.solvers.model.dimensionless import nondimensionalise
 from wetdoublet.solvers.model.model import load, select_model
-from wetdoublet.solvers.sensitivity.by_casadi import course_of, derivatives, evaluate, trajectory
+from wetdoublet.solvers.sensitivity.by_casadi import derivatives, evaluate
+from wetdoublet.solvers.sensitivity.trajectory import course_of, trajectory
 
 from ...helpers.sensitive import CASES, DRY
 
