@@ -26,9 +26,9 @@ from .parameters import SCALES, parameter_map
 from .problem import NEAR, SHARPEST, Problem, Query, Slopes
 from .trajectory import course_of, quadratures, trajectory
 
-# Steps of Rosenbrock are controlled for the states alone. Where the slope of a force grows without bound as its rate
-# vanishes, as that of a power law, derivatives are far less accurate than values: they are computed again at tolerances
-# finer by `_FINER` until two differ by no more than `_RESOLVED` of the largest elasticity. CVODES controls both.
+# Steps of Rosenbrock are controlled for the states alone, and with a power law its derivatives are far less accurate
+# than its values: they are computed again at tolerances finer by `_FINER` until two differ by no more than `_RESOLVED`
+# of the largest elasticity. CVODES controls both.
 _FINER, _RESOLVED, _TINY = 1e-2, 1e-5, np.finfo(float).tiny
 _SHARPEST_CVODES = 3e-12  # smallest tolerance of CVODES with sensitivities; below it some integrations fail
 # Largest landing relative to its phase, and that wanted of a trajectory that amplifies errors. The error of a
