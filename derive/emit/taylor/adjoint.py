@@ -13,7 +13,8 @@ from ...physics.forces import FILM, SHEAR
 from ...physics.law import slot_calls
 from ...vocabulary.quantities import normal_velocity
 from ..casadi.printer import EmissionError
-from .c_text import Text, split_flags
+from .c_text import Text
+from .constants import split_flags
 from .law_slopes import UNUSED
 from .layout import comment, documented, struct
 from .linear_flow import LinearFlow

@@ -174,7 +174,7 @@ def own_kind(event: Event) -> str:
 def _own_effect(event: Event) -> list[str]:
     """C statements of the effect of a user's event (runtime/transitions.h)."""
     ending = {
-        "go on": "goes_on(l, f, lane);",
+        "go on": "goes_on(q, l, f, lane);",
         "part": "finish(q, l, f, lane, DECIDED, LANE(l->reversal, lane) >= 0 ? BOUNCE : ROTATE, 0);",
         "cut off": "finish(q, l, f, lane, DECIDED, STICK, 0);",
     }[event.actions[-1]]

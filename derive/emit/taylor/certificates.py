@@ -13,10 +13,12 @@ from ...physics.law import Definition, needed, slot_calls
 from ...physics.scaling import DISTANCE
 from ...physics.slots import places
 from ...vocabulary.quantities import gap, stokes
-from .c_text import Constants, Recurrences, Text
+from .c_text import Text
+from .constants import Constants
 from .law_header import moves
 from .layout import comment, function, struct
 from .program import Program
+from .recurrences import Recurrences
 
 
 def margins(model: Model, constants: Constants, prepared: Mapping[tuple[str, str], str]) -> list[str]:

@@ -6,7 +6,7 @@ from ...equations.model import Model
 from ...physics.forces import FILM
 from ...physics.law import slot_calls
 from ...vocabulary.quantities import normal_velocity
-from .c_text import Constants
+from .constants import Constants
 from .layout import comment, compiled_if, documented, function
 from .program import Call
 

@@ -4,10 +4,11 @@ from ...equations.automaton import CLOSING, COMPONENTS, EVENTS, OPENING, Event
 from ...equations.events import SERIES
 from ...equations.model import Model
 from ..casadi.printer import EmissionError
-from .c_text import Constants, Recurrences
+from .constants import Constants
 from .layout import comment, compiled_if, documented, function, struct
 from .ledger import Valued
 from .program import Program
+from .recurrences import Recurrences
 
 # Series of the kernel and their values at the states `y`; then the series of resting contact with friction
 _STATES = ("gap", "normal_velocity", "rotation", "orbital_momentum", "spin")

@@ -15,15 +15,16 @@ from ...physics.scaling import DISTANCE
 from ...user.own_events import OwnEvent
 from ...vocabulary.quantities import VOCABULARY, normal, normal_velocity
 from ..provenance import Own, describe, header, model_digest
-from .c_text import Constants, Recurrences
 from .certificates import margins, slow_manifold_functions
 from .closed_forms import WORKS, attracting, edge_function, momentum_functions, work_function
+from .constants import Constants
 from .groups_from_si import scale_function
 from .guards import series_of_guards
 from .layout import comment, compiled_if, documented, function, struct
 from .ledger import BOOKED, Ledger
 from .own_events import own_event_functions
 from .program import Program
+from .recurrences import Recurrences
 from .resting import FLAGS as RUBBING
 from .resting import QUADRATURES, Resting
 

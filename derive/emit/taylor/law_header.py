@@ -11,10 +11,12 @@ import sympy as sp
 from ...equations.model import GROUPS
 from ...physics.law import Definition, Law, LawFunction, needed
 from ..provenance import header, law_digest
-from .c_text import Constants, Recurrences, Text
+from .c_text import Text
+from .constants import Constants
 from .layout import comment, documented, function, struct
 from .loops import Loops
 from .program import Program, cheapest
+from .recurrences import Recurrences
 
 COMPARED = {("glass", "pressure")}  # slot functions that an event compares with a limit
 LIMIT = sp.Symbol("limit", positive=True)

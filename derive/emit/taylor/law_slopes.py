@@ -9,12 +9,14 @@ import sympy as sp
 from ...physics.law import Law, LawFunction, needed
 from ...physics.slots import place_of
 from ..provenance import header, law_digest
-from .c_text import Constants, Recurrences, Text
+from .c_text import Text
 from .chain_rule import Chain
+from .constants import Constants
 from .law_header import COMPARED, LIMIT, moves
 from .layout import comment, documented, each_term, function, struct
 from .loops import Loops
 from .program import Program, cheapest
+from .recurrences import Recurrences
 
 UNUSED = "unused_"  # prefix of an argument that a law ignores
 

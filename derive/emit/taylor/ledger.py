@@ -13,9 +13,10 @@ from ...equations.model import Model
 from ...equations.terms import mass
 from ...physics.law import needed
 from ..casadi.printer import EmissionError
-from .c_text import Constants, Recurrences
+from .constants import Constants
 from .layout import compiled_if, documented, struct
 from .program import Program
+from .recurrences import Recurrences
 
 # Terms of the ledger with a series of their own; the work against all attractions together is a state already.
 TERMS = {

@@ -8,10 +8,11 @@ from sympy.core.function import AppliedUndef
 from ...equations.model import Model
 from ...physics.forces import FILM, SHEAR
 from ..casadi.printer import EmissionError
-from .c_text import Constants, Recurrences
 from .chain_rule import Chain
+from .constants import Constants
 from .header import Beside, Header
 from .law_slopes import arguments, define_shortest, factored, shortest
+from .recurrences import Recurrences
 
 Entry: TypeAlias = str | sp.Expr
 """A series' name, or a constant."""

@@ -7,10 +7,11 @@ import sympy as sp
 from ...equations.automaton import EVENTS, WORDS
 from ...equations.model import Model
 from ...user.own_events import OwnEvent
-from .c_text import Constants, Recurrences
+from .constants import Constants
 from .layout import comment, function, struct
 from .ledger import Valued
 from .program import Program
+from .recurrences import Recurrences
 
 _FIELDS = "event, kind, motion, film, mark, by_gap, opening, closing, known, harmless"
 

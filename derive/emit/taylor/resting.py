@@ -11,10 +11,11 @@ import sympy as sp
 from ...equations import friction
 from ...equations.model import Model
 from ...vocabulary.quantities import normal_velocity
-from .c_text import Constants, Recurrences
+from .constants import Constants
 from .layout import comment, compiled_if, documented, struct
 from .ledger import BOOKED, Ledger
 from .program import Program
+from .recurrences import Recurrences
 
 FLAGS = (friction.SLIDING, friction.ROLLING)
 SERIES = ("slip", "limit", "holding", "reaction")  # the last alone in space, where a creep takes the place of rolling

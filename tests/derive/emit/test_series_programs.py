@@ -7,11 +7,12 @@ from dataclasses import replace
 import pytest
 import sympy as sp
 from wetdoublet.derive.emit.casadi.printer import EmissionError
-from wetdoublet.derive.emit.taylor.c_text import Constants, Recurrences
+from wetdoublet.derive.emit.taylor.constants import Constants
 from wetdoublet.derive.emit.taylor.header import structure_header
 from wetdoublet.derive.emit.taylor.law_header import antiderivative, law_header, moves
 from wetdoublet.derive.emit.taylor.loops import Loops
 from wetdoublet.derive.emit.taylor.program import Program, cheapest
+from wetdoublet.derive.emit.taylor.recurrences import Recurrences
 from wetdoublet.derive.equations.model import derive
 from wetdoublet.derive.laws import LAWS
 from wetdoublet.derive.physics.structure import Structure
