@@ -160,7 +160,7 @@ class Event:
         structures: features of a structure that has the event, and "not" features of one that has not.
         dips: the function may become negative and positive again within one integration step.
         within_reach: watched only where its gap lies between contact and rupture and is not the film's edge.
-        driven: watched only where a tangential force other than that of the dry contact acts.
+        driven: watched only where a tangential force other than that of the dry contact acts, or a declared one may.
         scale: dimensionless group that gives the magnitude of the function; 1 if empty.
         least: constant below which the series is zero at first: its sign there is rounding, and the event happens where
             the series is below minus this constant.

@@ -32,6 +32,10 @@ TAKEN_WORDS = {row.word for row in WORDS}
 TAKEN_NAMES = {name for row in EVENTS for name in (row.name, *row.functions)}
 Form = tuple[sp.Expr, dict[sp.Symbol, sp.Expr], sp.Expr]
 """Guard, state after the jump as far as it jumps, and release of an event in a structure."""
+AT_REST = {  # what changes in resting contact, by what it is called there
+    "rotation": (q.orbital_momentum, q.spin, q.partner_spin), "angle": (q.angle_turned, q.beta),
+    "time": (q.time_passed,),
+}  # fmt: skip
 MARK = "before_"  # and the name of an event: its mark
 MOTIONS = {"closing": CLOSING, "opening": OPENING, "any": 0}
 REGIONS = {"": None, "inside the film": 1, "beyond the film": 0}
@@ -71,7 +75,8 @@ class Proposed:
     def row(self) -> Event:
         """Its row in the table of events, behind the library's."""
         motion, region = self.where.partition(" ")[::2]
-        watched = {"resting": 0, "motion": MOTIONS[motion] or None, "film": REGIONS[region]}
+        directed = MOTIONS[motion] or None  # resting contact has no direction: what is watched in any is watched there
+        watched = {"resting": 0 if directed else None, "motion": directed, "film": REGIONS[region]}
         where = tuple((component, value) for component, value in watched.items() if value is not None)
         actions = (f"jump {self.name}", ENDINGS[self.ends])
         return Event(self.name, (self.name,), where, (self.word,), actions, (), dips=True)
@@ -102,7 +107,7 @@ class OwnEvent:
     Arguments:
         guard: over m^i x0^j v0^k of its dimension. jump: (quantity, value over v0 or rate_scale).
         releases: over m v0^2.
-            used: a law depends on its mark.
+        used: a law, or the guard of another event, depends on its mark.
     """
 
     proposed: Proposed
@@ -152,10 +157,15 @@ class OwnEvent:
         """Shown to leave every barrier of the energy as it is: it adds none, keeps L and the laws, and does not end."""
         return self.takes and not self.spins and not self.used and self.proposed.ends != "separated"
 
+    @property
+    def keeps_direction(self) -> bool:
+        """True if its jump is shown to never reverse the motion."""
+        return bool(sp.simplify(dict(self.jump).get(q.u, q.u / q.v0) * q.v0 / q.u).is_nonnegative)
+
     def reach(self, of: Structure) -> Reach:
         """How its guard varies in a structure, by the signs of its derivatives for every positive group."""
         guard = self.in_structure(of)[0]
-        moving = {q.orbital_momentum, q.spin, q.partner_spin, q.beta, q.angle_turned, q.time_passed}
+        moving = {symbol for symbols in AT_REST.values() for symbol in symbols}
         speed, closer = sp.Symbol("speed", positive=True), sp.Symbol("gap", positive=True)
 
         def sign(value: sp.Expr) -> int | None:
@@ -208,7 +218,7 @@ def extended(model: Model, events: tuple[OwnEvent, ...]) -> Model:
     for event in present:
         guard, jump, released = event.in_structure(model.structure)
         forms[event.name] = rounded(guard), {state: rounded(value) for state, value in jump.items()}, rounded(released)
-    guards, watched = _in_order(present, forms), groups_of(events, model.structure)
+    guards, watched = _in_order(forms, together(present)), groups_of(events, model.structure)
     clocks = {q.angle_turned: model["turning_rate"][q.beta.name]} if q.angle_turned in watched else {}
     clocks |= {q.time_passed: sp.Integer(1)} if q.time_passed in watched else {}
     clocks = {state: rate for state, rate in clocks.items() if state not in model.states}  # which terms watch already
@@ -237,23 +247,27 @@ def extended(model: Model, events: tuple[OwnEvent, ...]) -> Model:
     return replace(model, states=states, functions=tuple(functions))
 
 
-def _in_order(events: Sequence[OwnEvent], forms: Mapping[str, Form]) -> dict[str, sp.Expr]:
-    """The guards, of which one that falls to zero together with an earlier event's in the file waits for that event.
+def together(events: Sequence[OwnEvent]) -> dict[str, OwnEvent]:
+    """By name of an event, that before it in the file whose guard falls to zero together with its own."""
+    pairs = ((event, first) for place, event in enumerate(events) for first in events[:place])
+    return {
+        event.name: first
+        for event, first in pairs
+        if event.proposed.where == first.proposed.where and sp.simplify(event.guard / first.guard).is_positive
+    }
+
+
+def _in_order(forms: Mapping[str, Form], waits: Mapping[str, OwnEvent]) -> dict[str, sp.Expr]:
+    """The guards, of which one waits for the event that it falls to zero with.
 
     If the earlier jump leaves the guard and the direction as they are, the later event follows at once.
     """
-    guards = {item.name: forms[item.name][0] for item in events}
-    for place, event in enumerate(events):
-        guard = forms[event.name][0]
-        for first in reversed(events[:place]):
-            ratio, jump = sp.simplify(guard / forms[first.name][0]), forms[first.name][1]
-            if event.proposed.where == first.proposed.where and ratio.is_positive:
-                keeps = sp.simplify(guard.xreplace(jump) - guard) == 0
-                keeps &= bool(
-                    sp.simplify(jump.get(q.normal_velocity, q.normal_velocity) / q.normal_velocity).is_positive
-                )
-                guards[event.name] = first.mark - sp.Rational(1, 2) if keeps else guard * (1 - first.mark) + first.mark
-                break
+    guards = {name: guard for name, (guard, _, _) in forms.items()}
+    for name, first in waits.items():
+        guard, jump = guards[name], forms[first.name][1]
+        keeps = sp.simplify(guard.xreplace(jump) - guard) == 0
+        keeps &= bool(sp.simplify(jump.get(q.normal_velocity, q.normal_velocity) / q.normal_velocity).is_positive)
+        guards[name] = first.mark - sp.Rational(1, 2) if keeps else guard * (1 - first.mark) + first.mark
     return guards
 
 

@@ -153,7 +153,10 @@ def express(name: str, meaning: str, declared: Declarations) -> UserModel:
     laws = [replace(law, functions=tuple(smooth(f, still, declared.positive) for f in law.functions)) for law in laws]
     terms = _terms(declared, groups)
     called = {symbol for symbols in extra.values() for symbol in symbols}
-    events = tuple(_event(event, declared, groups, called) for event in declared.events.values())
+    events = tuple(_event(event, declared, groups) for event in declared.events.values())
+    watched = called.union(*(event.guard.free_symbols for event in events))
+    watched |= {event.mark for event in own_events.together(events).values()}
+    events = tuple(replace(event, used=event.mark in watched) for event in events)
     touched = set().union(*(criterion.gap.free_symbols for criterion in declared.criteria.values()))
     used = called.union(*(event.symbols for event in events), terms.symbols if terms else ())
     used |= {group.symbol for group in groups.values() if group.quantity.symbol in touched}
@@ -180,9 +183,7 @@ def _terms(declared: Declarations, groups: Mapping[str, Group]) -> Terms | None:
     return Terms(sp.expand(energy - potential), potential, acting, tuple(group.symbol for group in groups.values()))
 
 
-def _event(
-    event: own_events.Proposed, declared: Declarations, groups: Mapping[str, Group], called: set[sp.Symbol]
-) -> OwnEvent:
+def _event(event: own_events.Proposed, declared: Declarations, groups: Mapping[str, Group]) -> OwnEvent:
     """A declared event with its quantities as groups."""
     quantities = _as_groups(groups)
     of: dict[sp.Basic, Dimension] = {**DIMENSIONS, **{q.symbol: q.dimension for q in declared.quantities.values()}}
@@ -193,7 +194,7 @@ def _event(
 
     scale = own_events.scale_of(dimension_of(unfolded(event.guard, declared), of) or ONE)
     jump = tuple((target, scaled(value, v0 if target == u else rate_scale)) for target, value in event.jump)
-    return OwnEvent(event, scaled(event.guard, scale), jump, scaled(event.releases, m * v0**2), event.mark in called)
+    return OwnEvent(event, scaled(event.guard, scale), jump, scaled(event.releases, m * v0**2))
 
 
 def _as_groups(groups: Mapping[str, Group]) -> dict[sp.Symbol, sp.Expr]:

@@ -72,7 +72,7 @@ static first_event find_events(const series *s, const lanes *l, const fixed *f, 
     if (bits(close))
         look(&first, close, s->gap, gap, away, h, event);
 #if OBLIQUE && !WALL
-    close = rests & (STRINGS ? splat_mask(TRUTH) : l->shear != 0.0);
+    close = rests & DRIVEN(l->shear);
     if (bits(close))
         close &= NOT(-s->acceleration[0] > reach(s->acceleration, h));
     if (bits(close))
@@ -93,7 +93,7 @@ static first_event find_events(const series *s, const lanes *l, const fixed *f, 
         look(&first, close, s->orbital_momentum, zero, one, h, splat_mask(AT_UNWINDING));
 #endif
 #if OWN_EVENTS
-    find_own_events(s, l, f, h, moves, &first);
+    find_own_events(s, l, f, h, &first);
 #endif /* OWN_EVENTS */
     first.time *= part;
     return first;
@@ -144,7 +144,7 @@ static mask guards_kept(const lanes *l, const fixed *f, const vec *from, const v
     kept &= NOT(moves & l->closing) | far;
 #if OBLIQUE && !WALL
     far = 2.0*(inward_force(&f->c, to)) > vec_max(inward_force(&f->c, from), zero);
-    kept &= NOT(rests & (STRINGS ? splat_mask(TRUTH) : l->shear != 0.0)) | far;
+    kept &= NOT(rests & DRIVEN(l->shear)) | far;
 #endif
 #if OBLIQUE && STRINGS
     far = 2.0*(splat(PI) - to[ROTATION]) > vec_max(splat(PI) - from[ROTATION], zero);

@@ -101,7 +101,7 @@ def expressions(flow: Flow) -> Expressions:
     name = "resting_rates" if region.resting and model.oblique else "right_hand_side"
     rates = model(name, state, flags, region.sides)
     if region.resting and not model.oblique:
-        rates = dict.fromkeys(rates, SX(0))  # head-on, no state changes in resting contact
+        rates = rates | {"normal_velocity": SX(0)}  # head-on, the time alone goes on in resting contact
     extra_rates: dict[str, SX] = {}
     if flow.extras:
         flags.pop("rolling", None)  # rolling loses nothing
@@ -165,7 +165,7 @@ def event_table(flow: Flow, motion: SX) -> dict[str, SX]:
         for row in EVENTS
         if all(name in guards for name in row.functions)
         and (flow.edge_watched or not row.within_reach)
-        and (region.shear or model.strings or not row.driven)
+        and (region.shear or model.strings or model.own_terms or not row.driven)
         and all(
             getattr(region, field) == value
             for field, value in row.where

@@ -28,7 +28,7 @@ _TARGETS = {
     "half turn": ("splat(PI)", "", ""),
 }
 _REACH = "(f->edge != 1.0) & (f->edge < f->end) & (f->edge > vec_min(f->contact, one))"
-_DRIVEN = "(STRINGS ? splat_mask(TRUTH) : l->shear != 0.0)"
+_DRIVEN = "DRIVEN(l->shear)"
 _LANES = {("resting", 0): "moves", ("resting", 1): "rests", ("motion", CLOSING): "l->closing",
           ("motion", OPENING): "NOT(l->closing)", ("film", 1): "inside", ("film", 0): "beyond",
           ("rolling", 0): "(l->rolling == 0.0)", ("rolling", 1): "(l->rolling != 0.0)"}  # fmt: skip
@@ -89,7 +89,7 @@ def _find() -> list[str]:
             body += _present(event, _search(event))
         if event.series == ("normal_velocity",):
             body += ["part = up_to_turn(&first);", "h *= part;", "first.gap = sum_at(s->gap, h);"]
-    body += ["#if OWN_EVENTS", "find_own_events(s, l, f, h, moves, &first);", "#endif /* OWN_EVENTS */"]
+    body += ["#if OWN_EVENTS", "find_own_events(s, l, f, h, &first);", "#endif /* OWN_EVENTS */"]
     return documented(
         "The first event of a step in each lane; of coincident ones the first in the table. The turn comes first: up "
         "to there the gap is monotonic, and extremal at the end. Under a constant force steps are unlimited, and all "

@@ -22,7 +22,7 @@ from .groups_from_si import scale_function
 from .guards import series_of_guards
 from .layout import comment, compiled_if, documented, function, struct
 from .ledger import BOOKED, Ledger
-from .own_events import own_event_functions
+from .own_events import clock_states, own_event_functions
 from .program import Program
 from .recurrences import Recurrences
 from .resting import FLAGS as RUBBING
@@ -135,6 +135,7 @@ class Header:
             lines.append(f"#define FIRST_VECTOR {first} /* from here on vectors of three components */")
         upper = ", ".join(state.upper() for state in states)
         lines += ["", f"enum {{ {upper}, MODEL_STATES }};"]
+        lines += clock_states(self.model)
         lines += ["enum { STATES = MODEL_STATES + CAPILLARY_STATE + TURNING_STATE + LEDGER_STATES };"]
         lines += ["enum { CAPILLARY_WORK = MODEL_STATES, TURNED = MODEL_STATES + CAPILLARY_STATE };"]
         lines += self.ledger.places()

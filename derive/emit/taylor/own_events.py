@@ -4,16 +4,25 @@ from collections.abc import Sequence
 
 import sympy as sp
 
+from ...equations import terms
 from ...equations.automaton import EVENTS, WORDS
 from ...equations.model import Model
-from ...user.own_events import OwnEvent
+from ...user.own_events import AT_REST, OwnEvent
+from ...vocabulary import quantities as q
 from .constants import Constants
 from .layout import comment, function, struct
 from .ledger import Valued
 from .program import Program
 from .recurrences import Recurrences
 
-_FIELDS = "event, kind, motion, film, mark, by_gap, opening, closing, known, harmless"
+_FIELDS = "event, kind, motion, film, mark, by_gap, opening, closing, known, harmless, varies"
+_CLOCKS = {q.angle_turned: "ANGLE", q.time_passed: "TIME"}
+_VARIES = {f"BY_{name.upper()}": 1 << k for k, name in enumerate(AT_REST)}
+
+
+def clock_states(model: Model) -> list[str]:
+    """Lines for a structure's header: the places of the states that declared events and terms watch, if any."""
+    return [f"#define {name}_STATE {clock.name.upper()}" for clock, name in _CLOCKS.items() if clock in model.states]
 
 
 def own_event_functions(
@@ -61,14 +70,23 @@ def own_event_functions(
     lines += comment("State after a declared event, and the energy that it may give.")
     lines += function(head, ["switch (which) {", *cases, "}"])
     table = [f"#define OWN_EVENTS {len(present)}"]
-    table += comment("Where each is watched (motion -1 closing, 1 opening; film -1 anywhere), and the signs of its "
-                     "guard's slopes.")  # fmt: skip
+    table += comment("What changes a guard in resting contact, and the states that nothing but guards watches.")
+    table.append(f"enum {{ {', '.join(f'{name} = {bit}' for name, bit in _VARIES.items())} }};")
+    clocks = {clock: clock in model.states and clock not in terms.clocks(model.structure) for clock in _CLOCKS}
+    places = (f"{name}_CLOCK = {clock.name.upper() if clocks[clock] else -1}" for clock, name in _CLOCKS.items())
+    table.append(f"enum {{ {', '.join(places)} }};")
+    table += comment("Where each is watched (motion -1 closing, 1 opening, 0 also at rest; film -1 anywhere), the "
+                     "signs of its guard's slopes, whether it is harmless to barriers of the energy (1), and does not "
+                     "reverse the motion either (2).")  # fmt: skip
     table += [f"static const struct {{ int {_FIELDS}; }} OWN[OWN_EVENTS] = {{"]
     everywhere = list(events)
     for event in present:
         where, reach, place = dict(event.proposed.row.where), event.reach(model.structure), everywhere.index(event)
         numbers = [len(EVENTS) + place, len(WORDS) + place, where.get("motion", 0), where.get("film", -1)]
         signs = [sign or 0 for sign in (reach.by_gap, reach.opening, reach.closing)]
-        texts = [*map(str, numbers), event.mark.name.upper(), *map(str, signs)]
-        table.append(f"    {{{', '.join([*texts, str(int(reach.is_known)), str(int(event.harmless))])}}},")
+        free = sp.sympify(guards[event.name]).free_symbols
+        varies = [bit for bit, symbols in zip(_VARIES, AT_REST.values(), strict=True) if free & {*symbols}]
+        harmless = (1 + event.keeps_direction) * event.harmless
+        texts = [*map(str, numbers), event.mark.name.upper(), *map(str, signs), str(int(reach.is_known))]
+        table.append(f"    {{{', '.join([*texts, str(harmless), ' | '.join(varies) or '0'])}}},")
     return [*table, "};", ""], [*lines, ""]

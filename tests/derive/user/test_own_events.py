@@ -82,6 +82,8 @@ def test_guard_and_jump_in_a_structure():
         ('event("snap", guard=omega - xi - k, jump={omega: omega / 2})', True, False, False),
         ('event("snap", guard=k * d - u * cos(x / d), where="opening", ends="separated")', True, False, False),
         ('on = event("snap", guard=d - x)\nlaw("bridge", "mine", force=on * sigma * a)', True, False, True),
+        ('event("snap", guard=d - x)\nevent("more", guard=2 * (d - x), jump={u: u / 2})', True, False, True),
+        ('on = event("snap", guard=d - x)\nevent("more", guard=2 * d * on - x)', True, False, True),
     ],
 )
 def test_what_is_shown_decides_the_certificates(body: str, takes: bool, harmless: bool, known: bool):

@@ -243,3 +243,37 @@ def test_of_two_events_at_once_the_order_of_the_file_counts(tmp_path: Path, ends
         assert [event.kind for event in found.events][1:] == (["end"] if ends_first else ["half", "end"])
         assert found.restitution == pytest.approx(expected.restitution / (1 if ends_first else 2), rel=1e-7)
         assert found.contact_time == pytest.approx(expected.contact_time, rel=1e-7)
+
+
+def test_an_event_that_reverses_is_no_stick(tmp_path: Path):
+    """Head-on in the film alone: u = -v0 (1 - L(x/x0)/St), halved and reversed at a gap; the film takes L again."""
+    path = tmp_path / "soft.py"
+    path.write_text(TWO.format('event("soft", guard=x - place, where="closing", jump={u: -u / 2})'))
+    own = Scene.load("granulation-dry-bridge", model=path)
+    own = own.with_entries({"liquid.glass_transition_pressure": "2 GPa", "custom.place": "5 um"})
+    s = 5e-6 / own.liquid.film_thickness
+    taken = (math.log(1 / s) - 1.5 + 2 * s - s**2 / 2) / 0.4
+    for engine in ("taylor", "rosenbrock"):
+        found = collide(own, stokes=0.4, angle=0.0, engine=engine)
+        assert [event.kind for event in found.events] == ["soft", "rupture"]
+        assert found.restitution == pytest.approx((1 - taken) / 2 - taken, rel=1e-7)
+
+
+def test_no_stick_is_proved_before_the_second_of_two_events(tmp_path: Path):
+    """Behind a harmless event at the same gap, or while the mark of another event keeps its guard positive."""
+    end = 'event("end", guard={}, where="opening", ends="separated")'
+    bodies = {
+        "alone": end.format("place - x"),
+        "behind": HALF.format("3*(place - x)*m/x") + "\n" + end.format("place - x"),
+        "marked": 'closed = event("deep", guard=x - place, where="closing")\n' + end.format("place*(1 + closed) - x"),
+    }
+    entries = {"particles.roughness": "4 um", "custom.place": "1 um"}  # it opens from 4 um, beyond that place
+    outcomes = {}
+    for name, body in bodies.items():
+        path = tmp_path / f"{name}.py"
+        path.write_text(TWO.format(body))
+        own = Scene.load("granulation", model=path).with_entries(entries)
+        outcomes[name] = collide_many(own, stokes=np.linspace(0.005, 0.06, 23), angle=ANGLE)["outcome"].values
+    assert (outcomes["alone"] > 0).all()
+    assert (outcomes["behind"] == outcomes["alone"]).all()
+    assert (outcomes["marked"] == outcomes["alone"]).all()

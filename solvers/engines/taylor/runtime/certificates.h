@@ -32,6 +32,12 @@
 #define PROOF_BY_FILM 0
 #endif
 #endif /* OWN_TERMS */
+/* Lanes in which a force other than that of the dry contact drives the rotation at rest. */
+#define DRIVEN(shear) (STRINGS ? splat_mask(TRUTH) : (shear) != 0.0)
+#if OWN_TERMS
+#undef DRIVEN
+#define DRIVEN(shear) (STRINGS || OWN_TERMS_ROTATE ? splat_mask(TRUTH) : (shear) != 0.0)
+#endif /* OWN_TERMS */
 #if PROOF_BY_FILM
 #if ATTRACTION
 enum { DEPTHS = ATTRACTED_FILM_DEPTHS };
@@ -316,7 +322,7 @@ static inline mask proved_sticks(
 #if OWN_EVENTS
 #if OWN_PROOFS
     if (bits(proved & NOT(resting))) /* the film stops a closing doublet before it opens */
-        proved &= resting | own_events_excluded(c, y, whole_energy(c, y)*(1.0 + SAFETY*tolerance), NOT(closing));
+        proved &= resting | own_events_excluded(c, y, whole_energy(c, y)*(1.0 + SAFETY*tolerance), NOT(closing), 2);
 #else
     proved &= resting;
 #endif

@@ -155,12 +155,12 @@ OUTLINE void look(first_event *first, mask close, const vec *a, vec target, vec 
 
 #if OWN_EVENTS
 /* Declared events of a step; an earlier event is kept. */
-OUTLINE void find_own_events(const series *s, const lanes *l, const fixed *f, vec h, mask moves, first_event *first)
+OUTLINE void find_own_events(const series *s, const lanes *l, const fixed *f, vec h, first_event *first)
 {
     own_series own;
     int expanded = 0;
     for (int which = 0; which < OWN_EVENTS; which++) {
-        mask close = moves & own_watched(l->y, which, l->closing, l->film);
+        mask close = l->alive & own_watched(l->y, which, l->closing, l->resting, l->film);
         if (!bits(close))
             continue;
         if (!expanded)

@@ -149,11 +149,7 @@ static mask clear_of_events(const lanes *l, const fixed *f, const vec *from, con
         clear &= NOT(l->resting) | keeps_rubbing(&f->c, l, from, to);
 #endif
 #if OWN_EVENTS
-    vec before[OWN_EVENTS], after[OWN_EVENTS];
-    own_guards(&f->c, from, before);
-    own_guards(&f->c, to, after);
-    for (int which = 0; which < OWN_EVENTS; which++)
-        clear &= NOT(own_watched(from, which, l->closing, l->film)) | (2.0*after[which] > before[which]);
+    clear &= own_guards_kept(&f->c, from, to, l->closing, l->resting, l->film);
 #endif /* OWN_EVENTS */
     return clear;
 }
@@ -230,6 +226,18 @@ static void arrive(lanes *l, const fixed *f, const vec *rate, vec least_step, ma
     vec time = (next_gap(l, f, &event) - l->y[GAP])/rate[GAP];
     mask stays = l->y[GAP] + l->stride*rate[GAP] == l->y[GAP];
     time = only(leaves & stays & (time > 0.0) & (time < 8.0*least_step), time);
+#if OWN_EVENTS
+    vec there[STATES];
+    for (int state = 0; state < STATES; state++)
+        there[state] = l->y[state] + time*rate[state];
+    time = only(own_guards_kept(&f->c, l->y, there, l->closing, l->resting, l->film), time);
+#endif /* OWN_EVENTS */
+#if defined(ANGLE_STATE)
+    l->y[ANGLE_STATE] += time*rate[ANGLE_STATE];
+#endif
+#if defined(TIME_STATE)
+    l->y[TIME_STATE] += time;
+#endif
     l->y[GAP] += time*rate[GAP];
     for (int state = MODEL_STATES; state < STATES; state++)
         l->y[state] += time*rate[state];

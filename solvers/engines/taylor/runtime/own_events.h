@@ -11,16 +11,52 @@
 #include "model.h"
 
 #if OWN_EVENTS
-/* Lanes in which a declared event may still happen, in this direction and part of the film. */
-static inline mask own_watched(const vec *y, int which, mask closing, vec film)
+/* Lanes in which a declared event may still happen, in this direction or at rest, and in this part of the film. */
+static inline mask own_watched(const vec *y, int which, mask closing, mask resting, vec film)
 {
     int motion = OWN[which].motion, part = OWN[which].film;
     mask wanted = y[OWN[which].mark] > 0.5;
     if (motion)
-        wanted &= motion < 0 ? closing : NOT(closing);
+        wanted &= NOT(resting) & (motion < 0 ? closing : NOT(closing));
     if (part >= 0)
         wanted &= film == (double)part;
     return wanted;
+}
+
+/* Lanes at rest in which a declared event is to come whose guard varies with any of these. */
+static mask own_to_come(const vec *y, vec film, int varies)
+{
+    mask rests = splat_mask(TRUTH), come = splat_mask(0);
+    for (int which = 0; which < OWN_EVENTS; which++)
+        if (OWN[which].varies & varies)
+            come |= own_watched(y, which, NOT(rests), rests, film);
+    return come;
+}
+
+/* Lanes at rest that no declared event sets free: each has happened, does no harm, or has a guard that stays positive. */
+static mask rests_beside_events(const constants *c, const vec *y, vec film)
+{
+    vec guard[OWN_EVENTS];
+    mask rests = splat_mask(TRUTH), stays = rests;
+    own_guards(c, y, guard);
+    for (int which = 0; which < OWN_EVENTS; which++)
+        if (!OWN[which].harmless) {
+            mask comes = own_watched(y, which, NOT(rests), rests, film);
+            stays &= NOT(OWN[which].varies ? comes : comes & NOT(guard[which] > 0.0));
+        }
+    return stays;
+}
+
+/* Lanes in which no declared event lies between two states, as far as shows: each guard keeps half its value. */
+static mask own_guards_kept(const constants *c, const vec *from, const vec *to, mask closing, mask resting, vec film)
+{
+    vec before[OWN_EVENTS], after[OWN_EVENTS];
+    mask kept = splat_mask(TRUTH);
+    own_guards(c, from, before);
+    own_guards(c, to, after);
+    for (int which = 0; which < OWN_EVENTS; which++)
+        kept &= NOT(own_watched(from, which, closing, resting, film)) | (2.0*after[which] > before[which]);
+    return kept;
 }
 
 #if defined(POTENTIAL) && !defined(OWN_TERMS) && (!DRIFTS || WALL || !OBLIQUE)
@@ -49,12 +85,12 @@ static inline vec whole_energy(const constants *c, const vec *y)
     return stored_energy(c, y) + height_at(c, y, y[GAP]) - energy_at(c, y, y[GAP]);
 }
 
-/* Lanes in which this energy does not suffice for any declared event that has not happened.
+/* Lanes in which this energy does not suffice for any declared event that has not happened, but for those as harmless.
  *
  * At a gap the speed is at most that of the energy above the height there; the guard is positive in the worst corner of every
- * part of the gap and of the speeds there, by the signs of its slopes. Harmless events change no barrier.
+ * part of the gap and of the speeds there, by the signs of its slopes.
  */
-static mask own_events_excluded(const constants *c, const vec *y, vec energy, mask opens)
+static mask own_events_excluded(const constants *c, const vec *y, vec energy, mask opens, int harmless)
 {
     vec end = splat(1.0);
 #if BRIDGE
@@ -65,7 +101,7 @@ static mask own_events_excluded(const constants *c, const vec *y, vec energy, ma
     vec rotating = energy_at(c, y, start), attracted = height - rotating;
     mask excluded = splat_mask(TRUTH);
     for (int which = 0; which < OWN_EVENTS; which++) {
-        if (OWN[which].harmless)
+        if (OWN[which].harmless >= harmless)
             continue;
         mask over = y[OWN[which].mark] < 0.5;
         if (OWN[which].motion > 0)
@@ -84,7 +120,7 @@ static mask own_events_excluded(const constants *c, const vec *y, vec energy, ma
         mask reached = energy > least;
         vec speed = vec_sqrt(2.0*vec_max(energy - least, splat(0.0)));
         for (int which = 0; which < OWN_EVENTS; which++) {
-            int known = OWN[which].known && !OWN[which].harmless;
+            int known = OWN[which].known && OWN[which].harmless < harmless;
             if (!known || OWN[which].film == (k <= OWN_PARTS ? 0 : 1))
                 continue;
             there[GAP] = OWN[which].by_gap > 0 ? last : next;
@@ -128,7 +164,7 @@ static mask held_beside_events(const constants *c, const vec *y, mask candidates
     vec margin = SAFETY*tolerance*(vec_max(stored_energy(c, first), vec_abs(energy)) + vec_abs(height));
     candidates &= energy < height - margin;
     if (bits(candidates))
-        candidates &= own_events_excluded(c, y, energy + margin, splat_mask(TRUTH));
+        candidates &= own_events_excluded(c, y, energy + margin, splat_mask(TRUTH), 1);
     return candidates;
 #endif
 #else

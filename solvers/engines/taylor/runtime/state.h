@@ -181,7 +181,12 @@ static void note_mode(queue *q, const lanes *l, int lane)
 /* Lanes in which a certificate excludes separation from the present state. */
 static mask proved_underway(const lanes *l, const fixed *f, double tolerance)
 {
-    return proved_sticks(&f->c, l->y, &f->b, f->contact, l->closing, l->resting, tolerance);
+    mask proved = proved_sticks(&f->c, l->y, &f->b, f->contact, l->closing, l->resting, tolerance);
+#if OWN_EVENTS
+    if (bits(proved & l->resting))
+        proved &= NOT(l->resting) | rests_beside_events(&f->c, l->y, l->film);
+#endif /* OWN_EVENTS */
+    return proved;
 }
 
 /* 1 where the film acts; a cavitating liquid exerts no force while opening. */

@@ -94,6 +94,14 @@ static int comes_to_rest(const queue *q, const lanes *l, const fixed *f, int lan
 }
 #endif
 
+#if OWN_EVENTS
+/* Whether no declared event will set a resting lane free. */
+static int stays_at_rest(const lanes *l, const fixed *f, int lane)
+{
+    return bits(rests_beside_events(&f->c, l->y, l->film)) >> lane & 1;
+}
+#endif /* OWN_EVENTS */
+
 /* A rebound; one too weak to open the gap becomes resting contact, one at the rupture gap separates the doublet. */
 static void rebounds(queue *q, lanes *l, fixed *f, int lane, int kind)
 {
@@ -129,6 +137,11 @@ static void rebounds(queue *q, lanes *l, fixed *f, int lane, int kind)
         /* equilibrium */
         LANE(l->resting, lane) = TRUTH;
         LANE(l->closing, lane) = 0;
+#if OWN_EVENTS
+        note_mode(q, l, lane);
+        if (!stays_at_rest(l, f, lane))
+            return;
+#endif /* OWN_EVENTS */
         sticks_for_good(q, l, f, lane, 1);
         return;
     }
@@ -158,6 +171,10 @@ static void rebounds(queue *q, lanes *l, fixed *f, int lane, int kind)
         if (OWN_TERMS_ROTATE) /* the reaction may vanish where no shear acts */
             return;
 #endif /* OWN_TERMS */
+#if OWN_EVENTS
+        if (!stays_at_rest(l, f, lane))
+            return;
+#endif /* OWN_EVENTS */
         if (!TURNS || (!STRINGS && LANE(l->shear, lane) == 0.0)) /* the reaction never vanishes (derive/checks/friction.py) */
             sticks_for_good(q, l, f, lane, 1);
     } else {
@@ -189,13 +206,38 @@ static int own_event_jumps(queue *q, lanes *l, fixed *f, int lane, int event)
     return 1;
 }
 
+/* Resting contact after a declared event: it goes on, or is released where the forces turn outward. */
+static void rests_on(queue *q, lanes *l, fixed *f, int lane, double pull)
+{
+    int word = pull < 0.0 ? KIND_RELEASED : -1;
+#if ROLLS
+    double rolled = LANE(l->rolling, lane);
+    if (word < 0 && rubs(l, f, lane) != (rolled != 0.0))
+        word = rolled ? KIND_SLIDES : KIND_ROLLS;
+#endif
+    note_mode(q, l, lane);
+    if (word >= 0)
+        note(q, LANE(l->index, lane), word, LANE(l->time, lane));
+    if (word == KIND_RELEASED) {
+        LANE(l->y[NORMAL_VELOCITY], lane) = RELEASE_SPEED;
+        opens(l, f, lane);
+    } else if (!TURNS && stays_at_rest(l, f, lane))
+        sticks_for_good(q, l, f, lane, 1);
+}
+
 /* The phase that follows a declared event: in the direction of the velocity, from rest in that of the forces. */
-static void goes_on(lanes *l, const fixed *f, int lane)
+static void goes_on(queue *q, lanes *l, fixed *f, int lane)
 {
     double velocity = LANE(l->y[NORMAL_VELOCITY], lane);
     double pull = velocity == 0.0 ? in_lane(inward_force(&f->c, l->y), lane) : -velocity;
-    LANE(l->closing, lane) = pull > 0.0 ? TRUTH : 0;
     new_phase(l, lane);
+    if (LANE(l->resting, lane) && velocity == 0.0) {
+        rests_on(q, l, f, lane, pull);
+        return;
+    }
+    if (LANE(l->resting, lane))
+        opens(l, f, lane);
+    LANE(l->closing, lane) = pull > 0.0 ? TRUTH : 0;
 }
 
 /* Lanes with a declared event whose guard is not positive where it is watched, and the first of these events. */
@@ -205,7 +247,7 @@ static mask own_events_due(const lanes *l, const fixed *f, mask *event)
     mask due = splat_mask(0);
     own_guards(&f->c, l->y, guard);
     for (int which = OWN_EVENTS - 1; which >= 0; which--) {
-        mask now = l->alive & NOT(l->resting) & own_watched(l->y, which, l->closing, l->film) & (guard[which] <= 0.0);
+        mask now = l->alive & own_watched(l->y, which, l->closing, l->resting, l->film) & (guard[which] <= 0.0);
         *event = choose_whole(now, splat_mask(OWN[which].event), *event);
         due |= now;
     }
@@ -244,9 +286,19 @@ static void criteria_met_by(queue *q, lanes *l, fixed *f, mask candidates)
 static int stills_ended(queue *q, lanes *l, fixed *f, vec (*a)[TERMS])
 {
     mask still = l->alive & l->resting & (inward_force(&f->c, l->y) > 0.0);
+#if OWN_EVENTS
+    mask by_angle = own_to_come(l->y, l->film, BY_ANGLE), by_time = own_to_come(l->y, l->film, BY_TIME);
+#endif /* OWN_EVENTS */
     for (int state = 0; state < MODEL_STATES; state++)
-        for (int k = 1; k <= ORDER; k++)
+        for (int k = 1; k <= ORDER; k++) {
+#if OWN_EVENTS
+            if (state == ANGLE_CLOCK || state == TIME_CLOCK) { /* they change nothing but the guards of events to come */
+                still &= NOT(state == ANGLE_CLOCK ? by_angle : by_time) | (a[state][k] == 0.0);
+                continue;
+            }
+#endif /* OWN_EVENTS */
             still &= a[state][k] == 0.0;
+        }
 #if WITH_LIMIT
     if (q->contact && q->contact->stuck)
         return 0;

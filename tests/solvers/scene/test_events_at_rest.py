@@ -1,0 +1,218 @@
+"""Declared events in resting contact, where the gap is held: the rotation has a closed form, and the time goes on."""
+
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scipy.optimize import brentq
+from wetdoublet.solvers import Scene
+
+from ...helpers.reference import collide
+from ...helpers.two_bodies import bodies_of
+
+pytestmark = pytest.mark.slow
+# The liquid is glass at initial contact, and nothing rebounds: the doublet rests at the gap x0 from the start.
+RESTING = {"particles.dry_restitution": 0.0, "bridge.surface_tension": "0.5 N/m"}
+IMPACT = {"stokes": 0.5, "angle": math.radians(10)}
+EVENTS = '''"""Cut-offs at an angle, a time and a spin; a bridge that lets go after a time; a kick."""
+from wetdoublet.derive.user import *
+
+largest = quantity("largest", default=1e9, meaning="angle at which it ends, rad")
+last = quantity("last", unit="s", default="1e9 s", meaning="time at which it ends")
+fastest = quantity("fastest", unit="1/s", default="1e30 1/s", meaning="spin at which it ends")
+holding = quantity("holding", unit="s", default="1e9 s", meaning="time for which the bridge holds")
+kicked = quantity("kicked", unit="s", default="1e9 s", meaning="time of the kick")
+kick = quantity("given", unit="m/s", default="0 m/s", bounds="> -1e9", meaning="speed that it gives")
+
+event("far enough", guard=largest - beta, ends="stick")
+event("late", guard=last - t, ends="stick")
+event("spun", guard=fastest - xi, ends="stick")
+event("kick", guard=kicked - t, jump={u: u + kick}, releases=m * kick**2)
+'''
+BRIDGE = 'intact = event("lets go", guard=holding - t)\nlaw("bridge", "holding", force=intact * 4 * pi * a * sigma)\n'
+TORQUE = """twist = quantity("twist", unit="N m", default="0 N m", bounds="> -1", meaning="torque on the rotation")
+force_on("rotation", twist)
+"""
+ENGINES = ("taylor", "rosenbrock", "cvodes")
+
+
+@pytest.fixture(scope="module")
+def models(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
+    """Model files: with a bridge that lets go, and with a torque."""
+    folder = tmp_path_factory.mktemp("rest")
+    unused = "\n".join(line for line in EVENTS.splitlines() if not line.startswith("holding"))
+    texts = {"bridge": EVENTS + BRIDGE, "torque": unused + "\n" + TORQUE}
+    for name, text in texts.items():
+        (folder / f"{name}.py").write_text(text)
+    return {name: folder / f"{name}.py" for name in texts}
+
+
+class Rotation:
+    """The rotation of equal spheres at the gap x0, under their tangential force and a torque on the line of centres."""
+
+    def __init__(self, scene: Scene, speed: float, torque: float = 0.0) -> None:
+        bodies = bodies_of(scene)
+        a, m, x = bodies.a, bodies.m, bodies.film_thickness
+        r, inertia = 4 * a + x, 16 / 5 * m * a**2
+        drag = 8 * math.pi * scene.liquid.viscosity * a**2 * math.log(2 * a / x)  # tangential force over omega - xi
+        self.start = speed * math.tan(IMPACT["angle"]) / (4 * a)  # omega; xi is zero
+        self.decay, self.push = drag / (m * r) + drag * r / (2 * inertia), torque / (m * r**2)
+        self.taken, self.given = drag / (m * r), drag * r / (2 * inertia)
+
+    def slip(self, t: float) -> tuple[float, float]:
+        """Omega - xi at a time (s), and its integral up to then."""
+        steady, gone = self.push / self.decay, -math.expm1(-self.decay * t) / self.decay
+        slip = steady + (self.start - steady) * math.exp(-self.decay * t)
+        return slip, steady * t + (self.start - steady) * gone
+
+    def rate(self, t: float) -> float:
+        """omega, rad/s."""
+        return self.start + self.push * t - self.taken * self.slip(t)[1]
+
+    def spin(self, t: float) -> float:
+        """xi, rad/s."""
+        return self.given * self.slip(t)[1]
+
+    def angle(self, t: float) -> float:
+        """beta, rad."""
+        steady = self.push / self.decay
+        twice = steady * t**2 / 2 + (self.start - steady) * (t + math.expm1(-self.decay * t) / self.decay) / self.decay
+        return self.start * t + self.push * t**2 / 2 - self.taken * twice
+
+
+def scene(model: Path, **custom: object) -> Scene:
+    """Granulation that rests at initial contact, with a model."""
+    return Scene.load("granulation", model=model).with_entries(
+        RESTING | {f"custom.{name}": value for name, value in custom.items()}
+    )
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+@pytest.mark.parametrize(("model", "torque"), [("bridge", 0.0), ("torque", 1e-11), ("torque", -3e-12)])
+def test_cut_offs_come_when_the_rotation_or_the_time_is_there(
+    models: dict[str, Path], engine: str, model: str, torque: float
+):
+    """At an angle turned, at a spin and at a time, as the closed form has them."""
+    own = scene(models[model], **({"twist": torque} if torque else {}))
+    speed = own.speed_of(IMPACT["stokes"])
+    expected, end = Rotation(own, speed, torque), 2e-3
+    spun = min(end, 0.7 / expected.decay)
+    cases = {
+        "far enough": ({"custom.largest": expected.angle(end)}, end),
+        "late": ({"custom.last": end}, end),
+        "spun": ({"custom.fastest": expected.spin(spun)}, spun),
+    }
+    for word, (threshold, time) in cases.items():
+        found = collide(own.with_entries(threshold), **IMPACT, engine=engine)
+        assert found.engine == engine
+        assert [event.kind for event in found.events] == ["glass", "rests", word]
+        assert (found.outcome, found.certified) == ("stick", False)
+        assert found.events[-1].time == pytest.approx(time, rel=1e-7)
+
+
+def test_a_torque_turns_back(models: dict[str, Path]):
+    """An angle is never reached where the torque turns the doublet back before."""
+    own = scene(models["torque"], twist=-1e-10, last=0.02)
+    expected = Rotation(own, own.speed_of(IMPACT["stokes"]), -1e-10)
+    turned = brentq(expected.rate, 0.0, 0.02)
+    for share, word in ((1 - 1e-6, "far enough"), (1 + 1e-6, "late")):
+        found = collide(own.with_entries({"custom.largest": share * expected.angle(turned)}), **IMPACT)
+        assert found.events[-1].kind == word
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+def test_a_bridge_that_lets_go_releases_what_rests(models: dict[str, Path], engine: str):
+    """No stick is proved before; then the doublet opens with the rotation that it has, with its whole energy."""
+    held = 1.5e-3
+    own = scene(models["bridge"], holding=held)
+    found = collide(own, **IMPACT, engine=engine)
+    assert [event.kind for event in found.events] == ["glass", "rests", "lets go", "released", "rupture"]
+    assert [event.time for event in found.events[2:4]] == pytest.approx([held, held], rel=1e-9)
+    rotation, bodies = Rotation(own, own.speed_of(IMPACT["stokes"])), bodies_of(own)
+    a, m, x0, spin = bodies.a, bodies.m, bodies.film_thickness, rotation.spin(held)
+    # beyond the film; shear has no slip left to act on but what opening makes, which is of the order of the gap
+    energy = m * (4 * a + x0) ** 2 * rotation.rate(held) ** 2 / 2 + 16 / 5 * m * a**2 * spin**2
+    final = m * ((4 * a + found.final_gap) * found.final_rotation_rate) ** 2 / 2
+    final += 16 / 5 * m * a**2 * found.final_spin**2 + m * (found.restitution * found.speed) ** 2 / 2
+    assert found.energy is not None
+    assert final + found.energy.tangential_lubrication - (
+        m * (rotation.start * (4 * a + x0)) ** 2 / 2 - energy
+    ) == pytest.approx(energy, rel=1e-7)
+    assert abs(found.energy.residual) < 1e-8 * found.energy.initial
+
+
+def test_head_on_a_stick_is_proved_when_nothing_is_to_come(models: dict[str, Path]):
+    """Not while the bridge is to let go: without forces the doublet then rests, and the stick is proved there."""
+    for engine in ENGINES:
+        own = scene(models["bridge"], holding=1.5e-3, kicked=1e-3)
+        found = collide(own, stokes=0.5, angle=0.0, engine=engine)
+        assert [event.kind for event in found.events] == ["glass", "rests", "kick", "lets go"]
+        assert (found.outcome, found.certified) == ("stick", True)
+        assert found.until == pytest.approx(1.5e-3, rel=1e-9)
+
+
+@pytest.mark.parametrize("angle", [0.0, 1e-3])
+def test_a_kick_sets_free(models: dict[str, Path], angle: float):
+    """Beyond the film a bridge of constant force brakes what a kick has opened: e_n by its work."""
+    own = scene(models["bridge"], kicked=1e-3, given=5.0)
+    bodies = bodies_of(own)
+    for engine in ENGINES:
+        found = collide(own, stokes=0.5, angle=angle, engine=engine)
+        assert [event.kind for event in found.events] == ["glass", "rests", "kick", "rupture"]
+        work = 4 * math.pi * bodies.a * own.bridge.surface_tension * (bodies.rupture - bodies.film_thickness)
+        expected = math.sqrt(5.0**2 - 2 * work / bodies.m) / found.speed
+        assert found.restitution == pytest.approx(expected, rel=1e-9 if angle == 0.0 else 1e-4)
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+def test_a_torque_releases_beyond_the_tangential_force(models: dict[str, Path], engine: str):
+    """Where no shear acts, omega = omega0 + torque t/(m r^2), until m r omega^2 exceeds the bridge's force."""
+    twist = 1e-11
+    own = scene(models["torque"], twist=twist).with_entries({"model.tangential": "film"})
+    found, bodies = collide(own, **IMPACT, engine=engine), bodies_of(own)
+    m, r = bodies.m, 4 * bodies.a + bodies.film_thickness
+    start = found.speed * math.tan(IMPACT["angle"]) / (4 * bodies.a)
+    needed = math.sqrt(bodies.pull(bodies.film_thickness) / (m * r))
+    assert [event.kind for event in found.events] == ["glass", "rests", "released", "rupture"]
+    assert found.events[2].time == pytest.approx((needed - start) * m * r**2 / twist, rel=1e-7)
+
+
+def test_a_kick_inward_rebounds(models: dict[str, Path]):
+    """What is kicked into the contact rebounds there, and here comes to rest again."""
+    found = collide(scene(models["torque"], kicked=1e-3, given=-5.0, last=2e-3), **IMPACT)
+    assert [event.kind for event in found.events] == ["glass", "rests", "kick", "glass", "rests", "late"]
+
+
+def test_a_proof_stands_beside_a_cut_off(tmp_path: Path):
+    """A cut-off changes no barrier: the stick is proved at rest; followed on, it is cut off when the angle is there."""
+    path = tmp_path / "far.py"
+    path.write_text(
+        "from wetdoublet.derive.user import *\n"
+        'largest = quantity("largest", default=1e9, meaning="angle, rad")\n'
+        'event("far enough", guard=largest - beta, ends="stick")\n'
+    )
+    own = Scene.load("granulation", model=path).with_entries(RESTING)
+    expected = Rotation(own, own.speed_of(IMPACT["stokes"]))
+    own = own.with_entries({"custom.largest": expected.angle(2e-3)})
+    proved = collide(own, **IMPACT)
+    assert proved.certified
+    assert proved.until < 1e-6
+    for engine in ENGINES:
+        found = collide(own, **IMPACT, until=5e-3, engine=engine)
+        assert [event.kind for event in found.events] == ["glass", "rests", "far enough"]
+        assert found.until == pytest.approx(2e-3, rel=1e-7)
+        assert found.certified
+
+
+def test_many_collisions_have_the_events_of_each(models: dict[str, Path]):
+    """In lanes side by side, with cut-offs at rest at different times."""
+    from wetdoublet.solvers import collide_many
+
+    ends = np.linspace(1e-3, 5e-3, 13)
+    own = scene(models["torque"], twist=1e-11)
+    expected = Rotation(own, own.speed_of(IMPACT["stokes"]), 1e-11)
+    angles = [expected.angle(end) for end in ends]
+    many = collide_many(own, **IMPACT, vary={"custom.largest": angles}, of=("outcome", "rotation", "certified"))
+    assert (many["outcome"].values == 0).all()
+    assert not many["certified"].values.any()
