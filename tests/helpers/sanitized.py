@@ -76,8 +76,9 @@ def random_impacts(scene: Scene, count: int, oblique: bool, seed: int) -> Impact
 
 
 def replay(preset: str, kind: str, oblique: bool, count: int) -> bool:
-    """Integrate random collisions of a preset; False if it has no such kernel."""
-    impacts = random_impacts(Scene.load(preset), count, oblique, seed=len(preset) + 7 * len(kind))
+    """Integrate random collisions of a preset, or of granulation with a model file; False if it has no such kernel."""
+    scene = Scene.load("granulation", model=preset) if preset.endswith(".py") else Scene.load(preset)
+    impacts = random_impacts(scene, count, oblique, seed=len(preset) + 7 * len(kind))
     return KINDS[kind](impacts, oblique)
 
 

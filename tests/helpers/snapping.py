@@ -1,4 +1,4 @@
-"""A model file with declared events, and the same collisions integrated independently of the package."""
+"""Model files with declared events, and the same collisions integrated independently of the package."""
 
 import math
 from collections.abc import Callable
@@ -24,6 +24,27 @@ intact = event("let_go", guard=leaving - u, where="opening", meaning="the bridge
 event("brake", guard=braking - x, where="opening", jump={u: kept * u}, word="braked")
 law("bridge", "letting-go", force=intact * 4 * pi * a * sigma, source="a test")
 '''
+
+
+TIMED = '''"""Cut-offs at an angle, a time and a spin; a bridge that lets go after a time; a kick."""
+from wetdoublet.derive.user import *
+
+largest = quantity("largest", default=1e9, meaning="angle at which it ends, rad")
+last = quantity("last", unit="s", default="1e9 s", meaning="time at which it ends")
+fastest = quantity("fastest", unit="1/s", default="1e30 1/s", meaning="spin at which it ends")
+holding = quantity("holding", unit="s", default="1e9 s", meaning="time for which the bridge holds")
+kicked = quantity("kicked", unit="s", default="1e9 s", meaning="time of the kick")
+kick = quantity("given", unit="m/s", default="0 m/s", bounds="> -1e9", meaning="speed that it gives")
+
+event("far enough", guard=largest - beta, ends="stick")
+event("late", guard=last - t, ends="stick")
+event("spun", guard=fastest - xi, ends="stick")
+event("kick", guard=kicked - t, jump={u: u + kick}, releases=m * kick**2)
+'''
+BRIDGE = 'intact = event("lets go", guard=holding - t)\nlaw("bridge", "holding", force=intact * 4 * pi * a * sigma)\n'
+TORQUE = """twist = quantity("twist", unit="N m", default="0 N m", bounds="> -1", meaning="torque on the rotation")
+force_on("rotation", twist)
+"""
 
 
 @dataclass(frozen=True)

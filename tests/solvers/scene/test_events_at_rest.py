@@ -9,31 +9,13 @@ from scipy.optimize import brentq
 from wetdoublet.solvers import Scene
 
 from ...helpers.reference import collide
+from ...helpers.snapping import BRIDGE, TIMED, TORQUE
 from ...helpers.two_bodies import bodies_of
 
 pytestmark = pytest.mark.slow
 # The liquid is glass at initial contact, and nothing rebounds: the doublet rests at the gap x0 from the start.
 RESTING = {"particles.dry_restitution": 0.0, "bridge.surface_tension": "0.5 N/m"}
 IMPACT = {"stokes": 0.5, "angle": math.radians(10)}
-EVENTS = '''"""Cut-offs at an angle, a time and a spin; a bridge that lets go after a time; a kick."""
-from wetdoublet.derive.user import *
-
-largest = quantity("largest", default=1e9, meaning="angle at which it ends, rad")
-last = quantity("last", unit="s", default="1e9 s", meaning="time at which it ends")
-fastest = quantity("fastest", unit="1/s", default="1e30 1/s", meaning="spin at which it ends")
-holding = quantity("holding", unit="s", default="1e9 s", meaning="time for which the bridge holds")
-kicked = quantity("kicked", unit="s", default="1e9 s", meaning="time of the kick")
-kick = quantity("given", unit="m/s", default="0 m/s", bounds="> -1e9", meaning="speed that it gives")
-
-event("far enough", guard=largest - beta, ends="stick")
-event("late", guard=last - t, ends="stick")
-event("spun", guard=fastest - xi, ends="stick")
-event("kick", guard=kicked - t, jump={u: u + kick}, releases=m * kick**2)
-'''
-BRIDGE = 'intact = event("lets go", guard=holding - t)\nlaw("bridge", "holding", force=intact * 4 * pi * a * sigma)\n'
-TORQUE = """twist = quantity("twist", unit="N m", default="0 N m", bounds="> -1", meaning="torque on the rotation")
-force_on("rotation", twist)
-"""
 ENGINES = ("taylor", "rosenbrock", "cvodes")
 
 
@@ -41,8 +23,8 @@ ENGINES = ("taylor", "rosenbrock", "cvodes")
 def models(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
     """Model files: with a bridge that lets go, and with a torque."""
     folder = tmp_path_factory.mktemp("rest")
-    unused = "\n".join(line for line in EVENTS.splitlines() if not line.startswith("holding"))
-    texts = {"bridge": EVENTS + BRIDGE, "torque": unused + "\n" + TORQUE}
+    unused = "\n".join(line for line in TIMED.splitlines() if not line.startswith("holding"))
+    texts = {"bridge": TIMED + BRIDGE, "torque": unused + "\n" + TORQUE}
     for name, text in texts.items():
         (folder / f"{name}.py").write_text(text)
     return {name: folder / f"{name}.py" for name in texts}

@@ -6,6 +6,7 @@ from typing import Any
 import pytest
 
 from ....helpers import sanitized
+from ....helpers.snapping import BRIDGE, TIMED, TORQUE
 
 pytestmark = pytest.mark.slow
 
@@ -24,5 +25,20 @@ SAMPLE: list[list[Any]] = [
 def test_sanitizers_find_nothing(tmp_path: Path):
     """Reference collisions and two thousand random ones, some with numbers that no scene has, under both sanitizers."""
     done = sanitized.process(SAMPLE, tmp_path)
+    assert done.returncode == 0, done.stderr
+    assert done.stdout == "done\n"
+
+
+@pytest.mark.skipif(not sanitized.libraries(), reason="the C compiler has no sanitizers")
+def test_sanitizers_find_nothing_in_declared_events(tmp_path: Path):
+    """The same with events and a torque of a model file, many of which happen at rest."""
+    path = tmp_path / "timed.py"
+    defaults = {"1e9 s": "1e-4 s", "1e30 1/s": "1e4 1/s", "default=1e9": "default=1.0", "0 m/s": "0.1 m/s"}
+    text = TIMED + BRIDGE
+    for far, near in defaults.items():
+        text = text.replace(far, near)
+    path.write_text(text + TORQUE.replace("0 N m", "1e-11 N m"))
+    kinds = ("plain", "ledger and trajectory")
+    done = sanitized.process([["random", str(path), kind, True, 300] for kind in kinds], tmp_path)
     assert done.returncode == 0, done.stderr
     assert done.stdout == "done\n"
