@@ -211,9 +211,12 @@ class OwnEvent:
 def extended(model: Model, events: tuple[OwnEvent, ...]) -> Model:
     """A structure's model with the states, guards and jumps of declared events, without the proofs they void."""
     present = [event for event in events if event.fits(model.structure)]
-    if not present:
+    called = set().union(*(value.free_symbols for function in model.functions for _, value in function.outputs))
+    called = called.union(*(value.free_symbols for _, value in model.definitions))
+    # the mark of an event that never happens in this structure stays 1 for the laws that have it
+    marks = tuple(event.mark for event in events if event in present or event.mark in called)
+    if not marks:
         return model
-    marks = tuple(event.mark for event in present)
     forms = {}
     for event in present:
         guard, jump, released = event.in_structure(model.structure)

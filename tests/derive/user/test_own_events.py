@@ -104,6 +104,14 @@ def test_structures_that_cannot_have_an_event():
     assert {structure: event.fits(structure) for structure in wanted} == wanted
 
 
+def test_head_on_the_mark_of_a_rotation_stays():
+    """What only a rotation brings about never happens head-on: the mark that a law has is 1 for good there."""
+    body = 'on = event("lock", guard=k - omega)\nlaw("bridge", "mine", force=on * sigma * a)'
+    made = model(body).extended(derive(Structure(False, True, False)))
+    assert "lock" not in made["events"].by_name
+    assert (made["start"].by_name["before_lock"], made["right_hand_side"].by_name["before_lock"]) == (1, 0)
+
+
 def test_the_angle_turned_and_the_time_are_states():
     """What a guard watches beside the motion is integrated with it, also in resting contact; the pendulum has it."""
     both = model('event("late", guard=1 + 0*t - beta - k*t)')
