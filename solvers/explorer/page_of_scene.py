@@ -163,8 +163,7 @@ def _structure(scene: Scene) -> tuple[Any, ...]:
 
 def law_of(scene: Scene) -> tuple[LawSource, str, list[str]]:
     """The source of a scene's law, the C that follows it in its module, and the words of the limits of the model."""
-    from ..export.law.texts import structures
-    from ..export.law.texts import source
+    from ..export.law.texts import source, structures
 
     law = source(scene, ledger=_has_ledger(scene))
     material = [member for _, member, _ in structures(law.header)["law_material"]]

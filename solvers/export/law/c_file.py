@@ -45,7 +45,7 @@ def kernels_text(law_kernels: Sequence[Kernel]) -> str:
     parts = [_included(shared, {**first, "settings.h": ""})]
     for kernel in law_kernels:
         again = {name: "" for name in shared if kernel.files.get(name) == first.get(name)}
-        roots = _SPACE_ROOTS if kernel.prefix == SPACE else _ROOTS
+        roots = _SPACE_ROOTS if kernel.prefix == SPACE else _ROOTS if kernel.variant.limit else _ROOTS[:1]
         text = _included(("settings.h", *roots), {**kernel.files, **again})
         parts.append(f"\n/* {f' Kernel `{kernel.prefix}` ':-^94} */\n{_prefixed(kernel.prefix, text)}")
     return "".join(parts)
