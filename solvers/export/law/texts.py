@@ -19,7 +19,7 @@ from .vectors import RTOL as VECTOR_RTOL
 from .vectors import TOLERANCE as VECTOR_TOLERANCE
 from .vectors import pair_vectors, vectors
 
-_TAKEN = ("check", "example", "vectors", "add", "oblique", HEAD_ON, PLANE, SPACE, f"{SPACE}_set")
+_TAKEN = ("check", "example", "vectors", "add", "dry", "oblique", HEAD_ON, PLANE, SPACE, f"{SPACE}_set")
 """Names of other files of the folder, and beginnings of names within the law that would be those of its types."""
 Fields = list[tuple[str, str, tuple[int, ...]]]
 """Members of a structure: type, name, shape."""
