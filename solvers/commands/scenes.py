@@ -150,8 +150,8 @@ def diff(old: str, new: str, probe: str | None, changes: Changes, output: Writte
     from ..export.differences import differences
     from ..export.text import as_text
 
-    found = differences(old, new, changes=changes, **passed(probe=probe))
-    output.put(as_text(found), found.to_dict())
+    compared = differences(old, new, changes=changes, **passed(probe=probe))
+    output.put(as_text(compared), compared.to_dict())
 
 
 @command(to="one of " + ", ".join(KINDS), out="a folder to write into")

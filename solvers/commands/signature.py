@@ -80,8 +80,8 @@ def _completed(_ctx: click.Context, parameter: click.Parameter, begun: str) -> l
         names = [*getattr(import_module(f"..{file}", __package__), name)]
     elif str(parameter.metavar).startswith("NAME"):
         names = [name + "=" * ("=" in str(parameter.metavar)) for name in FIELDS]
-    found = [CompletionItem(before + comma + name) for name in names if (before + comma + name).startswith(begun)]
-    return found + [CompletionItem(begun, type="file")] * (not names or parameter.name == "source")
+    items = [CompletionItem(before + comma + name) for name in names if (before + comma + name).startswith(begun)]
+    return items + [CompletionItem(begun, type="file")] * (not names or parameter.name == "source")
 
 
 @dataclass(frozen=True)
