@@ -135,7 +135,7 @@ def _table(speed: np.ndarray, density: np.ndarray, label: str) -> Speeds:
 
 def _columns(path: Path, label: str) -> tuple[np.ndarray, np.ndarray]:
     accepted = f"a CSV file with the header {','.join(_HEADER)} and a speed in m/s and its density in each row"
-    columns = columns_of(path, label)[0]
+    columns = columns_of(path, label, accepted)[0]
     if [column.name for column in columns] != list(_HEADER):
         raise InputError(label, str(path), accepted, f"has the header {','.join(column.name for column in columns)}")
     try:

@@ -18,7 +18,7 @@ from ..scene.held import NAMES
 from ..scene.schema import FIELDS
 from . import texts
 from .bar import Bar
-from .options import Entries, Impact, Request, SceneRequest, Shown, Varied, Written, refuse
+from .options import Entries, Impact, Request, SceneRequest, Shown, Varied, Written, dataset_text, refuse
 from .signature import command, passed
 
 if TYPE_CHECKING:
@@ -86,7 +86,6 @@ def sensitivity(
         --engine
     """
     from ..results import check_differentiated
-    from ..scene.origin import plain
     from ..sensitivity.parameters import check_wrt
     from ..sensitivity.sensitivities import check_method, sensitivities
     from ..sensitivity.uncertainty import deviations, first_order, in_words
@@ -102,7 +101,7 @@ def sensitivity(
     if over is not None:
         refuse({"--method": method, "--wrt": wrt, "--engine": engine}, "no {} with --over", "is not for this")
         data, table = _band(scene, over, uncertainty, of or ["restitution"], chosen)
-        output.put(table, plain(data.to_dict(), gaps=True), drawn=data.wetdoublet)
+        output.put(dataset_text(data) if output.as_json else table, drawn=data.wetdoublet)
         return
     names = None if wrt is None else check_wrt(scene, wrt)
     scene.need_impact()
@@ -229,6 +228,9 @@ def prove(
         edges: dict[str, Any] = {
             name: texts.entry_range(FIELDS[f"impact.{name}"], impact[name], f"--{name}") for name in impact
         }
+        for name, accepted in zip(("stokes", "angle"), ends, strict=True):
+            if len(edges[name]) < 2:
+                raise InputError(f"--{name}", impact[name], accepted, "is one edge, and a cell has two")
         scene = request.scene()
 
         from ..proofs.proved_map import prove_map
@@ -277,7 +279,7 @@ def _box(within: tuple[str, ...], request: SceneRequest) -> Any:
 
 
 @command("averages.averages:collision_averages")
-def averages(radii: _Radii, request: Entries, output: _Table, **chosen: Any) -> None:
+def averages(radii: _Radii, request: Entries, output: _Table, as_json: bool, **chosen: Any) -> None:
     """Sticking probability and mean restitution of SCENE over all impact angles and speeds, for each pair of radii.
 
     Impact angles have the density sin(2 theta) of isotropic relative velocities. With maxwell:S speeds are those of a
@@ -296,6 +298,7 @@ def averages(radii: _Radii, request: Entries, output: _Table, **chosen: Any) -> 
         --wrt NAMES
         --rtol
         -o FILE (output): Write NetCDF (.nc) or a table (.csv); the same command continues an interrupted run.
+        --json
     """
     scene = request.scene_without_impact("has no influence on averages")
 
@@ -305,11 +308,13 @@ def averages(radii: _Radii, request: Entries, output: _Table, **chosen: Any) -> 
 
     with Bar("pairs", "a larger --tolerance or fewer --radii take less") as progress:
         data = collision_averages(scene, progress=progress, resume=output, **passed(radii=radii), **chosen)
-    if output is None:
+    if as_json:
+        click.echo(dataset_text(data))
+    elif output is None:
         click.echo(table(data) if sys.stdout.isatty() else to_csv(data), nl=False)
-    elif output.suffix.lower() == ".csv":
+    if output is not None and output.suffix.lower() == ".csv":
         files.write(output, to_csv(data))
-    else:
+    elif output is not None:
         write(data, output)
     reasons = [str(reason) for reason in data["reason"].values.ravel() if reason]
     if reasons:

@@ -23,6 +23,8 @@ from .signature import SHARED, Group, options_of, passed
 from .texts import assigned, flag, numbers, typed, with_degrees
 
 if TYPE_CHECKING:
+    import xarray
+
     from ..scene.scene import Scene
 
 _CHANGE = 'NAME=VALUE, such as liquid.viscosity="3 Pa s"'
@@ -266,6 +268,13 @@ class Output:
 def json_text(record: Mapping[str, Any], ensure_ascii: bool = True) -> str:
     """A record as JSON, in which a number is finite."""
     return json.dumps(record, indent=2, allow_nan=False, ensure_ascii=ensure_ascii)
+
+
+def dataset_text(data: xarray.Dataset) -> str:
+    """A dataset as JSON, which `xarray.Dataset.from_dict` reads; null where there is no value."""
+    from ..scene.origin import plain
+
+    return json_text(plain(data.to_dict(), gaps=True))
 
 
 Shown = Annotated[Output, group(Output.check, "as_json", "plot", "output")]

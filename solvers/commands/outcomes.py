@@ -17,7 +17,7 @@ from ..scene.ranges import MOST, MOST_STORED, check_cells
 from ..scene.schema import FIELDS
 from . import texts
 from .bar import Bar
-from .options import Entries, Impact, SceneRequest, Shown, check_one_speed, refuse
+from .options import Entries, Impact, SceneRequest, Shown, check_one_speed, dataset_text, refuse
 from .signature import command, passed
 
 _MOST = 100_000  # lines of a boundary; about half an hour
@@ -53,6 +53,7 @@ def map_(
     output: _File,
     scheduler: _Scheduler,
     plot: Any,
+    as_json: bool,
     **chosen: Any,
 ) -> None:
     """Outcome and restitution of SCENE over a grid of impact angles, Stokes numbers and further varied entries.
@@ -77,6 +78,7 @@ def map_(
         --scheduler ADDRESS: Compute on a Dask cluster: tcp://HOST:PORT, the scheduler's .json file, local, or
             local:WORKERS.
         --plot
+        --json
     """
     stored = output is not None and output.suffix.lower() == _SUFFIX
     axes = _axes(impacts, vary, MOST_STORED if stored and plot is None else MOST)
@@ -111,7 +113,9 @@ def map_(
         from ..many.plot_map import draw_map
 
         save(draw_map(data, map_curves(data, scene.package)), plot, dpi=150)
-    elif output is None:
+    if as_json:
+        click.echo(dataset_text(data))
+    elif output is None and plot is None:
         click.echo(table(data))
     failed = failures(data)
     if failed is not None and bool((data["outcome"] == FAILED).all()):

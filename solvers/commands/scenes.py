@@ -130,7 +130,7 @@ def compile_(
 
 
 @command(old=_MODELS, new=_MODELS)
-def diff(old: str, new: str, probe: str | None, changes: Changes, output: WrittenText) -> None:
+def diff(old: str, new: str, probe: str | None, changes: Changes, output: Written) -> None:
     """The terms in which the models A and B differ, and their effect.
 
     Models are `library`, presets, scene files, models, or two folders of `generate`. --set changes entries of B. Models
@@ -149,7 +149,8 @@ def diff(old: str, new: str, probe: str | None, changes: Changes, output: Writte
     from ..export.differences import differences
     from ..export.text import as_text
 
-    output.put(as_text(differences(old, new, changes=changes, **passed(probe=probe))))
+    compared = differences(old, new, changes=changes, **passed(probe=probe))
+    output.put(as_text(compared), compared.to_dict())
 
 
 @command(to="one of " + ", ".join(KINDS), out="a folder to write into")

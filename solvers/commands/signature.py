@@ -6,6 +6,7 @@ import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import partial
+from importlib import import_module
 from pathlib import Path
 from typing import Annotated, Any, get_args, get_origin, get_type_hints
 
@@ -60,14 +61,27 @@ class Option:
         return click.Option([self.flag, name], help=self.help, **{**form, **self.settings})
 
 
+_CHOICES = {
+    "source": "scene.scenefile:PRESETS", "engine": "engines.settings:ENGINES", "hold": "scene.held:HOLDS",
+    "method": "sensitivity.sensitivities:METHODS", "films": "averages.sizes:FILMS", "to": "commands.scenes:KINDS",
+    "item": "paper.reproduce:PARTS", "of": "results:DIFFERENTIATED",
+}  # fmt: skip
+"""Where the values are among which a parameter has the choice; read when a shell completes a line."""
+
+
 def _completed(_ctx: click.Context, parameter: click.Parameter, begun: str) -> list[Any]:
-    """What a shell may complete: presets where a scene stands, and files."""
+    """What a shell may complete: a choice, the name of an entry, and where neither is asked for, files."""
     from click.shell_completion import CompletionItem
 
-    from ..scene.scenefile import PRESETS
-
-    presets = PRESETS if parameter.name == "source" else ()
-    return [CompletionItem(name) for name in presets if name.startswith(begun)] + [CompletionItem(begun, type="file")]
+    before, comma, _ = begun.rpartition(",") if parameter.metavar == "NAMES" else ("", "", "")
+    names: list[str] = []
+    if parameter.name in _CHOICES:
+        file, name = _CHOICES[parameter.name].split(":")
+        names = [*getattr(import_module(f"..{file}", __package__), name)]
+    elif str(parameter.metavar).startswith("NAME"):
+        names = [name + "=" * ("=" in str(parameter.metavar)) for name in FIELDS]
+    items = [CompletionItem(before + comma + name) for name in names if (before + comma + name).startswith(begun)]
+    return items + [CompletionItem(begun, type="file")] * (not names or parameter.name == "source")
 
 
 @dataclass(frozen=True)

@@ -163,8 +163,7 @@ def _structure(scene: Scene) -> tuple[Any, ...]:
 
 def law_of(scene: Scene) -> tuple[LawSource, str, list[str]]:
     """The source of a scene's law, the C that follows it in its module, and the words of the limits of the model."""
-    from ..export.law.header import structures
-    from ..export.law.texts import source
+    from ..export.law.texts import source, structures
 
     law = source(scene, ledger=_has_ledger(scene))
     material = [member for _, member, _ in structures(law.header)["law_material"]]
@@ -179,7 +178,7 @@ def _has_ledger(scene: Scene) -> bool:
 def _of_scene(scene: Scene, modules: dict[str, bytes]) -> dict[str, Any]:
     """What the page is told of a scene, whose law joins the modules."""
     from ...generated.automaton import CRITERIA, OUTCOMES
-    from ..export.law.header import structures
+    from ..export.law.texts import structures
     from ..formatting.style import FILLS
     from .knobs import knobs
 

@@ -7,7 +7,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -20,6 +20,7 @@ from ..host.emitted import text, with_imports
 from ..many.collide_many import collide_many
 from ..model.key import ModelKey
 from ..model.model import select_model
+from ..scene.origin import plain
 from ..scene.scene import Scene
 from ..scene.scenefile import PRESETS
 from ..scene.user_model import Package
@@ -72,6 +73,19 @@ class Differences:
     probes: tuple[Probe, ...]
     boundaries: tuple[tuple[tuple[str, float, float | None], ...], ...]
     on_map: OnMap | None = None
+
+    def to_dict(self) -> dict[str, Any]:
+        """The JSON object: names of A and B, terms that differ as text, and effects; null where one has failed."""
+        changes = [
+            {"equation": change.equation, "before": _text(change.before), "after": _text(change.after)}
+            for change in self.changes
+        ]
+        others = {name: plain(getattr(self, name)) for name in ("names", "probes", "boundaries", "on_map")}
+        return {**others, "changes": changes}
+
+
+def _text(term: Any) -> str | None:
+    return None if term is None else str(term)
 
 
 def differences(old: str, new: str, probe: str = "granulation", changes: dict[str, str] | None = None) -> Differences:

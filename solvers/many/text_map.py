@@ -53,11 +53,14 @@ def _map(data: xarray.Dataset) -> list[str]:
     for row in rows[::-1]:
         text = "".join(CHARACTERS[outcome[row, column]] for column in columns)
         lines.append(f"{values[row]:>{_LABEL - 2}.3g}  {text}")
-    ticks = range(0, len(columns), _TICK)
+    last = len(columns) - 1
+    apart = last > _TICK // 2  # room for a label at the last column, too
+    ticks = [*range(0, max(1, last - _TICK // 2), _TICK), *[last] * apart]
     marks, labels = "", ""
     for tick in ticks:
         marks += " " * (_LABEL + tick - len(marks)) + "|"
         labels += " " * (_LABEL + tick - len(labels)) + f"{angles[columns[tick]]:.3g}"
+    labels += f" to {angles[-1]:.3g}" * (last > 0 and not apart)
     name = f"{'deg':>{_LABEL - 2}}"
     return [*lines, marks, name + labels[len(name) :]]
 

@@ -32,17 +32,20 @@ class Column:
     cells: list[Any]
 
 
+_IMPACTS = "a CSV file whose first line names the columns, such as speed [m/s],angle [deg],restitution,outcome"
+
+
 def file_label(source: Any, label: str) -> str:
     """What names a table in messages: with the path of its file, if it is one."""
     return f"{label} {source}" if isinstance(source, (str, Path)) else label
 
 
-def columns_of(source: Any, label: str) -> tuple[list[Column], list[int]]:
+def columns_of(source: Any, label: str, accepted: str = _IMPACTS) -> tuple[list[Column], list[int]]:
     """The columns of a source, and the line of each row where it is a file, else the number of the row.
 
     A first column without a name that numbers the rows, as a DataFrame writes its index, is left out.
     """
-    columns, lines = _read(source, label)
+    columns, lines = _read(source, label, accepted)
     return without_index(columns, label), lines
 
 
@@ -60,7 +63,7 @@ def _is_whole(cell: Any) -> bool:
     return re.fullmatch(r"\s*\d+(\.0*)?\s*", str(cell)) is not None
 
 
-def _read(source: Any, label: str) -> tuple[list[Column], list[int]]:
+def _read(source: Any, label: str, accepted: str) -> tuple[list[Column], list[int]]:
     if hasattr(source, "data_vars"):  # xarray
         frame = source.to_dataframe().reset_index()
         units = {str(name): source[name].attrs.get("units") for name in (*source.data_vars, *source.coords)}
@@ -78,7 +81,7 @@ def _read(source: Any, label: str) -> tuple[list[Column], list[int]]:
         table = source.astype(object).where(source.notna(), None)  # pandas has several kinds of missing cells
         return _columns({str(name): table[name].tolist() for name in table.columns}, label)
     if isinstance(source, (str, Path)):
-        return columns_from_text(text_of(source, label), label, str(source))
+        return columns_from_text(text_of(source, label, accepted), label, str(source), accepted)
     accepted = "a CSV file, a DataFrame, a Dataset, or a mapping of columns"
     raise InputError(label, type(source).__name__, accepted, "is none of these")
 
@@ -103,10 +106,7 @@ def _columns(
     return columns, list(range(1, max(lengths.values(), default=0) + 1))
 
 
-_CSV = "a CSV file whose first line names the columns, such as speed [m/s],angle [deg],restitution,outcome"
-
-
-def text_of(source: str | Path, label: str, accepted: str = _CSV) -> str:
+def text_of(source: str | Path, label: str, accepted: str = _IMPACTS) -> str:
     """The text of a file; InputError if it cannot be read."""
     try:
         content = bounded.read(Path(source), _LARGEST)
@@ -121,7 +121,7 @@ def text_of(source: str | Path, label: str, accepted: str = _CSV) -> str:
         raise InputError(label, str(source), accepted, "is not UTF-8 text") from None
 
 
-def columns_from_text(text: str, label: str, source: str, accepted: str = _CSV) -> tuple[list[Column], list[int]]:
+def columns_from_text(text: str, label: str, source: str, accepted: str = _IMPACTS) -> tuple[list[Column], list[int]]:
     """The columns of a CSV file's text, separated by commas, semicolons or tabs, and the line of each row."""
     data = [(k, line) for k, line in enumerate(text.splitlines(), 1) if line.strip(" \t,;") and line.lstrip()[0] != "#"]
     if not data:

@@ -11,6 +11,7 @@ from ..scene.scene import Scene
 from ..scene.schema import FIELDS
 
 _SD = "_sd"
+_TABLE = "a CSV file whose first line names the columns, such as particles.diameter [um],liquid.viscosity [mPa s]"
 
 
 @dataclass(frozen=True)
@@ -41,7 +42,7 @@ def materials_of(source: Any, changes: Mapping[str, Any] | None = None) -> list[
     if not is_table:
         scene = Scene.load(source)
         return [Material(scene.name, scene.with_entries(changes) if changes else scene)]
-    columns, lines = columns_of(source, "materials")
+    columns, lines = columns_of(source, "materials", _TABLE)
     table = file_label(source, "materials")
     if not lines:
         raise InputError(table, None, "at least one row", "has no rows")

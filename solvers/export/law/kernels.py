@@ -3,33 +3,35 @@
 import re
 from dataclasses import dataclass, replace
 from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import numpy as np
 
 from ...engines.settings import KERNEL_STEPS, KERNEL_STEPS_IN_SPACE
 from ...engines.taylor.call import variant
 from ...engines.taylor.headers import headers
 from ...engines.taylor.source import Variant, files
 from ...errors import CheckFailed, InputError
+from ...host.thread_caches import once
 from ...model.key import ModelKey
 from ...model.model import load
 from ...scene.scene import Scene
 from ...space.collide_pair import check_scene
-from .amalgam import Source
 
 HEAD_ON, PLANE, SPACE = "head_on", "plane", "space"
 BOOKED = "booked_"
 """Prefix of kernels with the energy ledger, before that of their geometry."""
 IMPACT = {"speed": "speed", "angle": "angle", "impact_spin": "spin", "impact_partner_spin": "partner_spin"}
 """Quantities of an impact, and their names in it."""
+_OWN = Path(__file__).resolve().parent / "c"
+"""Hand-written C that only the exported law has, and templates."""
 _MAPPED = 1e-6  # relative tolerance of maps
 _COMPONENTS = ("_x", "_y", "_z")
-_SHOWN = {
-    "restitution": "c->restitution = {};",
-    "tangential_restitution": "c->tangential_restitution = {};",
-    "final_rotation_rate": "c->final_rotation_rate = {}*rate;",
-    "final_spin": "c->final_spin = {}*rate;",
-    "final_spin_partner": "c->final_partner_spin = {}*rate;",
-}
-"""C line that stores each output of a structure; {} is its value."""
+_EMPTY = ("nearness.h", "saltation.h", "step_record.h", "tangent_step.h", "tangents.h", "tape.h")
+"""Files of the runtime that have no code in a kernel without derivatives and without a trajectory."""
+_FOR_PYTHON = re.compile(r"^(?:STATIC_ASSERT.*|const char \w+_names\[\][^;]*;)\n", re.MULTILINE)
+"""What Python reads of a compiled kernel: names, and assertions of the layout."""
 
 
 @dataclass(frozen=True)
@@ -53,12 +55,26 @@ class Kernel:
         return emitted
 
     @cached_property
-    def generated_files(self) -> dict[str, str]:
-        """Texts of the generated files that its source includes, by name; InputError without a Taylor kernel."""
+    def files(self) -> dict[str, str]:
+        """Texts of the files that its source includes besides the runtime's, by name; InputError without a kernel."""
         texts = files(self.variant, self._headers)
-        # the C compiler decides on the lanes (`texts._LANES`), not this machine
+        # the C compiler decides on the lanes (`law.c.in`), not this machine
         texts["settings.h"] = re.sub(r"^#define LANES .*\n", "", texts["settings.h"], flags=re.MULTILINE)
-        return texts | {"in_si.h": self._header_in_si()}
+        texts |= {path.name: path.read_text() for path in _OWN.glob("*.h")} | dict.fromkeys(_EMPTY, "")
+        texts |= {name: _FOR_PYTHON.sub("", texts[name]) for name in ("layout.h", "model.h")}
+        return texts | {
+            "in_si.h": rendered(
+                "in_si.h.in",
+                in_space=self.prefix == SPACE,
+                head_on=self.prefix.endswith(HEAD_ON),
+                wall=self.scene.wall,
+                steps=KERNEL_STEPS_IN_SPACE if self.prefix == SPACE else KERNEL_STEPS,
+                quantities=self.quantities,
+                material=self.material,
+                impact=IMPACT,
+                outputs=load(self.choice).names("outputs"),
+            )
+        }
 
     @property
     def material(self) -> tuple[str, ...]:
@@ -72,61 +88,6 @@ class Kernel:
         if names is None:
             raise CheckFailed("a kernel without quantities")
         return tuple(re.findall(r'"(\w+) ?"', names[1]))
-
-    def source(self, roots: tuple[str, ...]) -> Source:
-        return Source(self.prefix, self.generated_files, roots)
-
-    def _header_in_si(self) -> str:
-        lines = self._places() if self.prefix == SPACE else [*self._columns(), *self._show()]
-        return "\n".join(
-            [
-                "/* Where the kernel's quantities come from, and where its outputs go. */",
-                "#pragma once",
-                "",
-                '#include "block.h"',
-                '#include "state.h"',
-                "",
-                "/* Step limit of a collision, or of one call where a collision may be resumed. */",
-                f"enum {{ MOST_STEPS_TAKEN = {KERNEL_STEPS_IN_SPACE if self.prefix == SPACE else KERNEL_STEPS} }};",
-                "",
-                *lines,
-            ]
-        )
-
-    def _places(self) -> list[str]:
-        names = load(self.choice).names("outputs")
-        vectors = [(k, name.removesuffix("_x")) for k, name in enumerate(names) if not name.endswith(("_y", "_z"))]
-        lines = [f"enum {{ {', '.join(f'AT_{name.upper()} = {k}' for k, name in vectors)} }}; /* in `shown` */", ""]
-        lines += ["static void set_material(buffer *columns, const law_material *m)", "{"]
-        lines += ["    for (int k = 0; k < QUANTITIES; k++)", "        columns[k].bytes = sizeof(double);"]
-        lines += [f"    columns[SI_{name.upper()}].at = (void *)&m->{name};" for name in self.material]
-        return [*lines, "}", ""]
-
-    def _columns(self) -> list[str]:
-        lines = ["static void set_columns(buffer *columns, const law_material *m, const block *b)", "{"]
-        lines += ["    for (int k = 0; k < QUANTITIES; k++)", "        columns[k].bytes = sizeof(double);"]
-        for name in self.quantities:
-            if name in IMPACT:
-                lines.append(f"    columns[SI_{name.upper()}].at = (void *)b->{IMPACT[name]};")
-                lines.append(f"    columns[SI_{name.upper()}].bytes = sizeof b->{IMPACT[name]};")
-            else:
-                lines.append(f"    columns[SI_{name.upper()}].at = (void *)&m->{name};")
-        return [*lines, "}", ""]
-
-    def _show(self) -> list[str]:
-        names = load(self.choice).names("outputs")
-        lines = ["/* `rate`: the unit of angular velocities, rad/s. */"]
-        lines += ["static void show(const answer *a, double rate, law_collision *c)", "{"]
-        lines += [f"    {_SHOWN[name].format(f'a->shown[{k}]')}" for k, name in enumerate(names) if name in _SHOWN]
-        if self.prefix.endswith(HEAD_ON):
-            lines += ["    c->final_spin = c->final_partner_spin = c->final_rotation_rate = 0.0;", "    (void)rate;"]
-        else:
-            lines.append("    c->slip_restitution = a->slip;")
-            if self.scene.wall:
-                lines.append("    c->final_partner_spin = 0.0;")
-            elif "final_spin_partner" not in names:
-                lines.append("    c->final_partner_spin = c->final_spin;")
-        return [*lines, "}", ""]
 
 
 def kernels(scene: Scene, rtol: float, ledger: bool = False) -> tuple[Kernel, ...]:
@@ -162,3 +123,32 @@ def only_in_a_plane(scene: Scene) -> str:
     except InputError as error:
         return f"{error.field} {error.problem}"
     return ""
+
+
+def rendered(file: str, /, **values: Any) -> str:
+    """A file of the folder `c`: what is in it of `@{value}` and of lines that begin with `//%`, by jinja2.
+
+    Imported here, since nothing but an export needs it.
+    """
+    return str(_templates().get_template(file).render(**values))
+
+
+@once
+def _templates() -> Any:
+    from jinja2 import Environment, FileSystemLoader, StrictUndefined
+
+    templates = Environment(
+        loader=FileSystemLoader(_OWN), undefined=StrictUndefined, keep_trailing_newline=True,
+        variable_start_string="@{", variable_end_string="}", line_statement_prefix="//%",
+    )  # fmt: skip
+    templates.filters |= {"repr": repr, "braced": _braced}
+    return templates
+
+
+def _braced(value: Any) -> str:
+    """A number, or rows of numbers of any depth, as C's initialiser."""
+    if isinstance(value, list | tuple) or np.ndim(value):
+        return f"{{{', '.join(map(_braced, value))}}}"
+    if isinstance(value, float | np.floating):
+        return "NAN" if np.isnan(value) else repr(float(value))
+    return str(int(value))

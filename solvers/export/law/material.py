@@ -16,7 +16,7 @@ from ...scene.quantities import NO_GLASS
 from ...scene.scene import Scene
 from ...scene.schema import FIELDS
 from ...scene.user_model_declared import TABLE
-from .kernels import HEAD_ON, PLANE, Kernel
+from .kernels import Kernel
 
 LARGEST = 1e30
 """Largest magnitude of a number, and the inverse of the smallest: beyond it groups may leave a double's range."""
@@ -29,6 +29,17 @@ _ALONE = {
 }
 _BESIDE_WALL = {"reduced_radius": "radius of the sphere", "reduced_mass": "mass of the sphere"}
 _OK = "OK"
+_PAIRS = {
+    "NO_DIRECTION": "the normal is zero or not finite: the particles are at one place, or nowhere",
+    "NOT_A_NUMBER": "a velocity or a spin is not finite",
+    "NOT_APPROACHING": "the particles do not approach along the normal",
+    "OUT_OF_RANGE": "velocities and spins are too large, too small, or too far from each other",
+    "NOT_IN_CONTACT": "the particles are not at contact distance within `tolerance`, or pass each other",
+    "BAD_TOLERANCE": "tolerance must be a number from 0",
+    "BAD_STEP": "the length of a step must be a positive number, s",
+    "BAD_HISTORY": "the history of the pair is none that a call has left: begin with zeros",
+}
+"""Statuses of pairs in space, from 150 on."""
 
 
 @dataclass(frozen=True)
@@ -57,18 +68,19 @@ class Number:
             return self.range.text + (f" ({self.most:g}: never met)" if self.most > LARGEST else "")
         return "from 0 to pi/2" if not self.range.high_open else "at least 0, below pi/2"
 
+    @property
+    def comment(self) -> str:
+        """Its unit, its interval and what it is."""
+        return f"{'' if self.unit == '1' else self.unit + ', '}{self.in_words}: {self.meaning}"
 
-_IEEE = """\
-/* Whether sums are rounded as they stand, and comparisons know NaN and infinity: clang has no macros for options that
-   change this. The numbers are read at run time, so that the options act on them as on all others. */
-static int is_ieee(void)
-{
-    const volatile double quarter = 0.25;
-    double x = quarter, infinite = x < 1.0 ? INFINITY : x, none = infinite - infinite, magic = 6755399441055744.0;
-    return (x + magic) - magic == 0.0 && infinite > 1e308 && !(none >= 0.0 || none <= 0.0);
-}
-
-"""
+    def test(self, of: str) -> str:
+        """The condition, in C, that it is within its range; `of` stands before its name."""
+        interval, name, tests = self.range, f"{of}{self.name}", list[str]()
+        if interval.low > -math.inf:
+            tests.append(f"{name} {'>' if interval.low_open else '>='} {interval.low!r}")
+        if interval.high < math.inf:
+            tests.append(f"{name} {'<' if interval.high_open else '<='} {interval.high!r}")
+        return " && ".join([*tests, f"is_usual({name}, {self.most!r})"])
 
 
 @dataclass(frozen=True)
@@ -132,8 +144,8 @@ def impact(scene: Scene) -> tuple[Number, ...]:
     )
 
 
-def results(numbers: Iterable[Number], entries: Iterable[Number] = ()) -> tuple[Result, ...]:
-    """Every status: of numbers of a material and an impact, and of entries of a pair."""
+def results(numbers: Iterable[Number], entries: Iterable[Number] = (), in_space: bool = False) -> tuple[Result, ...]:
+    """Every status: of numbers of a material and an impact, of entries of a pair, and of pairs in space."""
     failed = {
         Status.NO_BUDGET: "not decided within `budget` steps",
         Status.NOT_FINITE: "the state is not finite, or energy has grown",
@@ -160,56 +172,16 @@ def results(numbers: Iterable[Number], entries: Iterable[Number] = ()) -> tuple[
         for k, number in enumerate(those, first):
             unit = "" if number.unit == "1" else f", {number.unit}"
             statuses.append(Result(k, number.status, f"{number.name} must be {number.in_words}{unit}"))
+    if in_space:
+        statuses += [Result(150 + k, name, sentence) for k, (name, sentence) in enumerate(_PAIRS.items())]
     return tuple(statuses)
 
 
-def checks(scene: Scene, of_material: Iterable[Number], of_impact: Iterable[Number], kernels: Iterable[Kernel]) -> str:
-    """C functions that refuse a material, an impact and a tolerance."""
-    tolerance = Number("rtol", "1", "", TOLERANCE.range, 1e-9)
-    body = refusals(of_material, "m->")
+def endless(scene: Scene) -> str:
+    """The condition, in C, under which nothing stops the approach of a material `m`."""
     never = [f"m->{name} {'>=' if value > 1 else '<='} {value!r}" for name, value in NEVER_MET.items()]
-    stops = " && ".join(never)
-    if scene.attraction is not None:
-        stops += " && m->hamaker > 0.0"
-    else:
-        stops += f" && m->glass_transition_pressure >= {NO_GLASS!r}"
-    body += [f"if ({stops})", "    return LAW_NOTHING_STOPS;", "if (!is_ieee())", "    return LAW_BAD_ARITHMETIC;"]
-    *others, last = (f"{kernel.prefix}_inconsistent(m)" for kernel in kernels if kernel.prefix in (HEAD_ON, PLANE))
-    for other in others:
-        body += [f"if ({other} != LAW_OK)", f"    return {other};"]
-    lines = c_function("static int check_material(const law_material *m)", [*body, f"return {last};"])
-    refused = [*refusals(of_impact, "impact->"), "return LAW_OK;"]
-    lines += c_function("static int check_impact(const law_impact *impact)", refused)
-    settings = [*refusals([tolerance], ""), "return budget >= 0 ? LAW_OK : LAW_BAD_BUDGET;"]
-    lines += c_function("static int check_settings(double rtol, int budget)", settings)
-    intro = "/* Numbers outside their ranges, NaN among them, are refused. */\n\n"
-    usual = [
-        "/* Whether a number is zero, or of a size with which the groups stay within a double's range. */",
-        *c_function(
-            "static int is_usual(double x, double most)",
-            [f"return x == 0.0 || (fabs(x) >= {1 / LARGEST!r} && fabs(x) <= most);"],
-        ),
-    ]
-    return _IEEE + intro + "\n".join([*usual, *lines])
-
-
-def refusals(numbers: Iterable[Number], of: str) -> list[str]:
-    """Lines of C that return the status of the first number outside its range; `of` stands before their names."""
-    lines = []
-    for number in numbers:
-        interval, name, tests = number.range, f"{of}{number.name}", []
-        if interval.low > -math.inf:
-            tests.append(f"{name} {'>' if interval.low_open else '>='} {interval.low!r}")
-        if interval.high < math.inf:
-            tests.append(f"{name} {'<' if interval.high_open else '<='} {interval.high!r}")
-        tests.append(f"is_usual({name}, {number.most!r})")
-        lines += [f"if (!({' && '.join(tests)}))", f"    return LAW_{number.status};"]
-    return lines
-
-
-def c_function(head: str, body: Iterable[str]) -> list[str]:
-    """Lines of a C function and an empty one."""
-    return [head, "{", *(f"    {line}" for line in body), "}", ""]
+    last = "m->hamaker > 0.0" if scene.attraction is not None else f"m->glass_transition_pressure >= {NO_GLASS!r}"
+    return " && ".join([*never, last])
 
 
 def _range(name: str, scene: Scene) -> Range:

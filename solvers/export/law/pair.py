@@ -9,8 +9,7 @@ from ...averages.sizes import FIXED, scene_of_sizes
 from ...errors import CheckFailed
 from ...scene.quantities import Ways, quantities
 from ...scene.scene import Scene
-from .comments import comment
-from .material import LARGE, LARGEST, Number, c_function, meaning_of, refusals
+from .material import LARGE, LARGEST, Number, meaning_of
 
 _OPERATIONS = {
     casadi.OP_ADD: "{} + {}", casadi.OP_SUB: "{} - {}", casadi.OP_MUL: "{}*{}", casadi.OP_DIV: "{}/{}",
@@ -54,22 +53,7 @@ def pair_entries(scene: Scene, of_material: Sequence[Number]) -> tuple[Number, .
     return tuple(numbers)
 
 
-def pair_function(scene: Scene, entries: Sequence[Number], of_material: Sequence[Number]) -> str:
-    """The C functions that return the scene's own pair, refuse entries, and compute the material of a pair."""
-    values = [f"e.{number.name} = {number.value!r};" for number in entries]
-    head = "law_pair_entries law_default_pair_entries(void)"
-    lines = c_function(head, ["law_pair_entries e;", *values, "return e;"])
-    head = "static int check_pair_entries(const law_pair_entries *e)"
-    lines += c_function(head, [*refusals(entries, "e->"), "return LAW_OK;"])
-    body = ["law_material m;", "int status = check_pair_entries(e);", "memset(material, 0, sizeof *material);"]
-    body += ["if (status != LAW_OK)", "    return status;", *_computed(scene, entries, of_material)]
-    body += ["status = check_material(&m);", "if (status == LAW_OK)", "    *material = m;", "return status;"]
-    return "\n".join(
-        [*lines, *c_function("int law_material_of(const law_pair_entries *e, law_material *material)", body)]
-    )
-
-
-def _computed(scene: Scene, entries: Sequence[Number], of_material: Sequence[Number]) -> list[str]:
+def computed(scene: Scene, entries: Sequence[Number], of_material: Sequence[Number]) -> list[str]:
     """Lines of C that set the members of `m` from those of `e`; what is used more than once has a name."""
     symbols = {number.name.replace("_", ".", 1): SX.sym(number.name) for number in entries}
     values = quantities(symbols, Ways(scene.wall, scene.ways.volume))
@@ -103,45 +87,3 @@ def _computed(scene: Scene, entries: Sequence[Number], of_material: Sequence[Num
 def _read(function: Function, k: int) -> list[int]:
     """Places of the work vector that an instruction reads."""
     return [] if function.instruction_id(k) == casadi.OP_CONST else list(function.instruction_input(k))
-
-
-def pair_header(scene: Scene, entries: Sequence[Number]) -> list[str]:
-    """What the header says of pairs."""
-    members = {number.name for number in entries}
-    film = (
-        "the sum of both coatings"
-        if "liquid_coating_thickness" in members
-        else "liquid_film_thickness, of both together"
-    )
-    rules = [f"The film is {film}."]
-    if scene.ways.volume == "coating":
-        share = (
-            "the part bridge_coating_fraction"
-            if "bridge_coating_fraction" in members
-            else "what the other's shadow covers"
-        )
-        rules.append(f"The bridge has of either coating {share}.")
-    if scene.pendulum is not None:
-        rules.append("The spheres on strings are equal.")
-    rows = [
-        f"    double {item.name}; /* {'' if item.unit == '1' else item.unit + ', '}{item.in_words}: {item.meaning} */"
-        for item in entries
-    ]
-    return [
-        *comment(
-            "A pair as a scene file describes it: member TABLE_KEY is the entry TABLE.KEY, SI. "
-            f"{' '.join(rules)} law_default_pair_entries() has the scene's."
-        ),
-        "typedef struct {",
-        *rows,
-        "} law_pair_entries;",
-        "",
-        "law_pair_entries law_default_pair_entries(void);",
-        "",
-        *comment(
-            "The material of a pair. Returns LAW_OK, or a status that names what is out of range; the material is then "
-            "all zeros, which every call refuses."
-        ),
-        "int law_material_of(const law_pair_entries *entries, law_material *material);",
-        "",
-    ]

@@ -1,69 +1,28 @@
 """The folder of an exported law: its C file and header, and what shows how to use it."""
 
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass
 from importlib.metadata import version
-from typing import Self
+from typing import Any
 
-from ...engines.settings import RTOL
+from ....generated.automaton import CRITERIA, KINDS, OUTCOMES
+from ...engines.settings import KERNEL_STEPS, KERNEL_STEPS_IN_SPACE, RTOL, TOLERANCE
 from ...scene.scene import Scene
 from ...space.pairs import Bodies
 from ..equations import file_name
-from . import space
-from .amalgam import OWN, Source, digests, merged
-from .header import ctypes_fields, default_material, header, message_function, structures
-from .items import items
-from .kernels import BOOKED, HEAD_ON, PLANE, SPACE, Kernel, kernels, only_in_a_plane
-from .material import Number, Result, checks, impact, material, results
-from .pair import pair_entries, pair_function
-from .vectors import table
+from .c_file import digests, kernels_text
+from .kernels import BOOKED, HEAD_ON, PLANE, SPACE, Kernel, kernels, only_in_a_plane, rendered
+from .material import LARGEST, Number, endless, impact, material, results
+from .pair import computed, pair_entries
+from .vectors import RTOL as VECTOR_RTOL
+from .vectors import TOLERANCE as VECTOR_TOLERANCE
+from .vectors import pair_vectors, vectors
 
-ROOTS = ("integrate.h", "follow.h")
-"""Files of a kernel whose functions the law calls, with what they include."""
-CALLERS = ("collide.h", "contact.h")
-"""Files behind the kernels, which call their functions."""
-_TAKEN = ("check", "example", "vectors", "add", "oblique", HEAD_ON, PLANE, SPACE, f"{SPACE}_set")
+_TAKEN = ("check", "example", "vectors", "add", "dry", "oblique", HEAD_ON, PLANE, SPACE, f"{SPACE}_set")
 """Names of other files of the folder, and beginnings of names within the law that would be those of its types."""
-_LINE = re.compile(r'^#(?:pragma once|include "[^"]+")\n', re.MULTILINE)
-_LANES = """\
-/* Doubles side by side: as many as a vector register holds, or one in plain C. -DLAW_LANES=1 chooses. */
-#if defined(LAW_LANES)
-#define LANES LAW_LANES
-#elif defined(__AVX512DQ__) && defined(__GNUC__)
-#define LANES 8
-#elif defined(__AVX2__) && defined(__GNUC__)
-#define LANES 4
-#elif (defined(__SSE2__) || defined(__ARM_NEON)) && defined(__GNUC__)
-#define LANES 2
-#else
-#define LANES 1
-#endif
-#include <float.h>
-#if defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__) || defined(_M_FP_FAST)
-#error "NaN and infinity are compared here: compile without -ffast-math and -ffinite-math-only"
-#endif
-#if defined(__ASSOCIATIVE_MATH__) || (defined(FLT_EVAL_METHOD) && FLT_EVAL_METHOD != 0 && FLT_EVAL_METHOD != 1)
-#error "Sums are rounded as they stand, to doubles: compile without -fassociative-math and with -mfpmath=sse"
-#endif
-"""
-
-
-@dataclass(frozen=True)
-class _Numbers:
-    """What a host gives, and the statuses that it may get."""
-
-    material: tuple[Number, ...]
-    impact: tuple[Number, ...]
-    entries: tuple[Number, ...]
-    statuses: tuple[Result, ...]
-
-    @classmethod
-    def of(cls, scene: Scene, law_kernels: tuple[Kernel, ...]) -> Self:
-        of_material, of_impact = material(scene, law_kernels), impact(scene)
-        entries = pair_entries(scene, of_material)
-        statuses = results((*of_material, *of_impact), entries)
-        in_space = () if only_in_a_plane(scene) else space.RESULTS
-        return cls(of_material, of_impact, entries, (*statuses, *in_space))
+Fields = list[tuple[str, str, tuple[int, ...]]]
+"""Members of a structure: type, name, shape."""
 
 
 @dataclass(frozen=True)
@@ -89,10 +48,34 @@ def source(scene: Scene, rtol: float = RTOL, ledger: bool = False) -> LawSource:
     Arguments:
         ledger: contacts that a host interrupts have the energy ledger, and there are no collisions in space.
     """
-    law_kernels = kernels(scene, rtol, ledger)
-    numbers = _Numbers.of(scene, law_kernels)
-    declared = header(scene, numbers.material, numbers.impact, numbers.entries, numbers.statuses, ledger)
-    return LawSource(declared, _law(scene, law_kernels, numbers), numbers.entries, numbers.impact)
+    law_kernels, planar = kernels(scene, rtol, ledger), only_in_a_plane(scene)
+    of_material, of_impact = material(scene, law_kernels), impact(scene)
+    entries = pair_entries(scene, of_material)
+    values: dict[str, Any] = {
+        "scene": scene, "material": of_material, "impact": of_impact, "entries": entries,
+        "statuses": results((*of_material, *of_impact), entries, in_space=not planar),
+        "ledger": ledger, "planar": planar, "largest": LARGEST,
+    }  # fmt: skip
+    header = rendered(
+        "law.h.in",
+        **values,
+        outcomes=OUTCOMES,
+        criteria=[(word, KINDS.index(word), row.name) for word, row in CRITERIA.items()],
+        steps=KERNEL_STEPS,
+        steps_in_space=KERNEL_STEPS_IN_SPACE,
+    )
+    c = rendered(
+        "law.c.in",
+        **values,
+        head=_head(scene, law_kernels),
+        kernels=kernels_text(law_kernels),
+        tolerance=Number("rtol", "1", "", TOLERANCE.range, 1e-9),
+        endless=endless(scene),
+        of_entries=computed(scene, entries, of_material),
+        booked=BOOKED if ledger else "",
+        in_space=not planar and not ledger,
+    )
+    return LawSource(header, c, entries, of_impact)
 
 
 def law_name(scene: Scene) -> str:
@@ -103,38 +86,49 @@ def law_name(scene: Scene) -> str:
 
 def texts(scene: Scene, rtol: float = RTOL) -> dict[str, str]:
     """Texts of the files by name; errors as of `source`, and ComputationError if no engine computes test vectors."""
-    name, law_kernels = law_name(scene), kernels(scene, rtol)
-    law = source(scene, rtol)
-    declared = law.header
+    name, law_kernels, law, pairs = law_name(scene), kernels(scene, rtol), source(scene, rtol), []
+    layout, planar = structures(law.header), only_in_a_plane(scene)
+    others = {"Makefile": "Makefile", "README.md": "README.md", "check.c": "check.c", "example.py": "example.py.in"}
+    if planar:
+        others["example.c"] = "example.c"
+    else:
+        others |= {"example.c": "example-space.c", "pairs.py": "pairs.py.in"}
+        pairs = pair_vectors(scene, _members(layout["law_pair"]), _members(layout["law_pair_after"]))
+    numbers = {"rtol": VECTOR_RTOL, "tolerance": VECTOR_TOLERANCE}
+    radii, masses = _sizes(scene)
+    example = {
+        "name": name, "speed": f"{0.1 / scene.stokes_per_speed:.3g}", "radii": radii, "masses": masses,
+        "fields": {structure: _ctypes(fields) for structure, fields in layout.items()},
+    }  # fmt: skip
     files = {
-        f"{name}.h": _head(scene, law_kernels) + declared,
+        f"{name}.h": _head(scene, law_kernels) + law.header,
         f"{name}.c": law.c,
-        "vectors.h": table(scene, law_kernels),
+        "vectors.h": rendered("vectors.h.in", vectors=vectors(scene, law_kernels), pairs=pairs, **numbers),
+        **{path: rendered(file, **example) for path, file in others.items()},
     }
-    files |= {path: _filled(file, scene, declared) for path, file in _files(scene).items()}
     return {file: _named(name, text) for file, text in files.items()}
 
 
-def _files(scene: Scene) -> dict[str, str]:
-    """The other files by name, and where their texts are."""
-    names = ("Makefile", "README.md", "check.c", "example.c")
-    files = {**{name: name for name in names}, "example.py": "example.py.in"}
-    return files | ({} if only_in_a_plane(scene) else {"example.c": "example-space.c", "pairs.py": "pairs.py.in"})
-
-
-def _filled(file: str, scene: Scene, declared: str) -> str:
-    """A text with the scene's names and numbers in their places."""
-    places = {
-        "NAME": law_name(scene),
-        "SPEED": f"{0.1 / scene.stokes_per_speed:.3g}",
-        **{name.removeprefix("law_").upper(): ctypes_fields(fields) for name, fields in structures(declared).items()},
+def structures(header: str) -> dict[str, Fields]:
+    """The structures that a host fills or reads, by name."""
+    bodies = re.findall(r"typedef struct \{([^}]*)\} (law_\w+);", header)
+    return {
+        name: [
+            (kind, member, tuple(map(int, re.findall(r"\d+", shape))))
+            for kind, member, shape in re.findall(r"^ *(int|double|law_\w+) (\w+)((?:\[\d+\])*);", body, re.MULTILINE)
+        ]
+        for body, name in bodies
     }
-    radii, masses = _sizes(scene)
-    places |= {"RADII": ", ".join(map(repr, radii)), "MASSES": ", ".join(map(repr, masses))}
-    text = (OWN / file).read_text()
-    for name, value in places.items():
-        text = text.replace(f"@{name}@", value)
-    return text
+
+
+def _members(fields: Fields) -> list[str]:
+    return [name for _, name, _ in fields]
+
+
+def _ctypes(fields: Fields) -> str:
+    """The members as fields of a ctypes structure."""
+    kinds = ("".join([f"ctypes.c_{kind}", *(f" * {n}" for n in reversed(shape))]) for kind, _, shape in fields)
+    return ", ".join(f'("{name}", {kind})' for kind, (_, name, _) in zip(kinds, fields, strict=True))
 
 
 def _sizes(scene: Scene) -> tuple[tuple[float, float], tuple[float, float]]:
@@ -145,44 +139,14 @@ def _sizes(scene: Scene) -> tuple[tuple[float, float], tuple[float, float]]:
     return (float(scene.material["reduced_radius"]), 0.0), (float(scene.material["reduced_mass"]), 0.0)
 
 
-def _law(scene: Scene, law_kernels: tuple[Kernel, ...], numbers: _Numbers) -> str:
-    """Text of NAME.c: its kernels, and behind them the functions that a host calls."""
-    called, parts = list(CALLERS), []
-    booked = [kernel.prefix for kernel in law_kernels if kernel.prefix.startswith(BOOKED)]
-    if not booked and not only_in_a_plane(scene):
-        called += space.callers(scene)
-        parts.append(space.bodies(scene))
-    behind = "\n".join(
-        [
-            default_material(numbers.material),
-            message_function(numbers.statuses),
-            checks(scene, numbers.material, numbers.impact, law_kernels),
-            pair_function(scene, numbers.entries, numbers.material),
-            *parts,
-            *(_LINE.sub("", (OWN / name).read_text()) for name in called),
-        ]
-    )
-    for prefix in booked:
-        behind = behind.replace(f" {prefix.removeprefix(BOOKED)}_follow(", f" {prefix}_follow(")
-    text, always, sometimes = merged(_sources(scene, law_kernels), items("law", behind)[1])
-    return "\n".join([_head(scene, law_kernels), '#include "law.h"', "", *always, "", _LANES, *sometimes, text, behind])
-
-
-def _sources(scene: Scene, law_kernels: tuple[Kernel, ...]) -> list[Source]:
-    types = () if only_in_a_plane(scene) else space.TYPES
-    in_plane = (*ROOTS, *types)
-    return [kernel.source(space.ROOTS if kernel.prefix == SPACE else in_plane) for kernel in law_kernels]
-
-
-def _head(scene: Scene, law_kernels: tuple[Kernel, ...]) -> str:
+def _head(scene: Scene, law_kernels: Sequence[Kernel]) -> str:
     """The comment at the head of both files: what they are, and what they come from."""
     lines = [f"Collisions of wet particles: the law of the scene `{scene.name or 'scene'}`.", ""]
     lines += [f"Exported by wetdoublet {version('wetdoublet')}. Do not edit: change the scene and export it again."]
     for kernel in law_kernels:
         laws = ", ".join(f"{slot} {law}" for slot, law in kernel.choice.laws)
         lines.append(f"Kernel {kernel.prefix}: structure {kernel.choice.structure}; laws: {laws}.")
-    hashes = digests(_sources(scene, law_kernels))
-    lines += ["Digests of what is emitted from the derivation:", *(f"  {digest}" for digest in hashes)]
+    lines += ["Digests of what is emitted from the derivation:", *(f"  {digest}" for digest in digests(law_kernels))]
     inside = "\n".join(f" * {line}".rstrip() for line in lines).replace("*/", "* /")
     return f"/*\n{inside}\n */\n"
 

@@ -3,6 +3,7 @@
 import ctypes
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -17,8 +18,7 @@ from ...many.impacts import Block
 from ...scene.scene import Scene
 from ...space.collide_pair import collide_pair
 from ...space.pairs import Bodies
-from .kernels import HEAD_ON, IMPACT, Kernel, only_in_a_plane
-from .space import AFTER, PAIR
+from .kernels import HEAD_ON, IMPACT, Kernel
 
 RTOL = 1e-9
 TOLERANCE = 1000 * RTOL
@@ -43,7 +43,7 @@ class Vector:
     numbers: tuple[float, ...]
 
 
-def vectors(scene: Scene, kernels: Sequence[Kernel]) -> list[Vector]:
+def vectors(scene: Scene, kernels: Sequence[Kernel]) -> list[tuple[tuple[float, ...], tuple[float, ...]]]:
     """Fifty impacts, or fewer, with all outcomes among eight times as many candidates (twice without a C compiler).
 
     Those next to a boundary are left out: their results depend on the tolerance.
@@ -59,43 +59,8 @@ def vectors(scene: Scene, kernels: Sequence[Kernel]) -> list[Vector]:
         raise ComputationError("no impact could be computed for the test vectors, or all are beside a boundary")
     share = -(-_WANTED // len(present))
     chosen = [vector for group in present for vector in group[:share]]
-    return chosen + [vector for vector in result if vector not in chosen][: max(0, _WANTED - len(chosen))]
-
-
-def table(scene: Scene, kernels: Sequence[Kernel]) -> str:
-    """The text of vectors.h."""
-    rows = [
-        f"    {{{{{_list(row.impact)}}},\n     {{0, {', '.join(map(str, row.codes))}, {_list(row.numbers)}}}}},"
-        for row in vectors(scene, kernels)
-    ]
-    lines = [
-        "/* Impacts (SI) and what wetdoublet computed for them, in the order of the header's structures. */",
-        "#ifndef VECTORS_H",
-        "#define VECTORS_H",
-        "",
-        '#include "law.h"',
-        "",
-        "#include <math.h>",
-        "",
-        f"#define VECTOR_RTOL {RTOL!r}",
-        f"#define VECTOR_TOLERANCE {TOLERANCE!r} /* relative */",
-        "",
-        "static const struct {",
-        "    law_impact impact;",
-        "    law_collision expected;",
-        "} vectors[] = {",
-        *rows,
-        "};",
-        "",
-        *([] if only_in_a_plane(scene) else pair_table(scene, RTOL, TOLERANCE)),
-        "#endif",
-        "",
-    ]
-    return "\n".join(lines)
-
-
-def _list(numbers: Sequence[float]) -> str:
-    return ", ".join("NAN" if np.isnan(number) else repr(float(number)) for number in numbers)
+    chosen += [vector for vector in result if vector not in chosen][: max(0, _WANTED - len(chosen))]
+    return [(vector.impact, (0, *vector.codes, *vector.numbers)) for vector in chosen]
 
 
 def _impacts(scene: Scene) -> list[dict[str, np.ndarray]]:
@@ -151,33 +116,29 @@ def _by_kernel(library: ctypes.CDLL, impacts: Impacts, rtol: float) -> Block:
     return block | {"rebound": answers["reversal"], "answered": answers["status"] <= LAST_ANSWER}
 
 
-def pair_table(scene: Scene, rtol: float, tolerance: float) -> list[str]:
-    """Lines of vectors.h: pairs of all outcomes that occur, away from boundaries, one in four of them in a plane."""
+def pair_vectors(scene: Scene, members: Sequence[str], results: Sequence[str]) -> list[tuple[list[Any], list[Any]]]:
+    """Pairs of all outcomes that occur, away from boundaries, and what they come to: one in four is in a plane.
+
+    Arguments:
+        members, results: names of members of `law_pair` and `law_pair_after`, in their order.
+    """
     scene_pairs = _pairs(scene)
     normal, velocities, spins = (
         scene_pairs["normal"],
         scene_pairs["velocities"],
         scene_pairs["spins"][:, : 1 if scene.wall else 2],
     )
-    pairs, other = (collide_pair(scene, normal, velocities, spins, rtol=accuracy) for accuracy in (rtol, rtol / 3))
+    pairs, other = (collide_pair(scene, normal, velocities, spins, rtol=accuracy) for accuracy in (RTOL, RTOL / 3))
     rows = {name: pairs[name].values for name in pairs.data_vars}
     sound = (rows["outcome"] == other.outcome.values) & (rows["outcome"] >= 0)
     for name in ("time", "restitution", "velocities", "spins"):
         loose, two = (np.nan_to_num(dataset[name].values.reshape(_DRAWN, -1)) for dataset in (pairs, other))
-        sound &= np.abs(loose - two).max(axis=1) <= 0.1 * tolerance * np.abs(loose).max(axis=1)
+        sound &= np.abs(loose - two).max(axis=1) <= 0.1 * TOLERANCE * np.abs(loose).max(axis=1)
     chosen = [k for outcome in range(3) for k in np.flatnonzero(sound & (rows["outcome"] == outcome))[:_KEPT]]
     if not chosen:
         raise ComputationError("no pair in space could be computed for the test vectors")
-    lines = ["static const struct {", "    law_pair pair;", "    law_pair_after expected;", "} pair_vectors[] = {"]
-    for k in chosen:
-        before = ", ".join(_braced(scene_pairs[name][k]) for _, name, _, _ in PAIR)
-        numbers = {"status": 0} | {name: values[k] for name, values in rows.items()}
-        after = ", ".join(
-            str(int(numbers[name])) if kind == "int" else _braced(np.asarray(numbers[name], float))
-            for kind, name, _, _ in AFTER
-        )
-        lines.append(f"    {{{{{before}}},\n     {{{after}}}}},")
-    return [*lines, "};", ""]
+    numbers = {**rows, "status": np.zeros(_DRAWN, int)}
+    return [([scene_pairs[name][k] for name in members], [numbers[name][k] for name in results]) for k in chosen]
 
 
 def _pairs(scene: Scene) -> dict[str, np.ndarray]:
@@ -200,10 +161,3 @@ def _pairs(scene: Scene) -> dict[str, np.ndarray]:
 def _directions(draw: np.random.Generator, shape: tuple[int, ...]) -> np.ndarray:
     drawn = draw.normal(size=(*shape, 3))
     return np.asarray(drawn / np.linalg.norm(drawn, axis=-1, keepdims=True))
-
-
-def _braced(numbers: np.ndarray) -> str:
-    """Numbers of any shape as C's initialisers."""
-    if numbers.ndim == 0:
-        return "NAN" if np.isnan(numbers) else repr(float(numbers))
-    return f"{{{', '.join(_braced(np.asarray(row)) for row in numbers)}}}"

@@ -95,6 +95,8 @@ BAD = [
     ("map granulation --stokes 1:2:2 --angle 0:1:2 --set impact.angle=3", "--set", "axis of the map", "impact.spin"),
     ("map granulation --stokes 0.1:0.2:1000000000", "--stokes", "has too many values", "N at most 10000000"),
     ("map granulation --stokes 0.1:0.2:3", "--angle", "missing", ""),
+    ("prove granulation --map --stokes 0.1:0.5:3 --angle 10", "--angle", '"10" is one edge', "LO:HI:N in degrees"),
+    ("prove granulation --map --stokes 0.1 --angle 0:10:3", "--stokes", '"0.1" is one edge', "LO:HI:N or log:LO:HI:N"),
     ("map granulation --stokes 0.1:0.2 --angle 0:80:3", "--stokes", '"0.1:0.2" is not a range', ""),
     ("map granulation --speed 0.1:0.2:3 --angle 0:80:3", "--speed", '"0.1:0.2" has no unit', "a number with its unit"),
     ("map granulation --angle 0:1:2 --vary liquid.viscosity=1:2:3", "--vary liquid.viscosity", '"1:2" has no unit', ""),
@@ -285,10 +287,13 @@ def test_a_home_that_cannot_be_written(tmp_path):
 @pytest.mark.parametrize(
     ("line", "completed"),
     [("col", {"collide"}), ("collide --sto", {"--stokes"}), ("collide gran", {"granulation", "granulation-dry-bridge"}),
-     ("collide granulation --engine ro", {"ro"})],
+     ("collide granulation --engine ro", {"rosenbrock"}), ("collide granulation --plot ro", {"ro"}),
+     ("export granulation --to ca", {"casadi"}), ("reproduce fig4", {"fig4a", "fig4b"}),
+     ("collide granulation --set liquid.vis", {"liquid.viscosity="}),
+     ("sensitivity granulation --wrt impact.angle,liquid.vis", {"impact.angle,liquid.viscosity"})],
 )  # fmt: skip
 def test_a_shell_completes(line, completed):
-    """Commands, options and presets are completed, by what click writes for bash; values of options are files."""
+    """Commands, options, presets, choices and names of entries, by what click writes for bash; the rest is files."""
     words = f"wetdoublet {line}"
     env = {"_WETDOUBLET_COMPLETE": "bash_complete", "COMP_WORDS": words, "COMP_CWORD": str(words.count(" "))}
     done = subprocess.run(
@@ -360,3 +365,15 @@ def test_bad_ranges(text):
     """A range that is none, runs backwards or has the wrong count names its option."""
     with pytest.raises(InputError, match=r"--stokes: .*; accepted: .*"):
         parse_range(text, "--stokes", floats)
+
+
+@pytest.mark.parametrize(
+    ("line", "columns"),
+    [("critical {}", "particles.diameter [um]"), ("averages granulation --speeds {}", "relative_speed,density")],
+)
+def test_a_table_without_columns(line, columns, tmp_path):
+    """The columns that are named are those of this table."""
+    (tmp_path / "empty.csv").touch()
+    done = run(*line.format(tmp_path / "empty.csv").split())
+    assert done.exit_code == 2
+    assert "has no line with names of columns" in done.stderr and columns in done.stderr

@@ -2,9 +2,12 @@
 
 import json
 from importlib.metadata import version
+from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
+import xarray
 from wetdoublet.solvers import Scene, collide
 from wetdoublet.solvers.results import UNITS
 
@@ -57,6 +60,38 @@ def test_every_number_of_a_collision_has_a_unit() -> None:
             key for key, value in found.items() if isinstance(value, int | float) and not isinstance(value, bool)
         }
         assert numbers <= set(found["units"]) <= set(UNITS) & set(found)
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ("map", "granulation", "--stokes", "0.05:0.3:2", "--angle", "10:80:3"),
+        ("averages", "granulation", "--speeds", "1.5 m/s", "--tolerance", "1e-2"),
+    ],
+)
+def test_a_dataset_is_read_back(words: tuple[str, ...], tmp_path: Path) -> None:
+    """The object of a command with -o FILE.nc is the dataset of that file, null in the place of NaN."""
+    done = run(*words, "--json", "-o", tmp_path / "data.nc")
+    assert done.exit_code == 0, done.stderr
+    found, file = xarray.Dataset.from_dict(json.loads(done.stdout)), xarray.open_dataset(tmp_path / "data.nc")
+    assert {*found.variables} == {*file.variables}
+    for name, column in file.variables.items():
+        if column.dtype.kind == "f":
+            np.testing.assert_array_equal(found[name].values.astype(float), column.values)
+        else:
+            assert found[name].values.tolist() == column.values.tolist()
+
+
+def test_differences_as_an_object() -> None:
+    """The law that is another, and impacts with the same results on the side that is not changed."""
+    done = run("diff", "granulation", "granulation", "--set", "bridge.law=willett", "--json")
+    found = json.loads(done.stdout)
+    assert any(change["before"] != change["after"] for change in found["changes"])
+    for probe in found["probes"]:
+        outcome, restitution = probe["results"][0]
+        own = collide("granulation", stokes=probe["stokes"], angle=probe["angle"])
+        assert own.outcome == outcome
+        assert own.restitution == pytest.approx(restitution, rel=1e-8)
 
 
 def test_a_collision_can_be_repeated_from_its_object() -> None:

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from wetdoublet.solvers import Scene, collide_pair
-from wetdoublet.solvers.export.law.space import declarations
+from wetdoublet.solvers.export.law.texts import source
 from wetdoublet.solvers.space.pairs import Bodies
 
 from ...helpers.exported_law import FOUND, Law, written
@@ -214,7 +214,7 @@ def test_a_pair_that_is_not_in_contact_stays(law: Law):
 )
 def test_the_header_says_why_there_is_none(scene: Scene, why: str):
     """Scenes whose collisions are in a plane only."""
-    said = " ".join(" ".join(declarations(scene)).replace(" * ", " ").split())
+    said = " ".join(source(scene).header.replace(" * ", " ").split())
     assert why in said
     assert "#define LAW_IN_SPACE 0" in said
     assert "law_collide_pair(const" not in said

@@ -1,6 +1,7 @@
 """Regime maps: the grid and its file, failures, progress, the character map and the picture."""
 
 import csv
+import re
 
 import numpy as np
 import pytest
@@ -123,7 +124,23 @@ def test_character_map(unlucky):
     assert result.exit_code == 0
     assert "     0.3  BBB" in result.stdout.splitlines()
     assert "     0.1  !!!" in result.stdout.splitlines()
-    assert result.stdout.splitlines()[-1].split() == ["deg", "10"]
+    assert result.stdout.splitlines()[-1].split() == ["deg", "10", "to", "80"]
+
+
+@pytest.mark.parametrize("count", [2, 8, 12, 38, 60])
+def test_the_axis_of_angles(count):
+    """Each mark stands under the column of its angle, and both ends have one, or a line that is too short says both."""
+    *rows, marks, labels = run(
+        "map", "granulation", "--stokes", "0.1:0.3:2", "--angle", f"10:80:{count}"
+    ).stdout.partition("\n\noutside")[0].rstrip().splitlines()  # fmt: skip
+    first, angles = rows[-1].index(rows[-1].split()[1]), np.linspace(10, 80, count)
+    if count == 2:
+        assert labels.split() == ["deg", "10", "to", "80"]
+        return
+    columns = [mark.start() for mark in re.finditer(r"\|", marks)]
+    assert columns[0] == first and columns[-1] == first + count - 1
+    for column in columns:
+        assert float(labels[column:].split()[0]) == pytest.approx(angles[column - first], abs=0.05)
 
 
 @pytest.mark.slow

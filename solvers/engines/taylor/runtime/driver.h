@@ -233,21 +233,21 @@ static mask take_step(expansion *e, lanes *l, vec h, mask creeps, vec gap)
 static void leave_to_others(queue *q, lanes *l, fixed *f, mask lost, mask falls)
 {
     mask spent = l->alive & (lost | (l->steps > q->budget));
-    unsigned slow = bits(l->alive & NOT(falls) & NOT(spent) & (l->crept > splat_mask(PATIENCE)));
+    unsigned others = bits(l->alive & NOT(falls) & NOT(spent) & (l->crept > splat_mask(PATIENCE)));
 #if BACKWARD
     spent |= only_if_full(q, l->alive);
-    slow = 0;
+    others = 0;
 #elif GRADIENTS
-    slow = q->requested ? 0 : slow; /* implicit.h does not compute derivatives */
+    others = q->requested ? 0 : others; /* implicit.h does not compute derivatives */
 #endif
 #if WITH_TRAJECTORY
     /* only steps of series are recorded, and implicit.h ignores the purpose */
-    slow = q->step_room || q->t->purpose != WHOLE ? 0 : slow;
+    others = q->step_room || q->t->purpose != WHOLE ? 0 : others;
 #endif
 #if KINKS
-    slow = 0; /* implicit.h takes derivatives across kinks */
+    others = 0; /* implicit.h takes derivatives across kinks */
 #endif /* KINKS */
-    EACH_OF(lane, slow)
+    EACH_OF(lane, others)
         park(q, l, f, lane);
     EACH_OF(lane, bits(spent)) {
         int status = LANE(lost, lane) ? NOT_FINITE : LANE(l->phases, lane) > CHATTER_PHASES ? CHATTER : NO_BUDGET;

@@ -4,9 +4,6 @@
  * every direction along the wall, so both components of these vectors go through one linear map. Two planar collisions
  * with the same normal motion give it: one that slides, and one that slides and spins. Spin along the normal stays.
  */
-#pragma once
-
-#include "planar_end.h"
 
 /* The two planar collisions: sliding and rolling are as fast as the approach. */
 static void along_wall(const bodies *b, const arrival *a, law_impact *slides, law_impact *both)
@@ -53,3 +50,4 @@ static void find_ends(const law_material *m, const bodies *b, const arrival *row
     for (int k = 0; k < count; k++)
         ends[those[k]] = beside_wall(b, rows + those[k], found + 2*k, found + 2*k + 1);
 }
+

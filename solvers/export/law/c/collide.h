@@ -1,5 +1,4 @@
 /* What a host calls: a block for each kernel is filled, and run when it is full. */
-#pragma once
 
 /* Planar collisions of those that are marked as LAW_OK. Of a stick no number is used. */
 static void collide_planar(
@@ -50,3 +49,4 @@ int law_collide(const law_material *material, const law_impact *impact, double r
     law_collide_many(material, impact, 1, rtol, budget, found);
     return found->status;
 }
+

@@ -1,5 +1,4 @@
 /* A contact that a host interrupts: begun at initial contact, advanced to a time, read, and advanced again. */
-#pragma once
 
 int law_advance(law_contact *c, double t)
 {
@@ -8,9 +7,9 @@ int law_advance(law_contact *c, double t)
     if (c->motion == LAW_APART || c->motion == LAW_CUT_OFF || c->motion == LAW_LOST)
         return c->status;
     if (c->impact.angle > 0.0 || c->impact.spin != 0.0 || c->impact.partner_spin != 0.0)
-        plane_follow(c, t);
+        @{booked}plane_follow(c, t);
     else
-        head_on_follow(c, t);
+        @{booked}head_on_follow(c, t);
     return c->status;
 }
 
@@ -32,3 +31,4 @@ int law_begin(const law_material *material, const law_impact *impact, double rto
     c->outcome = LAW_UNDECIDED;
     return c->status;
 }
+

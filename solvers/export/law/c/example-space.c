@@ -1,6 +1,6 @@
 /* Pairs of particles that collide in space: their positions, velocities and spins go in, and come out.
  *
- * cc -O2 example.c @NAME@.c -lm, or `make example`.
+ * cc -O2 example.c @{name}.c -lm, or `make example`.
  */
 #include "law.h"
 
@@ -8,7 +8,7 @@
 #include <stdio.h>
 
 enum { PAIRS = 1000 };
-static const double RADII[2] = {@RADII@}, MASSES[2] = {@MASSES@}; /* m, kg */
+static const double RADII[2] = {@{radii | join(", ")}}, MASSES[2] = {@{masses | join(", ")}}; /* m, kg */
 
 /* A number from -1 to 1, always the same sequence. */
 static double drawn(void)
@@ -21,7 +21,7 @@ static double drawn(void)
 /* Two particles whose films touch, with random velocities and spins. */
 static void meet(law_particle *first, law_particle *second, double distance)
 {
-    double speed = @SPEED@*pow(10.0, 2.0*drawn()), n[3], length, approach = 0.0;
+    double speed = @{speed}*pow(10.0, 2.0*drawn()), n[3], length, approach = 0.0;
     for (int k = 0; k < 3; k++) {
         n[k] = drawn();
         first->position[k] = 0.0;

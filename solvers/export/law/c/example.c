@@ -1,4 +1,4 @@
-/* Impacts of many speeds and angles: `make example`, or cc -O2 example.c @NAME@.c -lm. */
+/* Impacts of many speeds and angles: `make example`, or cc -O2 example.c @{name}.c -lm. */
 #include "law.h"
 
 #include <math.h>
@@ -9,7 +9,7 @@ enum { IMPACTS = 1000 };
 /* A contact that is interrupted: where it is at some times. */
 static void follow_one(const law_material *material)
 {
-    const law_impact impact = {@SPEED@, 0.5, 0.0, 0.0};
+    const law_impact impact = {@{speed}, 0.5, 0.0, 0.0};
     law_contact c;
     law_begin(material, &impact, 1e-9, 0, &c);
     for (int k = 1; k <= 4 && c.motion <= LAW_RESTING; k++) {
@@ -25,7 +25,7 @@ int main(void)
     for (int k = 0; k < IMPACTS; k++) {
         law_impact impact;
         law_collision c;
-        impact.speed = @SPEED@*pow(1e4, k%32/31.0 - 0.5); /* m/s */
+        impact.speed = @{speed}*pow(1e4, k%32/31.0 - 0.5); /* m/s */
         impact.angle = k/32*0.04;                              /* rad */
         impact.spin = 0.0;                                     /* rad/s */
         impact.partner_spin = 0.0;

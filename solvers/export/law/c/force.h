@@ -2,10 +2,6 @@
  * step, is followed within the step, film and bridge implicitly; its impulse over the step's length is returned.
  * The centrifugal force is the host's: positions move along straight lines from one step to the next.
  */
-#pragma once
-
-#include "substep.h"
-#include "whirl.h"
 
 static const double SLACK = 0.25;       /* that the host's gap may differ from the contact's, over the film */
 static const double RETURN = 0.2;       /* part of what exceeds it that a step takes back */
@@ -21,7 +17,7 @@ static void join(law_pair_history *s, double gap, double speed)
 }
 
 /* The load of a substep: all else, and the centrifugal force in its middle. */
-static void press(line *l, const bodies *b, const response *r, double time, whirl w)
+static void press(line *l, const bodies *b, const space_response *r, double time, whirl w)
 {
     double distance = b->contact + l->gap + 0.5*time*l->velocity;
     shear(b, l->gap, r, 0.5*time, &w);
@@ -34,7 +30,7 @@ static double follow_line(line *l, const bodies *b, double time, law_pair_histor
     double left = time;
     int rebounds = 0;
     for (int k = 0; left > 0.0; k++) {
-        response r, here;
+        space_response r, here;
         double gap, velocity, taken = left;
         if (k == SUBSTEPS || !(fabs(l->velocity) + dot(w->moment, w->moment) < INFINITY)) {
             found->status = k == SUBSTEPS ? LAW_UNDECIDED_NO_BUDGET : LAW_UNDECIDED_NOT_FINITE;
@@ -332,3 +328,4 @@ int law_contact_force(const law_material *material, const law_pair_motion *motio
     *history = s;
     return LAW_OK;
 }
+

@@ -1,7 +1,4 @@
 /* What a host calls for collisions in space: any velocities and spins of two spheres, or of a sphere and a wall. */
-#pragma once
-
-#include "ends.h"
 
 /* At most PAIRS pairs. */
 static void collide_block(const law_material *m, const bodies *b, const law_pair *pairs, int count, double rtol,
@@ -48,3 +45,4 @@ int law_collide_pair(const law_material *material, const law_pair *pair, double 
     law_collide_pair_many(material, pair, 1, rtol, budget, after);
     return after->status;
 }
+

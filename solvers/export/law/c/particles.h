@@ -1,7 +1,4 @@
 /* Both particles in place: positions, velocities and spins in the laboratory, before a collision and after it. */
-#pragma once
-
-#include "in_space.h"
 
 /* Positions after a collision of two spheres: about their centre of mass, which moves on. */
 static void move_spheres(const bodies *b, const law_pair_after *after, law_particle *first, law_particle *second)
@@ -85,3 +82,4 @@ double law_contact_distance(const law_material *material)
     bodies b = bodies_of(material);
     return b.contact + b.film;
 }
+

@@ -1,7 +1,4 @@
 /* What a planar collision says of the end in any direction. */
-#pragma once
-
-#include "ends.h"
 
 static ending planar_end(const bodies *b, const arrival *a, const law_collision *found)
 {
@@ -15,3 +12,4 @@ static ending planar_end(const bodies *b, const arrival *a, const law_collision 
         made.opening = a->speed*found->restitution;
     return made;
 }
+

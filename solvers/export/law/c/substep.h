@@ -1,9 +1,6 @@
 /* The motion of a contact along its line of centres, substep by substep: resistance and attraction are means over the gaps
  * that a substep passes, so that the momentum that the film takes and the work of the attractions are those between them.
  */
-#pragma once
-
-#include "ends.h"
 
 enum { SUBSTEPS = 2000, REBOUNDS = 8 }; /* most in a step; more rebounds are rest */
 static const double WIDEST = 0.5;       /* change of the gap in a substep, over the gap */
@@ -27,7 +24,7 @@ static double decayed_twice(double z)
 }
 
 /* Way and velocity after a time with constant coefficients. */
-static double way(const line *l, const response *r, double time, double *velocity)
+static double way(const line *l, const space_response *r, double time, double *velocity)
 {
     double z = r->resistance/l->mass*time, push = (l->load - r->attraction)/l->mass*time;
     *velocity = l->velocity*exp(-z) + push*decayed(z);
@@ -35,7 +32,7 @@ static double way(const line *l, const response *r, double time, double *velocit
 }
 
 /* The substep of a length, with the means over its own way; false if that is too wide, or is not found. */
-static int substep(const line *l, const response *here, double time, double *gap, double *velocity, response *r)
+static int substep(const line *l, const space_response *here, double time, double *gap, double *velocity, space_response *r)
 {
     double direction = l->velocity != 0.0 ? l->velocity : l->load;
     double before = l->gap, off = 0.0, tried = l->gap + way(l, here, time, velocity);
@@ -61,7 +58,7 @@ static int substep(const line *l, const response *here, double time, double *gap
 }
 
 /* The time to a gap that a substep passes. */
-static double time_to(const line *l, double gap, double most, response *r)
+static double time_to(const line *l, double gap, double most, space_response *r)
 {
     double least = 0.0, velocity, sense = gap > l->gap ? 1.0 : -1.0;
     *r = space_mean_response(&l->h, l->gap, gap, sense);
@@ -101,3 +98,4 @@ static void meet(line *l, law_pair_history *s, law_pair_force *found, int kind, 
         s->rebound = kind;
     found->events |= LAW_REBOUNDS;
 }
+

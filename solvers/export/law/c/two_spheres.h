@@ -1,7 +1,4 @@
 /* Two spheres: motion in a plane by planar collisions, the rest with vectors. */
-#pragma once
-
-#include "planar_end.h"
 
 /* The planar collision of a pair in a plane; an angle is not negative, so that the axis may have to be turned over. */
 static law_impact in_plane(const bodies *b, const arrival *a, const plane *p)
@@ -56,3 +53,4 @@ static void find_ends(const law_material *m, const bodies *b, const arrival *row
     if (solids)
         space_find_ends_with_vectors(m, b, rows, solid, solids, rtol, budget, ends);
 }
+

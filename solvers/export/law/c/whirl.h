@@ -1,7 +1,4 @@
 /* What rotates with a contact, and straight paths before it. */
-#pragma once
-
-#include "ends.h"
 
 /* What rotates, in axes that turn with the line of centres `n`: the orbital momentum over the reduced mass, spins across
  * the line and along it. */
@@ -12,7 +9,7 @@ typedef struct {
 
 /* A whirl under the torques of the film, at a gap: the exact motion with constant coefficients. Twist comes across the
  * line as that turns away from it. */
-static void shear(const bodies *b, double gap, const response *r, double time, whirl *w)
+static void shear(const bodies *b, double gap, const space_response *r, double time, whirl *w)
 {
     double distance = b->contact + gap;
     double orbital = 1.0/(b->reduced_mass*distance*distance), one = 1.0/b->inertia[0], other = 1.0/b->inertia[1];
@@ -114,3 +111,4 @@ static double afforded(double mass, double before, double after, double pushed, 
     double square = 0.25*pushed*pushed + before*before + pushed*before + 2.0*spare/mass;
     return 0.5*pushed + (after < 0.5*pushed ? -1.0 : 1.0)*sqrt(fmax(square, 0.0));
 }
+
