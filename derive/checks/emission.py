@@ -2,11 +2,11 @@
 
 import cmath
 import math
-import re
 from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
 import sympy as sp
+from casadi import SX, Function, densify, jacobian, vertcat
 
 from ..emit.casadi.modules import law_module
 from ..emit.casadi.printer import EmissionError
@@ -27,8 +27,6 @@ PASSED: Mapping[str, tuple[float, ...]] = {
 }  # fmt: skip
 _EQUAL = 1e-7  # between forms, of the larger of a value and the largest of its kind
 _FAINT = 1e-30  # a normal velocity beside zero
-_IMPORT = re.compile(r"^from casadi import (.*)$", re.MULTILINE)
-_OF_SYMPY = {"fabs": "Abs", "fmin": "Min", "fmax": "Max"}  # of CasADi's functions, whose other names are sympy's
 _Values = Callable[[Mapping[sp.Symbol, float]], list[float]]
 Samples = Callable[[LawFunction, Mapping[str, tuple[float, ...]]], Iterator[dict[sp.Symbol, float]]]
 
@@ -41,7 +39,7 @@ def emission(model: UserModel, law: Law, written: Law, label: str, samples: Samp
         law_header(law, groups)
         slopes_header(law, groups)
         module: dict[str, Any] = {}
-        exec(compile(_IMPORT.sub(_of_sympy, law_module(law)), law.module, "exec"), module)  # our own text
+        exec(compile(law_module(law), law.module, "exec"), module)  # our own text
         count = 0
         for function, exact in zip(law.functions, written.functions, strict=True):
             if not function.arguments or function.for_proof:  # nothing follows these along a trajectory
@@ -96,24 +94,12 @@ def _different(casadi: list[float], kernel: list[float], function: LawFunction) 
     return ""
 
 
-def _of_sympy(line: re.Match[str]) -> str:
-    """The import of an emitted module, with sympy in CasADi's place."""
-    return "from sympy import " + ", ".join(f"{_OF_SYMPY.get(name, name)} as {name}" for name in line[1].split(", "))
-
-
 def _by_casadi(function: LawFunction, emitted: Callable[..., Any]) -> _Values:
-    """Value and slopes of the Python that is emitted for CasADi, read by sympy, by the values of the arguments."""
-    value = sp.sympify(emitted(*function.arguments))
-    slopes = [sp.diff(value, argument) for argument in function.arguments]
-    compiled = sp.lambdify(function.arguments, [value, *slopes], modules=["math"], cse=True)
-
-    def values(at: Mapping[sp.Symbol, float]) -> list[float]:
-        try:
-            return [float(number) for number in compiled(*at.values())]
-        except (ArithmeticError, ValueError, TypeError):
-            return [math.nan] * (1 + len(at))
-
-    return values
+    """Value and slopes of what is emitted for CasADi, by its own derivatives, by the values of the arguments."""
+    arguments = [SX.sym(argument.name) for argument in function.arguments]
+    value, given = SX(emitted(*arguments)), vertcat(*arguments)
+    compiled = Function("form", [given], [densify(vertcat(value, jacobian(value, given).T))])
+    return lambda at: [float(number) for number in compiled([*at.values()]).full()[:, 0]]
 
 
 def _by_kernel(function: LawFunction, moving: tuple[sp.Symbol, ...]) -> _Values:

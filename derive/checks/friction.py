@@ -142,7 +142,7 @@ def in_space() -> tuple[Check, ...]:
         for state, vector in planes.items():
             change = (planar[state.name] - state) * DRY_SLIPS[k] / size
             residuals.append(jump[vector[k].name] - vector[k] - change)
-    margin = sp.factor(1 - dot(DRY_SLIPS, DRY_SLIPS) / size**2)
+    margin = sp.together(1 - dot(DRY_SLIPS, DRY_SLIPS) / size**2)
     return (
         vanishing("friction in space: direction", "the slip lies across the line of centres", [across]),
         vanishing("friction in space: answer", "each component of slip and impulse is the plane's", residuals),

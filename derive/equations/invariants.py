@@ -248,21 +248,22 @@ def quadratic_invariants(
         relation: a polynomial that vanishes along every trajectory, monic in the square of its last symbol.
     """
     forms = [variable * other for variable, other in combinations_with_replacement(among, 2)]
-    unknown = sp.symbols(f"c:{len(forms)}", cls=sp.Dummy)
-    change = sp.Integer(0)
-    for factor, form in zip(unknown, forms, strict=True):
-        change += factor * sp.Add(*(form.diff(state) * rates[state] for state in form.free_symbols))
-    change = sp.expand(change)
-    if relation is not None:
-        last = max(relation.free_symbols, key=lambda symbol: str(symbol))
-        change = sp.rem(sp.Poly(change, last), sp.Poly(relation, last)).as_expr()
-    divided = [power.base for power in change.atoms(sp.Pow) if power.exp.is_negative]  # constants: sizes
-    constant = set(unknown).union(*(base.free_symbols for base in divided))
-    varying = sorted(change.free_symbols - constant, key=str)
-    equations = sp.Poly(sp.expand(change), *varying).coeffs()
-    matrix = sp.linear_eq_to_matrix(list(dict.fromkeys(equations)), list(unknown))[0]
-    result = []
-    for vector in matrix.nullspace():
-        first = next(value for value in vector if value != 0)
-        result.append(sp.Add(*(value / first * form for value, form in zip(vector, forms, strict=True))))
-    return tuple(result)
+    powers = set().union(*(rate.atoms(sp.Pow) for rate in rates.values()))
+    constant = set().union(*(power.base.free_symbols for power in powers if power.exp.is_negative))  # sizes
+    varying = sorted(set(among).union(*(rate.free_symbols for rate in rates.values())) - constant, key=str)
+    if relation is not None:  # a remainder is that by the first generator
+        varying.sort(key=lambda symbol: symbol != max(relation.free_symbols, key=str))
+
+    def polynomial(expression: sp.Expr) -> sp.Poly:
+        return sp.Poly(expression, *varying)
+
+    moved, changes = {state: polynomial(rate) for state, rate in rates.items()}, []
+    for form in forms:
+        change = sum((polynomial(form.diff(s)) * moved[s] for s in sorted(form.free_symbols, key=str)), polynomial(0))
+        changes.append(dict((change if relation is None else change.rem(polynomial(relation))).terms()))
+    rows = sorted(set().union(*changes))
+    conditions = sp.Matrix([[change.get(row, 0) for change in changes] for row in rows])
+    basis = DomainMatrix.from_Matrix(conditions).to_field().nullspace().rref()[0].to_Matrix()
+    return tuple(
+        sp.Add(*(factor * form for factor, form in zip(basis.row(k), forms, strict=True))) for k in range(basis.rows)
+    )

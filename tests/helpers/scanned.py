@@ -123,7 +123,7 @@ class Scan:
     """One collision; `run` follows it. `rtol` is that of the engine beside which it stands."""
 
     def __init__(
-        self, b: Bodies, arrival: Arrival, strings: Any = None, rtol: float = 1e-9, accuracy: float = 1e-11
+        self, b: Bodies, arrival: Arrival, strings: Any = None, rtol: float = 1e-9, accuracy: float = ACCURACY
     ) -> None:
         self.b, self.v0, self.strings, self.rtol, self.accuracy = b, arrival.speed, strings, rtol, accuracy
         second = ZERO if b.wall else arrival.spins[1]
@@ -137,7 +137,7 @@ class Scan:
         self.inside, self.sheared = True, b.edge >= b.film_thickness
         self.closing, self.resting = True, False
         self.sliding = 0.0  # in resting contact with friction: the sign of the slip (in space: 1); 0 while rolling
-        self.t, self.steps, self.most, self.accuracy = 0.0, 0, STEPS, ACCURACY
+        self.t, self.steps, self.most = 0.0, 0, STEPS
         self.result = Outcome()
 
     # ---- mechanics
@@ -523,9 +523,9 @@ def each(function: Callable[[Any], float], states: np.ndarray) -> Any:
     return function(states) if states.ndim == 1 else np.array([function(column) for column in states.T.tolist()])
 
 
-def scan_of(scene: Scene, rtol: float = 1e-9, speed: float | None = None) -> Scan:
+def scan_of(scene: Scene, rtol: float = 1e-9, speed: float | None = None, accuracy: float = ACCURACY) -> Scan:
     """The collision of a scene at its impact, or with another normal speed, about to be followed."""
-    return Scan(bodies_of(scene), planar_arrival(scene, speed), scene.pendulum, rtol)
+    return Scan(bodies_of(scene), planar_arrival(scene, speed), scene.pendulum, rtol, accuracy)
 
 
 def scanned(scene: Scene, rtol: float = 1e-9, speed: float | None = None) -> Outcome:

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable, Sequence
 from collections.abc import Set as AbstractSet
-from functools import cache
+from functools import cache, lru_cache
 
 import sympy as sp
 
@@ -99,6 +99,7 @@ def factored(expression: sp.Expr) -> tuple[sp.Expr, ...]:
     return tuple(forms)
 
 
+@lru_cache(maxsize=16)  # for the header, and for the check that compares it with CasADi's
 def slope_program(
     formula: LawFunction, moving: tuple[sp.Symbol, ...]
 ) -> tuple[Program, str | sp.Expr, Program, dict[sp.Symbol, str | sp.Expr]]:
