@@ -57,16 +57,16 @@ def test_the_key_has_the_laws_and_the_settings(monkeypatch: pytest.MonkeyPatch) 
     assert len(keys | {symbolic_key({})}) == 4
 
 
-def test_the_derivation_depends_on_its_own_files_and_sympy_alone() -> None:
-    """What its modules import is sympy, the standard library or the derivation: all of it is in the digest."""
-    folder = Path(derive.__file__).parent
+def test_the_derivation_depends_on_its_own_files_sympy_and_casadi_alone() -> None:
+    """What its modules import is one of these or the standard library: files and versions are in the digest."""
+    folder, outside = Path(derive.__file__).parent, {"sympy", "casadi", *sys.stdlib_module_names}
     for file in folder.rglob("*.py"):
         depth = len(file.relative_to(folder).parts)
         for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
             if isinstance(node, ast.Import):
                 for name in node.names:
-                    assert name.name.partition(".")[0] in {"sympy", *sys.stdlib_module_names}, file
+                    assert name.name.partition(".")[0] in outside, file
             elif isinstance(node, ast.ImportFrom):
                 root = (node.module or "").partition(".")[0]
                 own = (node.module or "").startswith("wetdoublet.derive.")  # of a model file of the library
-                assert own or (node.level <= depth if node.level else root in {"sympy", *sys.stdlib_module_names}), file
+                assert own or (node.level <= depth if node.level else root in outside), file
