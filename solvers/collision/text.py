@@ -151,7 +151,8 @@ def _stuck(collision: Outcome) -> str:
         return "it is certain later than the integration was to end"
     if _is_cut_off(collision):
         declared = _declared(collision)
-        why = f"{declared.word}, {declared.meaning}" if declared is not None else CUT_OFFS[last]
+        why = CUT_OFFS[last] if declared is None else declared.meaning
+        why = why if declared is None or why.startswith(declared.word) else f"{declared.word}, {why}"
         return f"cut off after {quantity(collision.until, 's')}: {why}"
     when = "" if collision.decided else " at contact"
     before = [event.kind for event in collision.events if event.time <= (collision.decided or 0.0)]
@@ -349,7 +350,8 @@ def _model(scene: Scene) -> list[str]:
 
 def assumed(scene: Scene) -> list[str]:
     """Lines that name the scene's assumed values, and what was held when its entries changed."""
-    return [_cut(line, WIDTH) for line in (*scene.assumed, scene.held) if line]
+    said = (_cut(line, len(line)) for line in (*scene.assumed, scene.held) if line)
+    return [line for sentence in said for line in wrap(sentence, WIDTH, break_on_hyphens=False)]
 
 
 def _numerics(collision: Outcome) -> list[str]:

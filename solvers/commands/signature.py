@@ -78,8 +78,13 @@ def _completed(_ctx: click.Context, parameter: click.Parameter, begun: str) -> l
     if parameter.name in _CHOICES:
         file, name = _CHOICES[parameter.name].split(":")
         names = [*getattr(import_module(f"..{file}", __package__), name)]
+    elif str(parameter.metavar).startswith("NAME="):
+        names = [f"{name}=" for name in FIELDS if f"{name}=".startswith(begun)]
+        if len(names) == 1:  # beside a second one the shell puts no space behind the sign
+            field = FIELDS[names[0][:-1]]
+            names += [names[0] + value for value in field.choices or [field.example.strip('"')]]
     elif str(parameter.metavar).startswith("NAME"):
-        names = [name + "=" * ("=" in str(parameter.metavar)) for name in FIELDS]
+        names = [name for name, field in FIELDS.items() if not (field.choices or field.flag)]
     items = [CompletionItem(before + comma + name) for name in names if (before + comma + name).startswith(begun)]
     return items + [CompletionItem(begun, type="file")] * (not names or parameter.name == "source")
 

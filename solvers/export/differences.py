@@ -20,7 +20,7 @@ from ..host.emitted import text, with_imports
 from ..many.collide_many import collide_many
 from ..model.key import ModelKey
 from ..model.model import select_model
-from ..scene.origin import plain
+from ..scene.origin import origin, plain, release
 from ..scene.scene import Scene
 from ..scene.scenefile import PRESETS
 from ..scene.user_model import Package
@@ -73,15 +73,17 @@ class Differences:
     probes: tuple[Probe, ...]
     boundaries: tuple[tuple[tuple[str, float, float | None], ...], ...]
     on_map: OnMap | None = None
+    scenes: tuple[Scene, ...] = ()
 
     def to_dict(self) -> dict[str, Any]:
-        """The JSON object: names of A and B, terms that differ as text, and effects; null where one has failed."""
+        """The JSON object: names and entries of A and B, terms that differ as text, effects; null where one failed."""
         changes = [
             {"equation": change.equation, "before": _text(change.before), "after": _text(change.after)}
             for change in self.changes
         ]
         others = {name: plain(getattr(self, name)) for name in ("names", "probes", "boundaries", "on_map")}
-        return {**others, "changes": changes}
+        entries = [origin(scene)["scene"] for scene in self.scenes]
+        return {**others, "changes": changes, "version": release(), "scenes": entries}
 
 
 def _text(term: Any) -> str | None:
@@ -106,11 +108,12 @@ def differences(old: str, new: str, probe: str = "granulation", changes: dict[st
         raise InputError(
             "diff", None, "folders as `wetdoublet generate` emits them", f"cannot be read: {error}"
         ) from None
-    scenes = [side.scene for side in sides if side.scene is not None]
+    scenes = tuple(side.scene for side in sides if side.scene is not None)
+    names = sides[0].name, ", ".join([sides[1].name, *(f"{name} = {value}" for name, value in (changes or {}).items())])
     if len(scenes) < 2:
-        return Differences((sides[0].name, sides[1].name), equation_changes, (), ())
+        return Differences(names, equation_changes, (), ())
     lines = tuple(tuple(_line(scene)) for scene in scenes)
-    return Differences((sides[0].name, sides[1].name), equation_changes, tuple(_probes(scenes)), lines, _on_map(scenes))
+    return Differences(names, equation_changes, tuple(_probes(scenes)), lines, _on_map(scenes), scenes)
 
 
 def _sides(source: str, other: str, probe: str, changes: dict[str, str]) -> tuple[Side, Side]:

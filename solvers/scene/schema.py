@@ -22,6 +22,8 @@ LIQUIDS: dict[str, tuple[str, ...]] = {
     "herschel-bulkley": ("yield_stress", "flow_index", "reference_rate", "plateau_rate"),
 }
 """Laws of liquids -> their entries beside the viscosity."""
+SHEAR_RATE = "a shear rate"
+"""What an entry in 1/s is; its unit has the dimension of an angular velocity."""
 FROM_COATING = "from coating"
 """Value of `bridge.volume` for a bridge whose liquid flows out of the coatings."""
 LEAST_ANGLE = 1e-200  # rad; an impact at a smaller one is head-on: its rotation rate may underflow
@@ -160,12 +162,12 @@ class Liquid(Table):
     r"""$\mu_\infty$, what is left of the viscosity at high rates."""
     yield_stress: float | None = entry("a stress", '"20 Pa"', unit="Pa")
     r"""$\tau_y$ of `herschel-bulkley`."""
-    reference_rate: float | None = entry("a shear rate", '"1 1/s"', unit="rad/s", default=1.0)
+    reference_rate: float | None = entry(SHEAR_RATE, '"1 1/s"', unit="rad/s", default=1.0)
     """Rate at which `viscosity` is that of the power law; with 1/s it is the consistency $K$."""
-    plateau_rate: float | None = entry("a shear rate", '"0.1 1/s"', unit="rad/s", default=1.0)
+    plateau_rate: float | None = entry(SHEAR_RATE, '"0.1 1/s"', unit="rad/s", default=1.0)
     """Rate below which the viscosity of a power law or yield stress stays what it is there: the regularisation; ten
     times below the slowest rate that matters it changes the force by 2 parts in 1000."""
-    measured_to: float | None = entry("a shear rate", '"1000 1/s"', unit="rad/s")
+    measured_to: float | None = entry(SHEAR_RATE, '"1000 1/s"', unit="rad/s")
     """Highest rate at which the viscosity was measured; a collision that is faster says so."""
     film_thickness: float = entry("a film thickness, the gap at initial contact,", '"8 um"', unit="m")
     """$x_0$, the gap at initial contact: the sum of both coatings."""

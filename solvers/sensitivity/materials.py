@@ -11,6 +11,7 @@ from ..scene.scene import Scene
 from ..scene.schema import FIELDS
 
 _SD = "_sd"
+_BARE = {name.rpartition(".")[2]: name for name in reversed(FIELDS)}
 _TABLE = "a CSV file whose first line names the columns, such as particles.diameter [um],liquid.viscosity [mPa s]"
 
 
@@ -30,7 +31,8 @@ def materials_of(source: Any, changes: Mapping[str, Any] | None = None) -> list[
         source: a Scene, a path or a preset's name; or a CSV file, a DataFrame or a mapping of columns. Columns are
             entries by dotted name with their unit in brackets, as `particles.diameter [um]`; in Python plain numbers
             are SI where none is written. `NAME_sd` is the entry's standard deviation, with a unit or in %. A column
-            `scene` names the scene file or preset that a row changes. Other columns without a dot are the row's name.
+            `scene` names the scene file or preset that a row changes. Other columns without dot and unit are the row's
+            name.
         changes: entries that all materials share, in place of the table's.
 
     Raises:
@@ -48,9 +50,10 @@ def materials_of(source: Any, changes: Mapping[str, Any] | None = None) -> list[
         raise InputError(table, None, "at least one row", "has no rows")
     for column in columns:
         name = column.name.removesuffix(_SD)
-        if "." in name and name not in FIELDS:
-            accepted = "entries of a scene by dotted name"
-            raise InputError(f"{table}, header", column.name, accepted, f"is unknown{did_you_mean(name, FIELDS)}")
+        if name not in FIELDS and ("." in name or name in _BARE or column.unit):
+            meant = f", did you mean {_BARE[name]}?" if name in _BARE else did_you_mean(name, [*FIELDS, *_BARE])
+            accepted = "entries of a scene by dotted name, and names of the rows without unit"
+            raise InputError(f"{table}, header", column.name, accepted, f"is unknown{meant}")
         if name in FIELDS and FIELDS[name].unit and column.unit is None and isinstance(source, (str, Path)):
             accepted = f"the unit in brackets, such as {name} [{FIELDS[name].unit}]"
             raise InputError(f"{table}, header", column.name, accepted, "has no unit")

@@ -14,7 +14,7 @@ from ...scene.fields import Range
 from ...scene.groups import si_values
 from ...scene.quantities import NO_GLASS
 from ...scene.scene import Scene
-from ...scene.schema import FIELDS
+from ...scene.schema import FIELDS, SHEAR_RATE
 from ...scene.user_model_declared import TABLE
 from .kernels import Kernel
 
@@ -106,6 +106,7 @@ def material(scene: Scene, kernels: Iterable[Kernel]) -> tuple[Number, ...]:
         else:
             field = user_model.fields(scene.package)[f"{_table(scene)}.{name}"]
             unit, meaning = field.unit or "1", field.what
+            unit = "1/s" if field.what == SHEAR_RATE else unit
         most = LARGE.get(name, LARGEST)
         result.append(Number(name, unit, meaning, _range(name, scene), float(values[name]), most))
     return tuple(result)
