@@ -248,10 +248,10 @@ def unfolded(expression: sp.Expr, model: Declarations) -> sp.Expr:
 
 
 def check_texts(label: str, **texts: object) -> None:
-    """ModelFileError for what is no text, by name."""
+    """ModelFileError for what is no text, or would end a comment in C, by name."""
     for what, text in texts.items():
-        if not isinstance(text, str):
-            raise ModelFileError(f"{label}.{what}", text, "text")
+        if not isinstance(text, str) or "*/" in text:
+            raise ModelFileError(f"{label}.{what}", text, "text without */")
 
 
 def check_name(what: str, name: object, model: Declarations, in_functions: bool = True) -> None:

@@ -350,8 +350,8 @@ def _model(scene: Scene) -> list[str]:
 
 def assumed(scene: Scene) -> list[str]:
     """Lines that name the scene's assumed values, and what was held when its entries changed."""
-    said = (_cut(line, len(line)) for line in (*scene.assumed, scene.held) if line)
-    return [line for sentence in said for line in wrap(sentence, WIDTH, break_on_hyphens=False)]
+    sentences = (_cut(line, len(line)) for line in (*scene.assumed, scene.held) if line)
+    return [line for sentence in sentences for line in wrap(sentence, WIDTH, break_on_hyphens=False)]
 
 
 def _numerics(collision: Outcome) -> list[str]:

@@ -290,7 +290,7 @@ def averages(radii: _Radii, request: Entries, output: _Table, as_json: bool, **c
       wetdoublet averages granulation --speeds "maxwell:0.5 m/s" --radii "log:30:300 um:16" -o averages.nc
 
     Options:
-        --speeds SPEEDS: Relative speeds: "1 m/s", "maxwell:0.3 m/s", or FILE.csv of relative_speed,density [the scene's].
+        --speeds SPEEDS: Relative speeds: "1 m/s", "maxwell:0.3 m/s", or a FILE.csv of relative_speed,density.
         --radii RANGE: Radii, such as "log:20:200 um:16"; every pair of them is computed, beside a wall each one [the
             scene's pair].
         --films RULE

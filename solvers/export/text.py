@@ -34,7 +34,8 @@ def _on_map(what: OnMap) -> str:
     text += f" ({', '.join(f'{a} -> {b} {count}' for a, b, count in what.moved)})" * bool(number)
     if what.farthest and what.farthest[0]:
         off, stokes, angle = what.farthest
-        text += f";\nwhere they do not, e_n differs by at most {abs(off):.2g}, at St {stokes:.4g}, {math.degrees(angle):.4g} deg"
+        at = f"at St {stokes:.4g}, {math.degrees(angle):.4g} deg"
+        text += f";\nwhere they do not, e_n differs by at most {abs(off):.2g}, {at}"
     return text
 
 

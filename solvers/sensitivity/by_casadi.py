@@ -178,7 +178,7 @@ def differentiated(
             raise ComputationError(
                 f"rosenbrock does not resolve the derivatives: between tolerances {rtol:.1g} and {query.rtol:.1g} they "
                 f"change by {error:.1g} of the largest",
-                advice="--engine cvodes",
+                advice="another --rtol, or CVODES where it can be chosen",
             )
 
 

@@ -150,7 +150,7 @@ def _slopes(problem: Problem, query: Query, engines: tuple[str, ...]) -> tuple[S
                 by_kernel.slopes(problem, query) if engine == "taylor" else by_casadi.slopes(problem, query, engine)
             )
         except ComputationError:
-            if engine != "cvodes" or engine is engines[-1]:
+            if engine != "cvodes" or engine == engines[-1]:
                 raise
             continue
         if slopes is not None:

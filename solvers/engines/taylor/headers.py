@@ -44,7 +44,7 @@ def headers(choice: ModelKey) -> tuple[str, ...] | None:
 @once
 def tangents(choice: ModelKey) -> tuple[str, ...] | None:
     """Texts of the headers with derivatives of a choice, laws first; None if a law has none, with one warning."""
-    return _sound("derivatives are Rosenbrock's, not the Taylor kernel's", _texts(choice, tangent=True))
+    return _sound("derivatives are CasADi's, not the Taylor kernel's", _texts(choice, tangent=True))
 
 
 def _texts(choice: ModelKey, tangent: bool) -> list[str]:

@@ -111,7 +111,8 @@ def texts(scene: Scene, rtol: float = RTOL) -> dict[str, str]:
 
 def structures(header: str) -> dict[str, Fields]:
     """The structures that a host fills or reads, by name."""
-    bodies = re.findall(r"typedef struct \{([^}]*)\} (law_\w+);", header)
+    plain = re.sub(r"/\*.*?\*/", "", header, flags=re.DOTALL)  # comments may have braces, of LaTeX
+    bodies = re.findall(r"typedef struct \{([^}]*)\} (law_\w+);", plain)
     return {
         name: [
             (kind, member, tuple(map(int, re.findall(r"\d+", shape))))

@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from scipy.optimize import brentq
-from wetdoublet.solvers import Scene
+from wetdoublet.solvers import Scene, collide_many
 
 from ...helpers.reference import collide
 from ...helpers.snapping import BRIDGE, TIMED, TORQUE
@@ -198,3 +198,29 @@ def test_many_collisions_have_the_events_of_each(models: dict[str, Path]):
     many = collide_many(own, **IMPACT, vary={"custom.largest": angles}, of=("outcome", "rotation", "certified"))
     assert (many["outcome"].values == 0).all()
     assert not many["certified"].values.any()
+
+
+NEVER = {
+    "spin": "fastest - xi, fastest, 1/s, 1e6 1/s",
+    "time": "t + later, later, s, 1 s",
+    "angle": "2*level + cos(beta), level, 1, 1",
+}
+
+
+@pytest.mark.parametrize("guard", NEVER)
+@pytest.mark.parametrize("entries", [{}, RESTING], ids=["rebounds first", "rests at once"])
+def test_an_event_that_never_comes_keeps_no_stick_undecided(guard: str, entries: dict[str, object], tmp_path: Path):
+    """A guard that stays positive: a stick without the event, alone, in a batch and replayed, after a bounded time."""
+    expression, name, unit, default = NEVER[guard].split(", ")
+    quantity = f'{name} = quantity("{name}", unit="{unit}", default="{default}")'.replace('="1")', "=1)")
+    event = f'event("kick", guard={expression}, jump={{u: u + v0}}, releases=m*v0**2)'
+    (tmp_path / "never.py").write_text(f'"""x"""\nfrom wetdoublet.derive.user import *\n{quantity}\n{event}\n')
+    scene = Scene.load("granulation", model=tmp_path / "never.py").with_entries(entries)
+    impact = IMPACT if entries else {"stokes": 0.01, "angle": math.radians(60)}
+    for angle in (impact["angle"], 0.0):
+        assert collide_many(scene, stokes=[impact["stokes"]] * 3, angle=angle).outcome.values.tolist() == [0, 0, 0]
+        for engine in ENGINES:
+            alone = collide(scene, stokes=impact["stokes"], angle=angle, engine=engine)
+            assert alone.outcome == "stick"
+            assert "kick" not in [event.kind for event in alone.events]
+            assert alone.steps < 1e5

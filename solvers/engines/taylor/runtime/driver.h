@@ -159,6 +159,10 @@ static vec length_of_step(queue *q, expansion *e, const lanes *l, const fixed *f
 #endif
     if (bits(*creeps))
         damp(a, *creeps);
+#if OWN_EVENTS
+    if (bits(l->alive & l->resting))
+        h = guards_resolved(&e->s, l, f, h);
+#endif /* OWN_EVENTS */
 #if FRICTION
     if (bits(*creeps & l->alive & l->resting))
         expand_damped(&e->r, &e->s, &f->c, l);
@@ -277,6 +281,10 @@ static void run(queue *q)
         mask happens = splat_mask(0), due = own_events_due(&l, &f, &happens);
         act_on(q, &l, &f, due, happens);
         if (bits(due))
+            continue;
+#endif /* OWN_EVENTS */
+#if OWN_EVENTS
+        if (bits(l.alive & l.resting) && rests_ended(q, &l, &f))
             continue;
 #endif /* OWN_EVENTS */
         expand_states(&e, &l, &f);

@@ -154,6 +154,23 @@ OUTLINE void look(first_event *first, mask close, const vec *a, vec target, vec 
 }
 
 #if OWN_EVENTS
+/* The step, at rest no longer than the series of the guards are accurate: where nothing but the angle changes it has no end. */
+OUTLINE vec guards_resolved(const series *s, const lanes *l, const fixed *f, vec h)
+{
+    own_series own;
+    for (int k = 0; k <= ORDER; k++)
+        own_coefficients(&own, s, &f->c, k);
+    for (int which = 0; which < OWN_EVENTS; which++) {
+        mask watched = l->alive & l->resting & own_watched(l->y, which, l->closing, l->resting, l->film);
+        vec size = f->tolerance*(vec_abs(own.guard[which][0]) + 1e-3);
+        for (int k = ORDER - 1; k <= ORDER; k++) {
+            vec room = size/vec_max(vec_abs(own.guard[which][k]), splat(1e-300));
+            h = choose(watched, vec_min(h, vec_exp(vec_log(room)*(1.0/k))), h);
+        }
+    }
+    return h;
+}
+
 /* Declared events of a step; an earlier event is kept. */
 OUTLINE void find_own_events(const series *s, const lanes *l, const fixed *f, vec h, first_event *first)
 {

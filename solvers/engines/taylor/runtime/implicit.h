@@ -313,6 +313,9 @@ OUTLINE void crawl(queue *q)
         vec better = 0.8*vec_exp(vec_log(vec_max(error, splat(1e-8)))*(-1.0/(int)COLUMNS));
         h *= choose(clear & (error == error), vec_min(better, splat(4.0)), splat(0.25));
         mask leaves = busy & (NOT(h > least_step) | (l.steps > splat_mask(q->budget)));
+#if OWN_EVENTS
+        leaves |= busy & has_rested_long(&l);
+#endif /* OWN_EVENTS */
         arrive(&l, &f, rate, least_step, leaves & NOT(taken));
         EACH_OF(lane, bits(leaves)) {
             int came_on = SPACE ? LANE(l.time, lane) > LANE(parked, lane) : LANE(taken, lane) != 0;

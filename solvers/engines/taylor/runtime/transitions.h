@@ -209,16 +209,16 @@ static int own_event_jumps(queue *q, lanes *l, fixed *f, int lane, int event)
 /* Resting contact after a declared event: it goes on, or is released where the forces turn outward. */
 static void rests_on(queue *q, lanes *l, fixed *f, int lane, double pull)
 {
-    int word = pull < 0.0 ? KIND_RELEASED : -1;
+    int kind = pull < 0.0 ? KIND_RELEASED : -1;
 #if ROLLS
     double rolled = LANE(l->rolling, lane);
-    if (word < 0 && rubs(l, f, lane) != (rolled != 0.0))
-        word = rolled ? KIND_SLIDES : KIND_ROLLS;
+    if (kind < 0 && rubs(l, f, lane) != (rolled != 0.0))
+        kind = rolled ? KIND_SLIDES : KIND_ROLLS;
 #endif
     note_mode(q, l, lane);
-    if (word >= 0)
-        note(q, LANE(l->index, lane), word, LANE(l->time, lane));
-    if (word == KIND_RELEASED) {
+    if (kind >= 0)
+        note(q, LANE(l->index, lane), kind, LANE(l->time, lane));
+    if (kind == KIND_RELEASED) {
         LANE(l->y[NORMAL_VELOCITY], lane) = RELEASE_SPEED;
         opens(l, f, lane);
     } else if (!TURNS && stays_at_rest(l, f, lane))
@@ -279,6 +279,42 @@ static void criteria_met_by(queue *q, lanes *l, fixed *f, mask candidates)
         }
 }
 
+#if OWN_EVENTS
+/* In x0/v0, and rad: a doublet that has rested and turned for so long counts as a stick, without proof. */
+static const double LONGEST_REST = 1e12, FARTHEST_TURN = 6300.0;
+/* What a decaying state may still lose, relative to itself, to count as constant: rounding. */
+static const double SETTLED = 1e-15, LEAST_SIZE = 1e-3;
+
+/* Lanes in which a state is constant, or decays and has less than that to go: A of A exp(-z t), by its first terms. */
+static mask has_settled(const vec *a)
+{
+    return (a[1] == 0.0) | (a[1]*a[1] <= 2.0*SETTLED*vec_abs(a[2])*(vec_abs(a[0]) + LEAST_SIZE));
+}
+
+static mask has_rested_long(const lanes *l)
+{
+    mask rested = l->time > LONGEST_REST;
+#if defined(ANGLE_STATE)
+    rested |= vec_abs(l->y[ANGLE_STATE]) > FARTHEST_TURN;
+#endif
+    return l->resting & rested;
+}
+
+/* Ends as sticks the lanes that have rested for so long beside declared events to come. Returns whether there were any. */
+static int rests_ended(queue *q, lanes *l, fixed *f)
+{
+    mask still = l->alive & has_rested_long(l) & (inward_force(&f->c, l->y) > 0.0);
+#if WITH_LIMIT
+    if (q->contact && q->contact->stuck)
+        return 0;
+#endif
+    still &= provable(q, l->closing);
+    EACH_OF(lane, bits(still))
+        sticks_for_good(q, l, f, lane, 0);
+    return bits(still) != 0;
+}
+#endif /* OWN_EVENTS */
+
 #if TURNS
 /* Ends as sticks the resting lanes whose series are constant: no force changes any more. Returns whether there were any.
  * The stick is not certified: the sign of the force is taken without an error.
@@ -288,6 +324,7 @@ static int stills_ended(queue *q, lanes *l, fixed *f, vec (*a)[TERMS])
     mask still = l->alive & l->resting & (inward_force(&f->c, l->y) > 0.0);
 #if OWN_EVENTS
     mask by_angle = own_to_come(l->y, l->film, BY_ANGLE), by_time = own_to_come(l->y, l->film, BY_TIME);
+    mask coming = own_to_come(l->y, l->film, BY_ROTATION | BY_ANGLE | BY_TIME);
 #endif /* OWN_EVENTS */
     for (int state = 0; state < MODEL_STATES; state++)
         for (int k = 1; k <= ORDER; k++) {
@@ -296,6 +333,8 @@ static int stills_ended(queue *q, lanes *l, fixed *f, vec (*a)[TERMS])
                 still &= NOT(state == ANGLE_CLOCK ? by_angle : by_time) | (a[state][k] == 0.0);
                 continue;
             }
+            still &= (a[state][k] == 0.0) | (coming & has_settled(a[state]));
+            continue;
 #endif /* OWN_EVENTS */
             still &= a[state][k] == 0.0;
         }
