@@ -91,7 +91,7 @@ def vanishing(
 
 
 def settled(expression: sp.Expr) -> sp.Expr:
-    """Zero if the expression vanishes identically: as a quotient of polynomials, or simplified if that does not show it.
+    """Zero if the expression vanishes identically: seen as a quotient of polynomials, or else simplified.
 
     Most of what is emitted is rational in symbols, roots and calls of laws. In a ring of these the zero of a numerator
     is seen without the searches of `expand` and `simplify`, about twenty times sooner.

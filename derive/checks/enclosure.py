@@ -7,7 +7,7 @@ from ..equations.model import derive, without_partner_spin
 from ..equations.observables import excess_energy
 from ..physics.structure import Structure, structures
 from ..vocabulary import quantities as q
-from .base import Evidence, check
+from .base import SIZES, Evidence, check
 
 _h, _s, _r, _y = sp.symbols("h s r y", positive=True)  # distance, steepness, size of the rate, height
 _PAIR = Structure(True, True, False, partner="pair")
@@ -95,7 +95,7 @@ def excess_is_of_squares() -> Evidence:
         model = derive(structure)
         energy = sp.Add(*model["energies"].by_name.values())
         least = model["effective_potential"]["energy"]
-        yield model.expanded(energy - least - excess_energy(energy))
+        yield model.expanded(energy - least - excess_energy(energy), SIZES)
         for rate in (ORBITAL_RATE, q.spin, q.partner_spin):
             moment = model.expanded(energy.diff(rate, 2)).subs(q.obliquity, sp.Symbol("tangent", positive=True))
             yield (moment == 0 or sp.factor(moment).is_positive is True, "a moment is not positive")
