@@ -28,7 +28,7 @@ def force_falls(laws: Iterable[Law], last: sp.Expr = sp.oo) -> tuple[Check, ...]
                 if q.aspect in entry.arguments:  # a volume per film thickness, to keep the expressions short
                     force = force.subs(q.volume, sp.pi * q.aspect**2 * q.volume)
                 slope = sp.factor(force.diff(first))
-                if slope.has(sp.log):  # of numbers, in exponents
+                if slope.is_nonpositive is None or slope.has(sp.log):  # roots in a sum; numbers in exponents
                     slope = sp.factor(sp.simplify(sp.simplify(force).diff(first)))
                 if slope.is_nonpositive is None and last != sp.oo:
                     slope = sp.factor(slope.subs(first, last / (1 + first)))  # any gap below the last

@@ -4,19 +4,22 @@ from collections import defaultdict
 from collections.abc import Callable, Collection, Iterable, Iterator
 from dataclasses import dataclass, replace
 from functools import cache, wraps
+from inspect import signature
 from typing import ParamSpec, TypeVar
 
 import sympy as sp
 from sympy.polys.rings import PolyElement, xring
 
-from ..equations.model import Model
+from ..equations.model import Model, derive
 from ..laws import LAWS, slot_call, slot_calls
+from ..physics.structure import Structure, structures
 from ..vocabulary import quantities as q
 
 P = ParamSpec("P")
 C = TypeVar("C", bound="Check | Iterable[Check]")
-Evidence = Iterator[sp.Expr | tuple[bool | None, str] | str]
-"""What a check yields: expressions that must vanish, claims (truth, figure if false), and the figure to show."""
+Evidence = Iterator["sp.Expr | Sign | bool | tuple[bool | None, str] | str | None"]
+"""What a check yields: expressions that must vanish, signs that must be proved, claims that must be true (with what is
+wrong if they are not, or else the figure), and the figure to show."""
 
 
 @dataclass(frozen=True)
@@ -45,23 +48,33 @@ def checks_of(*modules: str) -> list[Several]:
 
 
 def check(name: str, statement: str) -> Callable[[Callable[P, Evidence]], Callable[P, Check]]:
-    """Decorator that makes the check of a statement from a function that yields the evidence for it."""
+    """Decorator that makes the check of a statement from a function that yields the evidence for it.
+
+    Arguments:
+        name: its name, in which {} stands for an argument of the function, as in "film dissipates: {0.name}".
+    """
 
     def checked(function: Callable[P, Evidence]) -> Callable[P, Check]:
         @wraps(function)
         def run(*args: P.args, **kwargs: P.kwargs) -> Check:
             residuals, false, figure = list[sp.Expr](), list[str](), ""
             for item in function(*args, **kwargs):
-                if isinstance(item, str):
-                    figure = item
-                elif isinstance(item, tuple):
-                    false += [] if item[0] else [item[1]]
-                else:
-                    residuals.append(item)
-            result = vanishing(name, statement, residuals, figure)
-            return replace(result, ok=False, figure=false[0]) if false and result.ok else result
+                match item:
+                    case str():
+                        figure = item
+                    case bool() | None:
+                        false += [] if item else [""]
+                    case truth, text:
+                        false += [] if truth else [text]
+                    case Sign(proved, witness):
+                        figure, false = witness, false if proved else [*false, witness]
+                    case _:
+                        residuals.append(item)
+            result = vanishing(name.format(*args), statement, residuals, figure)
+            return replace(result, ok=False, figure=false[0] or f"false: {figure}") if false and result.ok else result
 
-        return checks(run)
+        needs = any(given.default is given.empty for given in signature(function).parameters.values())
+        return run if needs else checks(run)  # one of a law is run by who has the laws
 
     return checked
 
@@ -73,21 +86,20 @@ def once(test: Several) -> tuple[Check, ...]:
     return (result,) if isinstance(result, Check) else tuple(result)
 
 
-def vanishing(
-    name: str, statement: str, residuals: list[sp.Expr], figure: str = "", *, holds: bool | None = True
-) -> Check:
-    """A check that every expression of `left` vanishes identically; the first that does not is the figure.
-
-    Arguments:
-        holds: the value of `ok` if they do; None for a known violation, which is reported but not required to pass.
-    """
+def vanishing(name: str, statement: str, residuals: list[sp.Expr], figure: str = "") -> Check:
+    """A check that every expression vanishes identically; the first that does not is the figure."""
     rest = next(
         (value for value in map(settled, residuals) if value != 0), None
     )  # the others may be expensive to simplify
     text = figure or (f"{len(residuals)} identities" if len(residuals) > 1 else "identity")
     if rest is not None:
         return Check(name, statement, False, f"left over: {readable(rest)}")
-    return Check(name, statement, holds, text)
+    return Check(name, statement, True, text)
+
+
+def models(chosen: Callable[[Structure], bool] = lambda _: True) -> Iterator[Model]:
+    """The models of the structures that are chosen."""
+    return (derive(structure) for structure in structures() if chosen(structure))
 
 
 def settled(expression: sp.Expr) -> sp.Expr:

@@ -30,23 +30,18 @@ def strings_are_conservative(laws: Iterable[Law]) -> tuple[Check, ...]:
 
 
 @cache
-def _conservative(law: Law) -> Check:
+@check("strings: {0.name}", "S_n = dU/dr, S_t = (1/r) dU/dbeta")
+def _conservative(law: Law) -> Evidence:
     """The potential is 4 m g a `rise` for both spheres; for the library's laws also the one they were derived from."""
     swing = strings.swing_squared() / q.a**2
     rise, stiffness = law["rise"], law["stiffness"]
     potentials = [4 * q.m * q.g * q.a * rise(q.l_s / q.a, swing)]
     if LAWS["strings"].get(law.name) is law:
         potentials.append(strings.potential(law.name == "small-angle"))
-    residuals = []
     for potential in potentials:
-        normal, sideways = string_forces(potential, strings.r, q.beta)
-        residuals += [
-            filled(force_laws()[force], {"strings": law}) - expected.subs(strings.r, q.r)
-            for force, expected in ((S_n, normal), (S_t, sideways))
-        ]
-    arguments = rise.arguments
-    residuals.append(2 * rise(*arguments).diff(arguments[1]) - stiffness(*arguments))
-    return vanishing(f"strings: {law.name}", "S_n = dU/dr, S_t = (1/r) dU/dbeta", residuals)
+        for force, expected in zip((S_n, S_t), string_forces(potential, strings.r, q.beta), strict=True):
+            yield filled(force_laws()[force], {"strings": law}) - expected.subs(strings.r, q.r)
+    yield 2 * rise(*rise.arguments).diff(rise.arguments[1]) - stiffness(*rise.arguments)
 
 
 _FULL = tuple(structure for structure in structures() if not structure.reduced)
