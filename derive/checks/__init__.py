@@ -5,7 +5,6 @@ that passes holds for all values. `symbolic_checks` runs them all.
 """
 
 from collections.abc import Iterator, Mapping
-from functools import cache
 from importlib import import_module
 
 from ..equations.certificates.table import CERTIFICATES
@@ -15,22 +14,16 @@ from . import conservation, dissipation
 from . import laws as law_limits
 from .admission import Admission, certificate, certificates
 from .attraction_certificate import force_falls
-from .base import Check, Several, checks_of, run
+from .base import Check, checks_of, once
 
 __all__ = ["Admission", "Check", "certificate", "symbolic_checks"]
-
-
-@cache
-def _once(check: Several) -> tuple[Check, ...]:
-    """A check that does not depend on laws: the same for every scene, computed once per process."""
-    return run([check])
 
 
 def _of(*modules: str) -> Iterator[Check]:
     for name in modules:
         module = import_module(f".{name}", __package__)
         for check in checks_of(module.__name__):
-            yield from _once(check)
+            yield from once(check)
 
 
 def symbolic_checks(laws: Mapping[str, Law] | None = None) -> Iterator[Check]:

@@ -10,7 +10,7 @@ from ..laws import LAWS, Law
 from ..physics.structure import Structure, structures
 from ..vocabulary.quantities import gap
 from . import dissipation
-from .base import Check, readable
+from .base import Check, once, readable
 from .conservation import strings_are_conservative
 from .pendulum_certificate import pendulum_certificate
 
@@ -48,9 +48,9 @@ def certificate(structure: Structure, laws: Mapping[str, Law] | None = None) -> 
     if there is any, is among the invariants found; and the potential has a barrier.
     """
     chosen = {slot: LAWS[slot][name] for slot, name in _DEFAULTS.items()} | dict(laws or {})
-    checks = [dissipation.film_dissipates(chosen["film"]), dissipation.rebound_dissipates()[1]]
+    checks = [dissipation.film_dissipates(chosen["film"]), *once(dissipation.rebound_dissipates)]
     if structure.bridge:
-        checks.append(dissipation.bridge_does_work())
+        checks += once(dissipation.bridge_does_work)
     if structure.strings:
         checks += strings_are_conservative([chosen["strings"]])
     held: list[str] = []

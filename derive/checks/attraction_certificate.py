@@ -27,7 +27,9 @@ def force_falls(laws: Iterable[Law], last: sp.Expr = sp.oo) -> tuple[Check, ...]
                 force = entry(*entry.arguments).subs(entry.arguments[0], first).subs(sp.cos(q.contact_angle), _COSINE)
                 if q.aspect in entry.arguments:  # a volume per film thickness, to keep the expressions short
                     force = force.subs(q.volume, sp.pi * q.aspect**2 * q.volume)
-                slope = sp.factor(sp.simplify(sp.simplify(force).diff(first)))
+                slope = sp.factor(force.diff(first))
+                if slope.is_nonpositive is None or slope.has(sp.log):  # roots in a sum; numbers in exponents
+                    slope = sp.factor(sp.simplify(sp.simplify(force).diff(first)))
                 if slope.is_nonpositive is None and last != sp.oo:
                     slope = sp.factor(slope.subs(first, last / (1 + first)))  # any gap below the last
                 falls = slope.is_nonpositive is True

@@ -3,20 +3,23 @@
 from collections import defaultdict
 from collections.abc import Callable, Collection, Iterable, Iterator
 from dataclasses import dataclass, replace
-from functools import wraps
-from itertools import chain
+from functools import cache, wraps
+from inspect import signature
 from typing import ParamSpec, TypeVar
 
 import sympy as sp
+from sympy.polys.rings import PolyElement, xring
 
-from ..equations.model import Model
+from ..equations.model import Model, derive
 from ..laws import LAWS, slot_call, slot_calls
+from ..physics.structure import Structure, structures
 from ..vocabulary import quantities as q
 
 P = ParamSpec("P")
 C = TypeVar("C", bound="Check | Iterable[Check]")
-Evidence = Iterator[sp.Expr | tuple[bool | None, str] | str]
-"""What a check yields: expressions that must vanish, claims (truth, figure if false), and the figure to show."""
+Evidence = Iterator["sp.Expr | Sign | bool | tuple[bool | None, str] | str | None"]
+"""What a check yields: expressions that must vanish, signs that must be proved, claims that must be true (with what is
+wrong if they are not, or else the figure), and the figure to show."""
 
 
 @dataclass(frozen=True)
@@ -45,57 +48,122 @@ def checks_of(*modules: str) -> list[Several]:
 
 
 def check(name: str, statement: str) -> Callable[[Callable[P, Evidence]], Callable[P, Check]]:
-    """Decorator that makes the check of a statement from a function that yields the evidence for it."""
+    """Decorator that makes the check of a statement from a function that yields the evidence for it.
+
+    Arguments:
+        name: its name, in which {} stands for an argument of the function, as in "film dissipates: {0.name}".
+    """
 
     def checked(function: Callable[P, Evidence]) -> Callable[P, Check]:
         @wraps(function)
         def run(*args: P.args, **kwargs: P.kwargs) -> Check:
             residuals, false, figure = list[sp.Expr](), list[str](), ""
             for item in function(*args, **kwargs):
-                if isinstance(item, str):
-                    figure = item
-                elif isinstance(item, tuple):
-                    false += [] if item[0] else [item[1]]
-                else:
-                    residuals.append(item)
-            result = vanishing(name, statement, residuals, figure)
-            return replace(result, ok=False, figure=false[0]) if false and result.ok else result
+                match item:
+                    case str():
+                        figure = item
+                    case bool() | None:
+                        false += [] if item else [""]
+                    case truth, text:
+                        false += [] if truth else [text]
+                    case Sign(proved, witness):
+                        figure, false = witness, false if proved else [*false, witness]
+                    case _:
+                        residuals.append(item)
+            result = vanishing(name.format(*args), statement, residuals, figure)
+            return replace(result, ok=False, figure=false[0] or f"false: {figure}") if false and result.ok else result
 
-        return checks(run)
+        needs = any(given.default is given.empty for given in signature(function).parameters.values())
+        return run if needs else checks(run)  # one of a law is run by who has the laws
 
     return checked
 
 
-def run(several: Iterable[Several]) -> tuple[Check, ...]:
-    """The results of checks; one function may give several."""
-    results = (test() for test in several)
-    return tuple(chain.from_iterable([result] if isinstance(result, Check) else result for result in results))
+@cache
+def once(test: Several) -> tuple[Check, ...]:
+    """The results of a check without arguments, which several proofs may need; one function may give several."""
+    result = test()
+    return (result,) if isinstance(result, Check) else tuple(result)
 
 
-def vanishing(
-    name: str, statement: str, residuals: list[sp.Expr], figure: str = "", *, holds: bool | None = True
-) -> Check:
-    """A check that every expression of `left` vanishes identically; the first that does not is the figure.
-
-    Arguments:
-        holds: the value of `ok` if they do; None for a known violation, which is reported but not required to pass.
-    """
+def vanishing(name: str, statement: str, residuals: list[sp.Expr], figure: str = "") -> Check:
+    """A check that every expression vanishes identically; the first that does not is the figure."""
     rest = next(
         (value for value in map(settled, residuals) if value != 0), None
     )  # the others may be expensive to simplify
     text = figure or (f"{len(residuals)} identities" if len(residuals) > 1 else "identity")
     if rest is not None:
         return Check(name, statement, False, f"left over: {readable(rest)}")
-    return Check(name, statement, holds, text)
+    return Check(name, statement, True, text)
+
+
+def models(chosen: Callable[[Structure], bool] = lambda _: True) -> Iterator[Model]:
+    """The models of the structures that are chosen."""
+    return (derive(structure) for structure in structures() if chosen(structure))
 
 
 def settled(expression: sp.Expr) -> sp.Expr:
-    """Zero if the expression vanishes identically: expanded, as one fraction, or simplified if neither shows it."""
+    """Zero if the expression vanishes identically: seen as a quotient of polynomials, or else simplified.
+
+    Most of what is emitted is rational in symbols, roots and calls of laws. In a ring of these the zero of a numerator
+    is seen without the searches of `expand` and `simplify`, about twenty times sooner.
+    """
+    if vanishes(expression):
+        return sp.S.Zero
     expanded = sp.expand(expression)
-    if expanded == 0:
-        return expanded
-    top, _ = sp.fraction(sp.together(expression))  # not of the expanded form, whose terms have a denominator each
-    return sp.S.Zero if sp.expand(top) == 0 else sp.simplify(sp.factor(expanded))
+    return expanded if expanded == 0 else sp.simplify(sp.factor(expanded))
+
+
+def vanishes(expression: sp.Expr) -> bool:
+    """True if an expression is zero for any values of its symbols and of what is not rational in them.
+
+    False says nothing: roots, exponentials and calls count as independent variables here.
+    """
+    variables = sorted(_variables(expression), key=str)
+    ring, generators = xring([f"v{index}" for index in range(len(variables))], sp.QQ)
+    values: dict[sp.Expr, tuple[PolyElement, PolyElement]] = {
+        variable: (generator, ring.one) for variable, generator in zip(variables, generators, strict=True)
+    }
+
+    def quotient(node: sp.Expr) -> tuple[PolyElement, PolyElement]:
+        """Numerator and denominator, nothing cancelled."""
+        if node not in values:
+            top, bottom = ring.one, ring.one
+            if node.is_Rational:
+                top = top * sp.QQ(int(node.p), int(node.q))
+            elif node.is_Add:
+                by_bottom: dict[PolyElement, PolyElement] = {}
+                for over, under in map(quotient, node.args):
+                    by_bottom[under] = by_bottom.get(under, ring.zero) + over
+                top = ring.zero
+                for under, over in by_bottom.items():
+                    top, bottom = top * under + over * bottom, bottom * under
+            elif node.is_Mul:
+                for over, under in map(quotient, node.args):
+                    top, bottom = top * over, bottom * under
+            else:
+                over, under = quotient(node.base if node.exp.is_Integer else _root(node))
+                power = int(node.exp.p)
+                top, bottom = (over**power, under**power) if power > 0 else (under**-power, over**-power)
+            values[node] = top, bottom
+        return values[node]
+
+    return not quotient(expression)[0]
+
+
+def _variables(node: sp.Expr) -> set[sp.Expr]:
+    """What an expression is rational in."""
+    if node.is_Rational:
+        return set()
+    if node.is_Add or node.is_Mul:
+        return set().union(*map(_variables, node.args))
+    if node.is_Pow and node.exp.is_Rational:
+        return _variables(node.base) if node.exp.is_Integer else {_root(node)}
+    return {node}
+
+
+def _root(power: sp.Pow) -> sp.Expr:
+    return sp.Pow(power.base, sp.Rational(1, power.exp.q))
 
 
 def readable(expression: sp.Expr) -> str:

@@ -3,19 +3,17 @@
 import sympy as sp
 
 from ..equations.invariants import conserved_momentum
-from ..equations.model import derive
-from ..physics.structure import structures
 from ..vocabulary import quantities as q
-from .base import MIDGAP, Evidence, check, slope_along
+from .base import MIDGAP, Evidence, check, models, slope_along
 
 
 @check("stick certificate", "slope = d/dx [L^2/(2 I(x)) + U_s(x) + W_c(x)] at fixed L")
 def least_energy() -> Evidence:
     """The certificate's energy is L^2/(2 I) (+ U_s), its slope the derivative at fixed L plus the bridge force."""
-    for structure in structures():
-        model = derive(structure)
+    for model in models():
         if "effective_potential" not in model:
             continue
+        structure = model.structure
         value, slope = model.results("effective_potential").values()
         momentum = sp.Symbol("L", real=True)  # over m a^2 Omega
         inertia = (4 + q.aspect * q.gap) ** 2 + sp.Rational(32, 5)
@@ -48,15 +46,13 @@ def least_energy_is_a_minimum() -> Evidence:
     """
     convex = True
     tangent, momentum = sp.Symbol("tangent", positive=True), sp.Symbol("L", real=True)
-    for structure in structures():
-        if structure.reduced or structure.strings:
-            continue  # the strings' energy does not depend on velocities; `reduced form` covers the reduced equations
-        model = derive(structure)
+    # the strings' energy does not depend on velocities; `reduced form` covers the reduced equations
+    for model in models(lambda s: not s.reduced and not s.strings):
         kinetic = model.expanded(model["energies"]["kinetic"]).subs(q.obliquity, tangent)
         least = model.expanded(model["effective_potential"]["energy"]).subs(q.obliquity, tangent)
         at_least = model.by_state("rigid_rotation")
         velocities = [q.normal_velocity]
-        if structure.oblique:
+        if model.structure.oblique:
             velocities.append(q.orbital_momentum)
             left_over = {q.spin: conserved_momentum(model, MIDGAP).solved(q.spin, momentum)}
             kinetic, least = kinetic.subs(left_over), sp.factor(least.subs(left_over))

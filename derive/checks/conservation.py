@@ -12,7 +12,7 @@ from ..physics.forces import force_laws
 from ..physics.mechanics import S_n, S_t, doublet_inertia, equations_of_motion, string_forces
 from ..physics.structure import Structure, structures
 from ..vocabulary import quantities as q
-from .base import Check, Evidence, check, checks, slope_along, vanishing
+from .base import Check, Evidence, check, checks, settled, slope_along, vanishing
 
 
 @check("inertia", "I(x) = 2 T(u = 0, xi = omega)/omega^2 = m a^2 [(4 + x/a)^2 + 32/5]")
@@ -30,23 +30,18 @@ def strings_are_conservative(laws: Iterable[Law]) -> tuple[Check, ...]:
 
 
 @cache
-def _conservative(law: Law) -> Check:
+@check("strings: {0.name}", "S_n = dU/dr, S_t = (1/r) dU/dbeta")
+def _conservative(law: Law) -> Evidence:
     """The potential is 4 m g a `rise` for both spheres; for the library's laws also the one they were derived from."""
     swing = strings.swing_squared() / q.a**2
     rise, stiffness = law["rise"], law["stiffness"]
     potentials = [4 * q.m * q.g * q.a * rise(q.l_s / q.a, swing)]
     if LAWS["strings"].get(law.name) is law:
         potentials.append(strings.potential(law.name == "small-angle"))
-    residuals = []
     for potential in potentials:
-        normal, sideways = string_forces(potential, strings.r, q.beta)
-        residuals += [
-            sp.simplify(filled(force_laws()[force], {"strings": law}) - expected.subs(strings.r, q.r))
-            for force, expected in ((S_n, normal), (S_t, sideways))
-        ]
-    arguments = rise.arguments
-    residuals.append(sp.simplify(2 * rise(*arguments).diff(arguments[1]) - stiffness(*arguments)))
-    return vanishing(f"strings: {law.name}", "S_n = dU/dr, S_t = (1/r) dU/dbeta", residuals)
+        for force, expected in zip((S_n, S_t), string_forces(potential, strings.r, q.beta), strict=True):
+            yield filled(force_laws()[force], {"strings": law}) - expected.subs(strings.r, q.r)
+    yield 2 * rise(*rise.arguments).diff(rise.arguments[1]) - stiffness(*rise.arguments)
 
 
 _FULL = tuple(structure for structure in structures() if not structure.reduced)
@@ -65,7 +60,7 @@ def energy_balance(structure: Structure) -> sp.Expr:
     rates, stored = model.by_state("right_hand_side"), sp.Add(*model.results("energies").values())
     total = sp.Add(*(slope_along(stored, state) * rate for state, rate in rates.items()))
     lost = sp.Add(*model.results("energy_rates").values())
-    return sp.factor(sp.expand(strings.half_angles(total + lost)))
+    return settled(strings.half_angles(total + lost))
 
 
 @checks

@@ -17,9 +17,9 @@ from ..physics.forces import force_laws
 from ..physics.law import Law, filled
 from ..physics.mechanics import F_t, S_t, arm, equations_of_motion, sphere_inertia
 from ..physics.scaling import DISTANCE, nondimensional
-from ..physics.structure import FREE, Structure, structures
+from ..physics.structure import FREE, Structure
 from ..vocabulary import quantities as q
-from .base import Check, checks, nonnegative, readable, vanishing
+from .base import Check, Evidence, check, models, nonnegative, readable, vanishing
 
 
 def _taken(term: str) -> sp.Expr:
@@ -29,20 +29,20 @@ def _taken(term: str) -> sp.Expr:
 
 
 @cache
-def film_dissipates(law: Law) -> Check:
+@check("film dissipates: {0.name}", "F_n u >= 0 for 0 < x <= x0")
+def film_dissipates(law: Law) -> Evidence:
     """The power of the film, F_n u, is not negative at any gap inside it."""
-    rate = filled(_taken("normal_lubrication"), {"film": law})
-    sign = nonnegative(rate, q.gap, sp.Integer(1))
-    return Check(f"film dissipates: {law.name}", "F_n u >= 0 for 0 < x <= x0", sign.proved, sign.witness)
+    yield nonnegative(filled(_taken("normal_lubrication"), {"film": law}), q.gap, sp.Integer(1))
 
 
 @cache
-def shear_dissipates(law: Law, lever: Law) -> Check:
+@check(
+    "shear dissipates: {0.name}, {1.name} arm", "F_t (r omega - 2 arm xi) >= 0 inside the edge of the tangential force"
+)
+def shear_dissipates(law: Law, lever: Law) -> Evidence:
     """The power of the shear, F_t (r omega - 2 arm xi), is not negative inside its edge if the arm conserves L."""
     rate = filled(_taken("tangential_lubrication"), {"shear": law, "arm": lever})
-    sign = nonnegative(rate, q.gap, law["edge"](q.aspect))
-    statement = "F_t (r omega - 2 arm xi) >= 0 inside the edge of the tangential force"
-    return Check(f"shear dissipates: {law.name}, {lever.name} arm", statement, sign.proved, sign.witness)
+    yield nonnegative(rate, q.gap, law["edge"](q.aspect))
 
 
 @cache
@@ -71,12 +71,10 @@ def angular_momentum(lever: Law) -> Check:
     expected = torque(lever)
     per_time = q.x0 / (q.v0 * q.m * q.a**2 * q.rate_scale)
     lost = nondimensional(expected.subs(F_t, force_laws()[F_t]) * per_time) if expected != 0 else expected
-    for structure in structures():
-        if structure.oblique and not structure.strings and not structure.reduced:
-            model = derive(structure)
-            rates = model.by_state("right_hand_side")
-            change = filled(rates[q.orbital_momentum] + sp.Rational(32, 5) * rates[q.spin], {"arm": lever})
-            residuals.append(change - model.expanded(lost))
+    for model in models(lambda s: s.oblique and not s.strings and not s.reduced):
+        rates = model.by_state("right_hand_side")
+        change = filled(rates[q.orbital_momentum] + sp.Rational(32, 5) * rates[q.spin], {"arm": lever})
+        residuals.append(change - model.expanded(lost))
     if conserves(lever):
         words = "; ".join(invariant.describe() for invariant in conserved(lever))
         return vanishing(
@@ -93,38 +91,26 @@ def arms(levers: Iterable[Law], shears: Iterable[Law]) -> tuple[Check, ...]:
     return tuple(checks)
 
 
-@checks
-@cache
-def bridge_does_work() -> Check:
+@check("bridge does work only", "F_c = F_c(x): its work W_c(x) is a potential, for any bridge law")
+def bridge_does_work() -> Evidence:
     """The bridge force depends on the gap only, so it has a potential W_c(x), the same while closing and opening."""
-    residuals = []
-    for structure in structures():
-        if structure.bridge:
-            model = derive(structure)
-            force = model.expanded(BRIDGE_FORCE)
-            power = model["energy_rates"]["capillary"]
-            residuals += [force.diff(state) for state in (q.normal_velocity, q.orbital_momentum, q.spin, q.beta)]
-            residuals.append(model.expanded(power) - force * q.normal_velocity)
-    return vanishing(
-        "bridge does work only", "F_c = F_c(x): its work W_c(x) is a potential, for any bridge law", residuals
-    )
+    for model in models(lambda structure: structure.bridge):
+        force = model.expanded(BRIDGE_FORCE)
+        yield from [force.diff(state) for state in (q.normal_velocity, q.orbital_momentum, q.spin, q.beta)]
+        yield model.expanded(model["energy_rates"]["capillary"]) - force * q.normal_velocity
 
 
-@checks
-@cache
-def rebound_dissipates() -> tuple[Check, ...]:
-    """A rebound loses exactly the kinetic energy of `rebound_loss`, which is not negative for 0 <= e_dry <= 1."""
-    residuals, charged = [], sp.Integer(0)
-    for structure in structures():
-        model = derive(structure)
+@check("rebound's energy", "kinetic energy before - after = (1 - e_dry^2) u^2/2, all else continuous")
+def rebound_is_charged() -> Evidence:
+    """A rebound loses exactly the kinetic energy of `rebound_loss`."""
+    for model in models():
         before = model.expanded(model["energies"]["kinetic"])
-        jump = model.by_state("rebound")
         charged = model.expanded(model["rebound_loss"]["dry_contact"])
-        residuals.append(before - before.subs(jump, simultaneous=True) - charged)
-    sign = nonnegative(charged, q.e_dry, sp.Integer(1))
-    return (
-        vanishing(
-            "rebound's energy", "kinetic energy before - after = (1 - e_dry^2) u^2/2, all else continuous", residuals
-        ),
-        Check("rebound dissipates", "(1 - e_dry^2) u^2/2 >= 0 for 0 < e_dry <= 1", sign.proved, sign.witness),
-    )
+        yield before - before.subs(model.by_state("rebound"), simultaneous=True) - charged
+
+
+@check("rebound dissipates", "(1 - e_dry^2) u^2/2 >= 0 for 0 < e_dry <= 1")
+def rebound_dissipates() -> Evidence:
+    """`rebound_loss` is not negative for 0 <= e_dry <= 1."""
+    for charged in {model.expanded(model["rebound_loss"]["dry_contact"]) for model in models()}:
+        yield nonnegative(charged, q.e_dry, sp.Integer(1))

@@ -12,7 +12,7 @@ from ..physics.mechanics import F_t, equations_of_motion, sphere_inertia
 from ..physics.scaling import group_definitions, nondimensional
 from ..physics.structure import FREE, Structure, structures
 from ..vocabulary import quantities as q
-from .base import MIDGAP, Evidence, check
+from .base import MIDGAP, Evidence, check, models
 
 _IMMERSED = MIDGAP | {"shear": LAWS["shear"]["immersed"]}
 
@@ -24,10 +24,7 @@ def _value(model: Model, function: str, name: str) -> sp.Expr:
 @check("resting contact", "rates at rest = rates in motion with u = 0 and du/dt = 0")
 def resting_is_held() -> Evidence:
     """In resting contact of the paper's structures the rotation has the rates of motion at u = 0; the gap is held."""
-    for structure in structures():
-        if not structure.oblique:
-            continue
-        model = derive(structure)
+    for model in models(lambda structure: structure.oblique):
         for state, rate in model.by_state("right_hand_side").items():
             moving = sp.Integer(0) if state in (q.gap, q.normal_velocity) else rate.subs(q.normal_velocity, 0)
             yield _value(model, "resting_rates", state.name) - moving
@@ -36,8 +33,7 @@ def resting_is_held() -> Evidence:
 @check("inward force", "inward force = -m du/dt without the film; `release` is where it turns")
 def inward_is_minus_the_acceleration() -> Evidence:
     """The inward force that keeps a doublet in contact is minus m du/dt without the film."""
-    for structure in structures():
-        model = derive(structure)
+    for model in models():
         inward = -model.by_state("right_hand_side")[q.normal_velocity].subs(FILM, 0)
         yield _value(model, "inward_force", "inward_force") - inward
         if "release" in model["events"].by_name:
@@ -52,10 +48,8 @@ def momentum_is_the_bodies() -> Evidence:
     first = {q.x: q.x0, q.omega: q.omega0, q.xi: q.impact_spin}
     parts = [_per_unit(momentum.subs(first)) for momentum in (orbital, spun)]
     expected = 1 + (_per_unit(whole) - sum(parts)) / sum(sp.Abs(term) for term in parts)
-    for structure in structures():
-        if structure.oblique and not structure.reduced:
-            model = derive(structure)
-            yield _value(model, "angular_momentum", "angular_momentum") - model.expanded(expected)
+    for model in models(lambda s: s.oblique and not s.reduced):
+        yield _value(model, "angular_momentum", "angular_momentum") - model.expanded(expected)
 
 
 def _per_unit(momentum: sp.Expr) -> sp.Expr:
@@ -74,8 +68,7 @@ def outputs_are_the_definitions() -> Evidence:
         "final_spin": q.xi / q.rate_scale,
     }
     scaled = {name: nondimensional(value) for name, value in defined.items()}
-    for structure in structures():
-        model = derive(structure)
+    for model in models():
         yield from [model.expanded(value) - model.expanded(scaled[name]) for name, value in model["outputs"].outputs]
 
 

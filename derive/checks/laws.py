@@ -13,21 +13,18 @@ from ..physics.forces import force_laws
 from ..physics.mechanics import F_c, F_n, F_t, S_n, S_t
 from ..physics.pendulum import offset_squared
 from ..physics.scaling import DISTANCE, generalised_centrifugal, group_definitions, initial_rate
-from ..physics.structure import Structure, structures
+from ..physics.structure import Structure
 from ..vocabulary import quantities as q
 from ..vocabulary.dimensions import ENERGY, FORCE, LENGTH, PRESSURE, demand_dimension
-from .base import SIZES, Check, Evidence, check, checks, slope_along, vanishing
+from .base import SIZES, Check, Evidence, check, checks, models, slope_along, vanishing
 
 
 @check("rigid rotation", "omega = xi: no tangential force, for every tangential law")
 def rigid_rotation_is_free() -> Evidence:
     """The tangential force vanishes in rigid rotation, in SI and as emitted, for any tangential law."""
     yield force_laws()[F_t].subs(q.xi, q.omega)
-    for structure in structures():
-        if structure.oblique and not structure.reduced:
-            model = derive(structure)
-            rigid = {q.orbital_momentum: q.spin * model.expanded(DISTANCE) ** 2}
-            yield model.expanded(SHEAR_FORCE).subs(rigid)
+    for model in models(lambda s: s.oblique and not s.reduced):
+        yield model.expanded(SHEAR_FORCE).subs(q.orbital_momentum, q.spin * model.expanded(DISTANCE) ** 2)
 
 
 def film_ends(films: Iterable[Law], shears: Iterable[Law]) -> tuple[Check, ...]:
@@ -45,20 +42,19 @@ def film_ends(films: Iterable[Law], shears: Iterable[Law]) -> tuple[Check, ...]:
     return tuple(checks)
 
 
-def long_strings_vanish(laws: Iterable[Law]) -> tuple[Check, ...]:
+def long_strings_vanish(laws: Iterable[Law]) -> Iterable[Check]:
     """Strings of infinite length exert no force, at fixed weight and swing."""
+    return map(_vanish, laws)
+
+
+@check("infinite strings: {0.name}", "l -> oo: S_n, S_t, U_s -> 0 at fixed weight and swing")
+def _vanish(law: Law) -> Evidence:
     swing = sp.Symbol("swing", positive=True)  # (d/a)^2
-    checks = []
-    for law in laws:
-        residuals = []
-        for force in (S_n, S_t):
-            whole = force_laws()[force]
-            calls = {node: node.func(node.args[0], swing) for node in slot_calls(whole)}
-            residuals.append(sp.limit(filled(whole.xreplace(calls), {"strings": law}), q.l_s, sp.oo))
-        residuals.append(sp.limit(law["rise"](q.string_ratio, swing), q.string_ratio, sp.oo))
-        statement = "l -> oo: S_n, S_t, U_s -> 0 at fixed weight and swing"
-        checks.append(vanishing(f"infinite strings: {law.name}", statement, residuals))
-    return tuple(checks)
+    for force in (S_n, S_t):
+        whole = force_laws()[force]
+        calls = {node: node.func(node.args[0], swing) for node in slot_calls(whole)}
+        yield sp.limit(filled(whole.xreplace(calls), {"strings": law}), q.l_s, sp.oo)
+    yield sp.limit(law["rise"](q.string_ratio, swing), q.string_ratio, sp.oo)
 
 
 @check("small-angle strings", "forces and energy are the exact ones to leading order in the swing")
@@ -74,24 +70,21 @@ def small_angle_is_linear() -> Evidence:
 
 def head_on_closed_form(laws: Iterable[Law]) -> tuple[Check, ...]:
     """Head-on with a film only, u = -v0 (1 - Lf(s)/St) solves the emitted equations, Lf the integral of resistance."""
+    return tuple(map(_closed_form, laws))
+
+
+@check("head-on closed form: {0.name}", "-u/v0 = 1 - Lf(s)/St solves it")
+def _closed_form(law: Law) -> Evidence:
     model = derive(Structure(oblique=False, bridge=False, strings=False))
     closing, film_flag, stokes = model.states[1], sp.Symbol("film", nonnegative=True), model.groups[0]
-    checks = []
-    for law in laws:
-        integral = film_integral(law)
-        speed = -(1 - integral / stokes)
-        rate = filled(model.expanded(model["right_hand_side"]["normal_velocity"]), {"film": law})
-        residuals = [speed * speed.diff(q.gap) - rate.subs({closing: speed, film_flag: 1}), speed.subs(q.gap, 1) + 1]
-        residuals += [integral - function(q.gap) for function in law.functions if function.name == "stopping"]
-        figure = f"Lf(s) = {integral}".replace("gap", "s")
-        if law.name == "finite" and not integral.has(sp.Integral):
-            residuals.append(
-                sp.expand_log(integral - (sp.log(1 / q.gap) - sp.Rational(3, 2) + 2 * q.gap - q.gap**2 / 2))
-            )
-        checks.append(
-            vanishing(f"head-on closed form: {law.name}", "-u/v0 = 1 - Lf(s)/St solves it", residuals, figure)
-        )
-    return tuple(checks)
+    integral = film_integral(law)
+    speed = -(1 - integral / stokes)
+    rate = filled(model.expanded(model["right_hand_side"]["normal_velocity"]), {"film": law})
+    yield from (speed * speed.diff(q.gap) - rate.subs({closing: speed, film_flag: 1}), speed.subs(q.gap, 1) + 1)
+    yield from [integral - function(q.gap) for function in law.functions if function.name == "stopping"]
+    if law.name == "finite" and not integral.has(sp.Integral):
+        yield sp.expand_log(integral - (sp.log(1 / q.gap) - sp.Rational(3, 2) + 2 * q.gap - q.gap**2 / 2))
+    yield f"Lf(s) = {integral}".replace("gap", "s")
 
 
 def film_integral(law: Law) -> sp.Expr:

@@ -17,7 +17,7 @@ from ..physics.forces import FILM, SHEAR
 from ..physics.pendulum import offset_squared
 from ..physics.scaling import DISTANCE
 from ..vocabulary import quantities as q
-from .base import MIDGAP, Check, Evidence, check, checks, checks_of, positive, readable, run, vanishing
+from .base import MIDGAP, Check, Evidence, check, checks, checks_of, once, positive, readable
 
 _HERE = 4 + q.aspect * q.gap
 _HALF = sp.Symbol("half_angle_sine", nonnegative=True)  # sin(beta/2), which grows with beta up to half a turn
@@ -35,31 +35,27 @@ def _by_shear() -> tuple[sp.Expr, dict[sp.Symbol, sp.Expr]]:
     return (rates[q.orbital_momentum] - without[q.orbital_momentum]) / (SHEAR * log_factor), without
 
 
-@checks
-def momentum_falls() -> Check:
+@check("strings only take from L", "dL/dt = -r S_t <= 0 while 0 <= beta <= pi")
+def momentum_falls() -> Evidence:
     """dL/dt = -r S_t, and S_t has the sign of sin(beta); only the strings exert a torque on the doublet."""
     result = _model().by_state("right_hand_side")
     total = filled(result[q.orbital_momentum] + sp.Rational(32, 5) * result[q.spin], MIDGAP)
     swing = dict(_model().definitions)[offset_squared].subs(DISTANCE, _HERE)
-    lever = sp.sin(q.beta) * slot_call("strings", "stiffness", q.string_ratio, swing)
-    share = sp.simplify(total / lever)
-    statement, figure = "dL/dt = -r S_t <= 0 while 0 <= beta <= pi", f"dL/dt ~ {share} sin(beta)"
-    return Check("strings only take from L", statement, positive(-share), figure)
+    share = sp.simplify(total / (sp.sin(q.beta) * slot_call("strings", "stiffness", q.string_ratio, swing)))
+    yield from (positive(-share), f"dL/dt ~ {share} sin(beta)")
 
 
-@checks
-def orbital_momentum_is_bounded() -> Check:
+@check("J stays below J_max", "dJ/dt <= 0 where J > L r^2/(r^2 + (32/5) a^2), a share that grows with r and with L")
+def orbital_momentum_is_bounded() -> Evidence:
     """J decreases where it exceeds its share of L in rigid rotation, and that share grows with the gap and with L."""
     share = rigid_momentum(q.orbital_momentum + sp.Rational(32, 5) * q.spin, DISTANCE)
     slip = _model().expanded(q.orbital_momentum / DISTANCE**2 - q.spin).subs(DISTANCE, _HERE)
     inverse = 1 / DISTANCE**2 + sp.Rational(5, 32)
-    rest = vanishing("", "", [slip - ((q.orbital_momentum - share) * inverse).subs(DISTANCE, _HERE)])
+    yield slip - ((q.orbital_momentum - share) * inverse).subs(DISTANCE, _HERE)
     shear = sp.simplify(_by_shear()[0] / slip)  # dJ/dt contains only this, with the sign of the slip, and the strings
     rigid = rigid_momentum(sp.Symbol("momentum", positive=True), DISTANCE)
-    ok = rest.ok and all(map(positive, (-shear, sp.together(rigid.diff(DISTANCE)), rigid)))
-    figure = f"omega - xi = (J - J_rigid) ({sp.simplify(inverse)})" if ok else f"left over: {rest.figure}"
-    statement = "dJ/dt <= 0 where J > L r^2/(r^2 + (32/5) a^2), a share that grows with r and with L"
-    return Check("J stays below J_max", statement, ok, figure)
+    yield all(map(positive, (-shear, sp.together(rigid.diff(DISTANCE)), rigid)))
+    yield f"omega - xi = (J - J_rigid) ({sp.simplify(inverse)})"
 
 
 @checks
@@ -81,11 +77,11 @@ def pull_grows() -> tuple[Check, ...]:
     return tuple(checks)
 
 
-@checks
-def centrifugal_falls() -> Check:
+@check("J^2/r^3 falls", "d(J^2/r^3)/dr < 0 at fixed J")
+def centrifugal_falls() -> Evidence:
     """At a given J the centrifugal force decreases with the distance."""
     slope = outward_at(sp.Symbol("momentum", positive=True), DISTANCE).diff(DISTANCE)
-    return Check("J^2/r^3 falls", "d(J^2/r^3)/dr < 0 at fixed J", positive(-slope), f"{sp.factor(slope)}")
+    yield from (positive(-slope), str(sp.factor(slope)))
 
 
 @check("the film stops", "d(u St/v0)/dx = -resistance - St (inward)/u <= -resistance")
@@ -99,14 +95,15 @@ def film_stops() -> Evidence:
     yield film - slot_call("film", "resistance", q.gap)
 
 
-def reach_of(law: Law) -> Check:
+@check("reach of the glass criterion, {0.name}", "pressure(reach(u), u) = p_gt; larger for a larger u")
+def reach_of(law: Law) -> Evidence:
     """`reach` is the largest gap at which a glass criterion is met for a given speed, and grows with the speed."""
     speed = sp.Symbol("approach", positive=True)
     pressure, at = law["pressure"], law["reach"](speed, q.glass_number)
-    signs = [sp.simplify(slope).is_positive is True for slope in (-pressure(q.gap, speed).diff(q.gap), at.diff(speed))]
-    ok = sp.simplify(pressure(at, speed) - q.glass_number) == 0 and all(signs)
-    statement = "pressure(reach(u), u) = p_gt; larger for a larger u"
-    return Check(f"reach of the glass criterion, {law.name}", statement, ok, str(at))
+    yield pressure(at, speed) - q.glass_number
+    for slope in (-pressure(q.gap, speed).diff(q.gap), at.diff(speed)):
+        yield sp.simplify(slope).is_positive
+    yield str(at)
 
 
 @checks
@@ -118,7 +115,7 @@ def criterion_reach() -> tuple[Check, ...]:
 @cache
 def pendulum_certificate() -> tuple[Check, ...]:
     """Every step of the pendulum certificate."""
-    return run(checks_of(__name__))
+    return tuple(result for test in checks_of(__name__) for result in once(test))
 
 
 # ---- the emitted margins
@@ -178,12 +175,11 @@ def closing_gains_the_pull() -> Evidence:
     )
 
 
-@checks
-def stopping_falls() -> Check:
+@check("stopping falls", "dLf/dx <= 0: the furthest rebound is the worst")
+def stopping_falls() -> Evidence:
     """Lf decreases with the gap, so a velocity stopped by the film from x_R is stopped from any smaller gap."""
     slope = sp.factor(LAWS["film"]["finite"]["stopping"].result.diff(q.gap))
-    falls = sp.factor(-slope).is_nonnegative is True
-    return Check("stopping falls", "dLf/dx <= 0: the furthest rebound is the worst", falls, f"dLf/dx = {slope}")
+    yield from (sp.factor(-slope).is_nonnegative, f"dLf/dx = {slope}")
 
 
 # ---- the bound of the impulse
@@ -200,8 +196,8 @@ def _integrand(momentum: sp.Expr, distance: sp.Expr) -> sp.Expr:
     return (pendulum.outward_at(momentum, distance) - _PULL) / pendulum.turning_at(momentum, distance)
 
 
-@checks
-def strings_take() -> Check:
+@check("J falls with the strings' torque", "J <= J_max - s D, dD/dt = r S_t, s < 1 grows with r")
+def strings_take() -> Evidence:
     """On the level J = J_max - s D, F_t and the strings reduce J by more than s times what the strings take.
 
     There J >= s L, with s the largest share: F_t reduces J, and the strings take the whole of what they take from L.
@@ -209,16 +205,15 @@ def strings_take() -> Check:
     shear, alone = _by_shear()
     torque = _model().expanded(pendulum.torque_at(q.gap, q.beta))
     turned = alone[q.beta] - pendulum.turning_at(q.orbital_momentum, _HERE)
-    rest = vanishing("", "", [sp.expand(alone[q.orbital_momentum]) + torque, alone[q.spin], turned])
+    yield from (alone[q.orbital_momentum] + torque, alone[q.spin], turned)
     reduces = sp.simplify(-sp.simplify(shear) / (q.orbital_momentum / _HERE**2 - q.spin))
     grows, below = _share(DISTANCE).diff(DISTANCE), 1 - _share(DISTANCE)
-    ok = rest.ok and all(map(positive, (reduces, sp.together(grows), sp.together(below))))
-    figure = f"dJ/dt = -r S_t - ({reduces}) (omega - xi)" if ok else rest.figure
-    return Check("J falls with the strings' torque", "J <= J_max - s D, dD/dt = r S_t, s < 1 grows with r", ok, figure)
+    yield all(map(positive, (reduces, sp.together(grows), sp.together(below))))
+    yield f"dJ/dt = -r S_t - ({reduces}) (omega - xi)"
 
 
-@checks
-def torque_is_least_in_contact() -> Check:
+@check("least torque", "J^2 <= J_max^2 - 2 s r^3 S (cos(beta_0) - cos(beta))")
+def torque_is_least_in_contact() -> Evidence:
     """r^3 S_t grows with the gap and the stiffness, which grows with the swing: least in contact, at the first angle.
 
     With J dD/dbeta >= S sin(beta), J^2 falls by `decrease_by_cosine` (cos(beta_0) - cos(beta)) at least.
@@ -230,21 +225,17 @@ def torque_is_least_in_contact() -> Check:
     swing = weighing.args[1].subs(q.beta, 2 * sp.asin(_RISE))
     in_contact = bare.subs(q.gap, contact_gap) * weighing.subs(named) * q.obliquity**2
     bound = 2 * _share(pendulum.FARTHEST) * in_contact.subs(4 + q.aspect * contact_gap, pendulum.NEAREST)
-    rest = vanishing("", "", [_model().expanded(pendulum.DECREASE_BY_COSINE) - _model().expanded(bound)])
-    ok = rest.ok and all(map(positive, (bare, sp.together(bare.diff(q.gap)), sp.expand(swing.diff(_RISE)))))
-    return Check("least torque", "J^2 <= J_max^2 - 2 s r^3 S (cos(beta_0) - cos(beta))", ok, f"r^3 S_t ~ {bare}")
+    yield _model().expanded(pendulum.DECREASE_BY_COSINE) - _model().expanded(bound)
+    yield all(map(positive, (bare, sp.together(bare.diff(q.gap)), sp.expand(swing.diff(_RISE)))))
+    yield f"r^3 S_t ~ {bare}"
 
 
-@checks
-def integrand_is_largest_in_contact() -> Check:
+@check("impulse by angle", "grows with J, falls with r and S_n: largest in contact")
+def integrand_is_largest_in_contact() -> Evidence:
     """(J^2/r^3 - S_n)/(J/r^2) grows with J and falls with r and S_n, which grows with r and beta (`pull_grows`)."""
     result = _integrand(_MOMENTUM, DISTANCE)
     slopes = (result.diff(_MOMENTUM), -result.diff(DISTANCE), -result.diff(_PULL))
-    statement, ok = (
-        "grows with J, falls with r and S_n: largest in contact",
-        all(map(positive, map(sp.together, slopes))),
-    )
-    return Check("impulse by angle", statement, ok, str(sp.factor(result)))
+    yield from (all(map(positive, map(sp.together, slopes))), str(sp.factor(result)))
 
 
 @check("arcsine", "arcsin(z) <= z + (pi/2 - 1) z^3, equal at z = 1")
@@ -290,11 +281,11 @@ def impulse_as_emitted() -> Evidence:
 # ---- the bound of the closing speed from initial contact on
 
 
-def taken_by(law: Law, name: str) -> Check:
+@check("{1}: {0.name}", "dB/dx = -resistance, B(x0) = 0")
+def taken_by(law: Law, name: str) -> Evidence:
     """A film's `stopping` or `braking` is the integral of its resistance between a gap and x0."""
     taken, resistance = (law[key](*law[key].arguments) for key in (name, "resistance"))
-    residuals = [taken.diff(q.gap) + resistance, taken.subs(q.gap, 1)]
-    return vanishing(f"{name}: {law.name}", "dB/dx = -resistance, B(x0) = 0", residuals)
+    yield from (taken.diff(q.gap) + resistance, taken.subs(q.gap, 1))
 
 
 @checks

@@ -1,15 +1,11 @@
 """The excess of e_n over 1: its exact decomposition by the ledger, and an upper bound from L and the energy."""
 
-from dataclasses import replace
-
 import sympy as sp
 
-from ..equations.model import derive
 from ..physics.mechanics import doublet_inertia, equations_of_motion
 from ..physics.scaling import initial_rate, nondimensional, start_values
-from ..physics.structure import structures
 from ..vocabulary import quantities as q
-from .base import Check, Evidence, check, checks, vanishing
+from .base import Evidence, check, models
 from .conservation import energy_balance
 
 _final = sp.Symbol("x_f", positive=True)  # gap at rupture
@@ -36,35 +32,31 @@ def ceiling() -> sp.Expr:
     return sp.factor(initial - least) * 2 / (q.m * q.v0**2) - 2 * _work / (q.m * q.v0**2)
 
 
-@checks
-def ceiling_is_the_published() -> Check:
+@check(
+    "ceiling of e_n^2", "e_n^2 <= 1 + (r0 tan(theta0)/4a)^2 (1 - m r0^2/I(x_f)) - 2 W_c/(m v0^2), from L and the ledger"
+)
+def ceiling_is_the_published() -> Evidence:
     """The derived bound and the emitted one are 1 + (r0 tan/(4a))^2 (1 - m r0^2/I(x_f)) - 2 W_c/(m v0^2)."""
     result = ceiling()
     start_distance, inertia = q.r.subs(q.x, q.x0), doublet_inertia().subs(q.x, _final)
-    oblique = (start_distance * sp.tan(q.theta0) / (4 * q.a)) ** 2
-    published = 1 + oblique * (1 - q.m * start_distance**2 / inertia) - 2 * _work / (q.m * q.v0**2)
-    residuals, grows = [result.subs(q.impact_spin, 0) - published], True
+    turned_by = (start_distance * sp.tan(q.theta0) / (4 * q.a)) ** 2
+    published = 1 + turned_by * (1 - q.m * start_distance**2 / inertia) - 2 * _work / (q.m * q.v0**2)
+    yield result.subs(q.impact_spin, 0) - published
+    grows = True
     first = {sp.tan(q.theta0): q.obliquity * q.initial_turning, q.impact_spin: q.rate_scale * q.initial_spin}
     turned = result.subs({_final: q.x, **first})
     scaled = nondimensional(turned + 2 * _work / (q.m * q.v0**2))
-    for structure in structures():
-        if structure.strings:
-            continue
-        model = derive(structure)
+    for model in models(lambda s: not s.strings):
         emitted = model.expanded(model["restitution_ceiling"]["squared"])
-        residuals.append(emitted - (model.expanded(scaled) if structure.oblique else 1))
-        if structure.oblique:  # from 1 upwards with the angle and, since I(x) grows, with the gap
-            residuals.append(emitted.subs({q.obliquity: 0}) - 1)
+        oblique = model.structure.oblique
+        yield emitted - (model.expanded(scaled) if oblique else 1)
+        if oblique:  # from 1 upwards with the angle and, since I(x) grows, with the gap
+            yield emitted.subs({q.obliquity: 0}) - 1
             slope = sp.factor(emitted.diff(q.gap) / q.obliquity**2)  # a square, of L, times what is positive
             grows &= slope.subs({q.initial_spin: 0, q.initial_turning: 1}).is_positive is True
             grows &= slope.subs(q.initial_spin, sp.Symbol("any", positive=True)).is_nonnegative is True
-    check = vanishing(
-        "ceiling of e_n^2",
-        "e_n^2 <= 1 + (r0 tan(theta0)/4a)^2 (1 - m r0^2/I(x_f)) - 2 W_c/(m v0^2), from L and the ledger",
-        residuals,
-        "minimum of T over (omega_f, xi_f) at the L of the start; equal to the published form",
-    )
-    return check if grows else replace(check, ok=False, figure="it does not grow with the gap")
+    yield grows, "it does not grow with the gap"
+    yield "minimum of T over (omega_f, xi_f) at the L of the start; equal to the published form"
 
 
 @check(
@@ -77,10 +69,7 @@ def decomposition() -> Evidence:
     emitted jump and rebound_loss at a rebound. The energy released is rotational, and the normal part of T is e_n^2/2,
     at all times.
     """
-    for structure in structures():
-        if structure.reduced:
-            continue  # its shear loss follows from L and not from energy_rates
-        model = derive(structure)
+    for model in models(lambda s: not s.reduced):  # whose shear loss follows from L and not from energy_rates
         kinetic = model.expanded(model["energies"]["kinetic"])
         start = model.by_state("start")
         jump = model.by_state("rebound")
@@ -92,18 +81,18 @@ def decomposition() -> Evidence:
         yield open_by.subs(start, simultaneous=True)
         yield open_by.subs(jump, simultaneous=True) + 2 * lost - open_by
         # half its rate, since normal_velocity^2/2 + the rotational energy is `kinetic`
-        yield energy_balance(structure)
+        yield energy_balance(model.structure)
         yield turning.diff(q.normal_velocity)
 
 
-@checks
-def rotation_can_be_released() -> Check:
+@check(
+    "rotational energy released", "d/dx L^2/(2 I(x)) < 0: a doublet that opens gives rotational energy to the opening"
+)
+def rotation_can_be_released() -> Evidence:
     """The energy that rigid rotation can release grows with the gap: I(x) grows and L^2/(2 I) decreases."""
     begun = equations_of_motion().angular_momentum.subs(start_values())
     momentum = begun.subs({initial_rate(): q.omega, q.impact_spin: 0})
-    least = momentum**2 / (2 * doublet_inertia())
-    slope = sp.factor(least.diff(q.x))
-    growing = sp.factor(-slope / q.omega**2).is_positive
+    slope = sp.factor((momentum**2 / (2 * doublet_inertia())).diff(q.x))
+    yield sp.factor(-slope / q.omega**2).is_positive
     per_gap = sp.factor(slope.subs(q.x0, q.aspect * q.a).subs(q.x, q.gap * q.aspect * q.a) / (q.m * q.a * q.omega**2))
-    statement = "d/dx L^2/(2 I(x)) < 0: a doublet that opens gives rotational energy to the opening"
-    return Check("rotational energy released", statement, bool(growing), f"slope {per_gap} m a omega0^2")
+    yield f"slope {per_gap} m a omega0^2"

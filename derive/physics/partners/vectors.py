@@ -84,8 +84,9 @@ def spin_balance() -> sp.Matrix:
     energy = inertia * rates.dot(rates) / 2
     by_rates = rates.jacobian([angle.diff(time) for angle in angles])  # work of T: T . w
     lagrange = sp.Matrix([energy.diff(angle.diff(time)).diff(time) - energy.diff(angle) for angle in angles])
-    torque = by_rates.T.LUsolve(lagrange)
-    return (inertia * rates.diff(time) - torque).applyfunc(lambda entry: sp.simplify(sp.expand(entry)))
+    work = by_rates.T * inertia * rates.diff(time) - lagrange  # of I dw/dt - T: by_rates can be inverted
+    sines = {sp.sin(angle) ** 2: 1 - sp.cos(angle) ** 2 for angle in angles}
+    return by_rates.T.LUsolve(work.applyfunc(lambda entry: sp.expand(sp.expand(entry).subs(sines))))
 
 
 @cache

@@ -17,7 +17,13 @@ from wetdoublet.derive.checks.dimensions import (
     groups_span_the_nullspace,
     si_equations,
 )
-from wetdoublet.derive.checks.dissipation import arms, bridge_does_work, film_dissipates, rebound_dissipates
+from wetdoublet.derive.checks.dissipation import (
+    arms,
+    bridge_does_work,
+    film_dissipates,
+    rebound_dissipates,
+    rebound_is_charged,
+)
 from wetdoublet.derive.checks.laws import film_ends, head_on_closed_form, rigid_rotation_is_free, small_angle_is_linear
 from wetdoublet.derive.checks.limits import reduced_is_full
 from wetdoublet.derive.checks.restitution import ceiling_is_the_published
@@ -123,6 +129,10 @@ def hollow_in_one_place(*_: Any) -> sp.Expr:
     return sp.expand(doublet_inertia() + (sp.Rational(2, 3) - sp.Rational(2, 5)) * 16 * q.m * q.a**2)
 
 
+def rebounds() -> tuple[Check, ...]:
+    return rebound_is_charged(), rebound_dissipates()
+
+
 NONE, ROOM, SHEARS = putting(), "forces as the laws fill them", "shear dissipates: immersed, midgap arm"
 PUSHES, RIMLESS = altered(FILM, resistance=-FILM["resistance"].result), altered(FILM, resistance=1 / q.gap)
 THIRD = altered(replace(MIDGAP, name="third"), lever=sp.Integer(3))
@@ -169,11 +179,11 @@ MUTANTS: dict[str, tuple[Mutation, Callable[[], Any], list[str]]] = {
         force(F_t, lambda f: f.subs(q.xi, q.xi / 2)), rigid_rotation_is_free, ["rigid rotation"],
     ),
     "a rebound with -(2 - e) u gains what it is charged as a loss": (
-        putting((rebound, growing)), rebound_dissipates, ["rebound's energy"],
+        putting((rebound, growing)), rebounds, ["rebound's energy"],
     ),
     "a gain that the ledger knows of balances, and is still a gain": (
         putting((rebound, growing), (rebound_loss, lambda *_: q.normal_velocity**2 * (1 - (2 - q.e_dry) ** 2) / 2)),
-        rebound_dissipates, ["rebound dissipates"],
+        rebounds, ["rebound dissipates"],
     ),
     "shear charged with half its power leaves the rest unaccounted for": (
         value_of(observables.energy_rates, "tangential_lubrication", lambda e: e / 2),
