@@ -131,10 +131,10 @@ class _Smoothing:
 
     def _as_written(self, expression: sp.Expr) -> sp.Expr:
         """An expression without named parts."""
-        parts = expression.free_symbols & self.written.keys()
-        for part in parts - self._unfolded.keys():
-            self._unfolded[part] = self._as_written(self.written[part])
-        return expression.xreplace({part: self._unfolded[part] for part in parts})
+        symbols = expression.free_symbols & self.written.keys()
+        for symbol in symbols - self._unfolded.keys():
+            self._unfolded[symbol] = self._as_written(self.written[symbol])
+        return expression.xreplace({symbol: self._unfolded[symbol] for symbol in symbols})
 
     def _side(self, inner: sp.Expr) -> sp.Expr:
         """1 where an expression is positive and -1 where it is negative."""

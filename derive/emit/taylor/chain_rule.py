@@ -105,10 +105,10 @@ def _expanded(expression: sp.Expr) -> sp.Expr:
 def _distributed(product: sp.Expr) -> sp.Expr:
     """An expansion of a product of what is expanded."""
     factors = sp.Mul.make_args(product)
-    whole = next((factor for factor in factors if factor.is_Add), None)
-    if whole is not None and len(factors) > 1:
-        rest = sp.Mul(*(factor for factor in factors if factor is not whole))
-        return sp.Add(*(_distributed(rest * term) for term in whole.args))
+    total = next((factor for factor in factors if factor.is_Add), None)
+    if total is not None and len(factors) > 1:
+        rest = sp.Mul(*(factor for factor in factors if factor is not total))
+        return sp.Add(*(_distributed(rest * term) for term in total.args))
     if not any(_opens(factor) for factor in factors):
         return product
     plain = [factor for factor in factors if factor.is_Symbol or isinstance(factor, AppliedUndef)]
