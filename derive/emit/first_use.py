@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import replace
+from functools import lru_cache
 from pathlib import Path
 
 import sympy as sp
@@ -29,6 +30,7 @@ def named(name: str) -> Structure:
     return {structure.name: structure for structure in all_structures()}[name]
 
 
+@lru_cache(maxsize=2)  # the headers of a model follow each other
 def _model(source: str, name: str) -> UserModel:
     return read(Path(f"{name}.py"), source, name)
 

@@ -41,7 +41,7 @@ def smooth(function: LawFunction, still: Collection[sp.Symbol], positive: Collec
     smoothing = _Smoothing({argument for argument in function.arguments if argument not in still}, positive)
     for symbol, value in function.definitions:
         smoothing.definitions.append((symbol, smoothing(value)))
-        smoothing.written[symbol] = value.xreplace(smoothing.written)
+        smoothing.written[symbol] = value
     result = smoothing(function.result)
     definitions = needed([result, *(kink for kink, _ in smoothing.kinks)], smoothing.definitions)[0]
     return replace(function, result=result, definitions=tuple(definitions), kinks=tuple(smoothing.kinks))
@@ -93,7 +93,8 @@ class _Smoothing:
     def __init__(self, moving: Collection[sp.Symbol], positive: Collection[sp.Expr] = ()) -> None:
         self.moving, self.positive = set(moving), set(positive)
         self.definitions: list[tuple[sp.Symbol, sp.Expr]] = [(_SQUARE, WIDTH**2)]
-        self.written: dict[sp.Basic, sp.Basic] = {}  # named parts as they were written
+        self.written: dict[sp.Symbol, sp.Expr] = {}  # named parts as they were written, in terms of those before
+        self._unfolded: dict[sp.Symbol, sp.Expr] = {}  # of them, those that were asked for: sums of many are long
         self.kinks: list[tuple[sp.Symbol, sp.Symbol]] = []
         self._sides: dict[sp.Expr, sp.Expr] = {}
 
@@ -126,7 +127,14 @@ class _Smoothing:
 
     def _vanishes(self, base: sp.Expr) -> bool:
         """True if an expression may pass zero along a trajectory."""
-        return base not in self.positive and not base.xreplace(self.written).is_positive and self._moves(base)
+        return base not in self.positive and not self._as_written(base).is_positive and self._moves(base)
+
+    def _as_written(self, expression: sp.Expr) -> sp.Expr:
+        """An expression without named parts."""
+        symbols = expression.free_symbols & self.written.keys()
+        for symbol in symbols - self._unfolded.keys():
+            self._unfolded[symbol] = self._as_written(self.written[symbol])
+        return expression.xreplace({symbol: self._unfolded[symbol] for symbol in symbols})
 
     def _side(self, inner: sp.Expr) -> sp.Expr:
         """1 where an expression is positive and -1 where it is negative."""
@@ -182,7 +190,7 @@ class _Smoothing:
             return inner**exponent
         if isinstance(base, sp.Pow) and base.exp == 2:
             return self._squared(self(base.base)) ** exponent
-        if base.xreplace(self.written).has(*_FLAT):  # stays zero where the base is
+        if self._as_written(base).has(*_FLAT):  # stays zero where the base is
             return inner * self._squared(inner) ** ((exponent - 1) / 2)
         return self._squared(inner) ** (exponent / 2)
 

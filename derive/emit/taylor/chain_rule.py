@@ -5,6 +5,7 @@ the flow has already computed.
 """
 
 from collections.abc import Callable, Collection, Sequence
+from functools import cache
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
@@ -90,6 +91,36 @@ class Chain:
         return _expanded(total)
 
 
+@cache
 def _expanded(expression: sp.Expr) -> sp.Expr:
-    """Products over sums expanded, so that like terms combine; functions are left unchanged."""
-    return sp.expand(expression, power_exp=False, power_base=False, log=False, trig=False)
+    """Products over sums expanded, so that like terms combine; functions are left unchanged.
+
+    Each node once: sympy walks a whole tree for every hint, and derivatives share most of theirs.
+    """
+    if not expression.args:
+        return expression
+    return _distributed(expression.func(*map(_expanded, expression.args)))
+
+
+def _distributed(product: sp.Expr) -> sp.Expr:
+    """An expansion of a product of what is expanded."""
+    factors = sp.Mul.make_args(product)
+    total = next((factor for factor in factors if factor.is_Add), None)
+    if total is not None and len(factors) > 1:
+        rest = sp.Mul(*(factor for factor in factors if factor is not total))
+        return sp.Add(*(_distributed(rest * term) for term in total.args))
+    if not any(_opens(factor) for factor in factors):
+        return product
+    plain = [factor for factor in factors if factor.is_Symbol or isinstance(factor, AppliedUndef)]
+    powers = _opened(sp.Mul(*(factor for factor in factors if factor not in plain)))
+    return sp.Add(*(sp.Mul(*plain, term) for term in sp.Add.make_args(powers)))
+
+
+def _opens(factor: sp.Expr) -> bool:
+    """True for a power of a sum, or one over it, that is a sum when it is expanded."""
+    return bool(factor.is_Pow and factor.base.is_Add and factor.exp.is_Rational and abs(factor.exp) >= 1)
+
+
+@cache  # the same few of many products: denominators
+def _opened(powers: sp.Expr) -> sp.Expr:
+    return sp.expand(powers, power_exp=False, power_base=False, log=False, trig=False)

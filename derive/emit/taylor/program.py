@@ -59,7 +59,8 @@ class Program:
         self._moving: dict[sp.Basic, str] = {symbol: symbol.name for symbol in moving}
         self.named: dict[sp.Symbol, sp.Expr] = {}  # constants with a name of their own, in order
         self._names: set[str] = set(self.inputs)
-        self._before: tuple[Operation, ...] = ()
+        self._continues = False  # another program
+        self._of_series: dict[tuple[str, tuple[str, ...]], tuple[Operation, ...]] = {}  # with that other's
 
     @classmethod
     def for_outputs(
@@ -100,7 +101,8 @@ class Program:
         later.inputs = (*self.inputs, *(operation.name for operation in self.operations))
         later._moving = dict(self._moving)
         later._names = set(self._names)
-        later._before = (*self._before, *self.operations)
+        later._continues = bool(self._of_series)
+        later._of_series = dict(self._of_series)
         return later
 
     def define(self, symbol: sp.Symbol, expression: sp.Expr) -> None:
@@ -141,14 +143,16 @@ class Program:
         factors: tuple[sp.Expr, ...] = (),
         call: Call = ("", "", ()),
     ) -> str:
-        for operation in (*self._before, *self.operations):
-            if (operation.kind, operation.series, operation.factors, operation.call) == (kind, series, factors, call):
+        alike = self._of_series.get((kind, series), ())
+        for operation in alike:
+            if (operation.factors, operation.call) == (factors, call):
                 return operation.name
-            if kind == "product" and self._before and (operation.kind, operation.series) == (kind, series):
+            if kind == "product" and self._continues:
                 ratio = factors[0] / operation.factors[0]  # equal up to its constant factor
                 return self._add("linear", (operation.name,), name, hint, (ratio, sp.Integer(0)))
         chosen = self._free(name or hint)
         self.operations.append(Operation(chosen, kind, series, factors, call))
+        self._of_series[kind, series] = (*alike, self.operations[-1])
         return chosen
 
     def _free(self, wanted: str) -> str:
