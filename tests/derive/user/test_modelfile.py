@@ -158,7 +158,7 @@ def test_structures_without_the_slot_are_untouched():
         ('law("bridge", "mine", force=1 + h, falls=True)', "force falls: mine", "dF/dh = 1"),
         ('law("film", "mine", resistance=(1 - gap)**2/gap, stopping=1 - gap)', "stopping: mine", "gap"),
         ('law("film", "mine", resistance=(1 - gap)/gap, braking=log(1/gap))', "braking: mine", "1"),
-        ('law("glass", "mine", pressure=approach/gap**2, reach=approach/glass_number)', "reach of the glass criterion, mine", "approach/glass_number"),  # noqa: E501 # a row
+        ('law("glass", "mine", pressure=approach/gap**2, reach=approach/glass_number)', "reach of the glass criterion, mine", "left over: glass_number"),  # noqa: E501 # a row
         ('law("bridge", "mine", force=sqrt(positive(h - 0.05)))', "limits: bridge mine", "is not a finite number"),
         ('k = quantity("k")\nlaw("bridge", "mine", force=k, rupture_distance=k)', "groups", "may depend on volume, contact_angle only"),  # noqa: E501 # a row
         ('law("arm", "mine", lever=2 + (distance - 4)/3)', "angular momentum: arm mine", "dL/dt"),
