@@ -108,4 +108,4 @@ def test_what_has_no_tangent_is_named(monkeypatch: pytest.MonkeyPatch, capsys: p
             assert found.engine == "rosenbrock"
     finally:
         headers.tangents.cache_clear()
-    assert capsys.readouterr().err == "derivatives are Rosenbrock's, not the Taylor kernel's (no slopes of it)\n"
+    assert capsys.readouterr().err == "derivatives are CasADi's, not the Taylor kernel's (no slopes of it)\n"
