@@ -20,7 +20,7 @@ from ..scene.quantities import NO_GLASS
 from ..scene.scene import Scene
 from .impacts import Block, Impacts
 
-_STRETCH = 65536  # collisions in one call of the kernel, so that progress is reported and memory stays bounded
+_STRETCH = 16384  # collisions in one call of the kernel: some 4 MB of records; longer ones are no faster
 _MOST = 1e30  # largest magnitude of an SI quantity; its inverse is the smallest
 _NEVER = ("glass_transition_pressure", "youngs_modulus")  # set very large to disable a rebound criterion
 _CODES = np.full(len(KINDS) + 1, NONE, dtype=np.int8)  # of reversals, by the number of the event; the last for none

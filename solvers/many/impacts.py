@@ -219,12 +219,12 @@ class Impacts:
         return {name: value for name, value in attrs.items() if value not in ("", None)}
 
     def dataset(self, results: Block) -> xarray.Dataset:
-        """Results as a labelled Dataset."""
+        """Results as a labelled Dataset; takes the column of reasons, whose objects need more memory than its text."""
         import xarray as xr
 
         register()
-        failed = results["outcome"] == FAILED
-        reason = results["reason"].astype(str) if failed.any() else np.zeros(failed.size, "<U1")
+        reason, failed = results.pop("reason"), (results["outcome"] == FAILED).any()
+        reason = reason.astype(str) if failed else np.zeros(reason.size, "<U1")
         columns = {
             "outcome": (results["outcome"], outcome_attributes()),
             "certified": (results["certified"], {"long_name": "the stick is proved"}),
