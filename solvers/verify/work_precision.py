@@ -11,7 +11,7 @@ import numpy as np
 
 from ..collision.collide import collide
 from ..collision.result import Collision
-from ..engines.settings import ENGINES
+from ..engines.settings import CASADI_ENGINES, ENGINES
 from ..errors import ComputationError
 from ..host.environment import one_core
 from ..host.progress import Progress
@@ -47,7 +47,8 @@ class Row:
         error: largest absolute error of e_n; None where no collision separates.
         time_error: largest relative error of the contact time; None likewise.
         single: mean CPU time (s) of a collision computed alone.
-        batch: CPU time (s) of a collision of a batch; None where that was too expensive to measure.
+        batch: CPU time (s) of a collision of a batch, which CasADi's engines compute one collision after another, as if
+            alone; None where that was too expensive to measure.
         wrong, failed: collisions with another outcome than the reference, and without any.
         handed_over: number of collisions completed by another engine.
     """
@@ -182,7 +183,7 @@ def work_precision(
             ]
             expensive = False
             for rtol in sorted(tolerances, reverse=True):
-                cost = None if expensive else _batch(scene, impacts, engine, rtol)
+                cost = None if expensive or engine in CASADI_ENGINES else _batch(scene, impacts, engine, rtol)
                 expensive = expensive or (cost is not None and cost * batch > _DEAR)
                 rows.append(_row(scene, places, expected, engine, rtol, cost))
                 progress(1 + len(rows), total)
@@ -252,12 +253,14 @@ def _row(
 
     collided()  # builds
     taken, computed = _cheapest(collided)
+    alone = taken / len(impacts)
     done = [(collision, truth) for collision, truth in zip(computed, truths) if collision is not None]
     error, time_error = (max((errors[k] for errors in _errors(done)), default=None) for k in (0, 1))
     wrong = sum(collision.outcome != truth.outcome for collision, truth in done)
     handed_over = sum(collision.engine != engine for collision, _ in done)
     failed = len(computed) - len(done)
-    return Row(engine, rtol, error, time_error, taken / len(impacts), batch, wrong, failed, handed_over)
+    together = alone if engine in CASADI_ENGINES else batch
+    return Row(engine, rtol, error, time_error, alone, together, wrong, failed, handed_over)
 
 
 def _errors(pairs: Sequence[tuple[Collision, Collision]]) -> list[tuple[float, float]]:

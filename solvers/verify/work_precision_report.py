@@ -65,7 +65,8 @@ def text(bench: WorkPrecision, error: float) -> str:
         f"Errors are differences from the first of {against} that is another engine.",
         f"These two differ by at most {bench.uncertainty:.1e} in e_n and {bench.time_uncertainty:.1e} (relative) in",
         "contact time: the error estimate of the references.",
-        "CPU time on one core, each by `collide` without ledger, and of one among those in a call of `collide_many`.",
+        "CPU time on one core, each by `collide` without ledger, and of one among those in a call of `collide_many`,",
+        "which CasADi's engines compute one after another: theirs is the cost alone.",
     ]
     if any(row.batch is None for row in bench.rows):
         lines.append("-: no batch, as one at a looser tolerance took more than a second, or a collision in it failed.")
