@@ -80,7 +80,7 @@ def fit(scenes: dict[str, int], *options: str) -> Row:
 
 ROWS = (
     Row("install from a clone", ((sys.executable, "-m", "pip", "install", "-q", "--no-deps", "--no-build-isolation",
-        "--no-compile", "--target", "installed", "{source}"),)),
+        "--no-compile", "--target", "installed", "./clone"),), (("git", "clone", "-q", "{source}", "clone"),)),
     Row("edited law, then a map", (GENERATED, (*MODULE, "map", *MINE, *GRID, "-o", "map.csv"), ("cat", "map.csv"))),
     Row("edited law, then a sensitivity", (GENERATED, (*MODULE, "sensitivity", *MINE, "--json"))),
     Row("verify", ((*MODULE, "verify", "granulation"),)),
