@@ -89,7 +89,7 @@ ROWS = (
     fit({"lactose-pvp": 200}),
     fit({"lactose-pvp": 1000}),
     fit({"granulation": 100, "lactose-pvp": 100}, "--own", "liquid.viscosity"),
-    Row("proved map", ((*MODULE, "prove", "granulation", "--map", "--stokes", "log:0.005:0.5:51", "--angle", "0:85:51",
+    Row("proved map", ((*MODULE, "prove", "granulation", "--map", "--stokes", "log:0.005:0.5:51", "--angle", "1:85:51",
         "--json"),)),
     Row("1e6 collisions, granulation", (python(MANY, scene="granulation", scale=1, most=10**6),)),
     Row("1e6 collisions, pendulum", (python(MANY, scene="pendulum", scale=40, most=10**6),)),
