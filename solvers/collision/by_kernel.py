@@ -50,11 +50,8 @@ def recorded(
         log = ran.events[0, : answer["events"]]
         declared = next((word for word in (words[kind] for kind in log["kind"][::-1]) if word not in KINDS), "")
         states = problem.model(full=ledger).state
-        raise problem.in_si(
-            undecided(
-                answer, tuple(states), declared, bool(log["resting"][-1:].any()), problem.scene.package is not None
-            )
-        )
+        last = log[-1] if log.size else None
+        raise problem.in_si(undecided(answer, tuple(states), last, declared, problem.scene.package is not None))
     if until is not None and answer["outcome"] > 0:
         raise ComputationError(f"a stick that is decided, not proved, {SEPARATES}", advice="leave out --until")
     return ran

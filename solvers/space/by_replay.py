@@ -44,7 +44,7 @@ def sequence_in_space(pair: Pairs, n: Problem, rtol: float) -> EventSequence:
     model = load(select_model(pair.scene, True, space=True))
     answer, log = recorded_in_space(pair.impacts, rtol)
     if answer["status"] > LAST_ANSWER:
-        raise n.in_si(undecided(answer, tuple(model.state)))
+        raise n.in_si(undecided(answer, tuple(model.state), log[-1] if log.size else None))
     return sequence(answer, log, KINDS, model, n.groups)
 
 

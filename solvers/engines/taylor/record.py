@@ -57,7 +57,8 @@ def run_recorded(
         purpose: other than WHOLE only with a trajectory.
         fold: treat a partner equal to the sphere as an equal sphere.
         keep: return the steps; otherwise the same kernel integrates without recording them.
-        events: also return the events, of undecided collisions the first; otherwise answers only count them.
+        events: also return the events, of undecided collisions the first and the last; otherwise answers only count
+            them.
         peaks: also the largest margin of the glass criterion; only with a trajectory.
         room: events and steps of a collision that there is room for; where that is not enough, all are integrated
             again.

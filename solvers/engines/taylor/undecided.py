@@ -22,21 +22,27 @@ def no_kernel(why: str = "is not shipped, and no C compiler answers here") -> Co
 
 
 def undecided(
-    answer: Mapping[str, Any], states: tuple[str, ...], declared: str = "", resting: bool = False, own: bool = False
+    answer: Mapping[str, Any], states: tuple[str, ...], last: Any = None, declared: str = "", own: bool = False
 ) -> ComputationError:
     """The error for an answer without an outcome, dimensionless.
 
     Arguments:
         answer: of the kernel; its `shown` has the state that was reached.
         states: names of the model's states.
+        last: its last event with the mode after it, a row of HAPPENING, if there was any and it is known.
         declared: the last declared event that happened, by its word.
-        resting: it rests on the solids.
         own: a user's model is in the scene.
     """
     state = {"gap": float(answer["final_gap"])}
     state |= {name: float(value) for name, value in zip(states[1:], answer["shown"], strict=False)}
     gap, velocity = state["gap"], state[states[1]]
-    phase = Phase(int(gap < 1), 0, OPENING if velocity > 0 else CLOSING, resting=resting)
+    if last is not None:
+        closing, resting, film = (int(last[name]) for name in ("closing", "resting", "film"))
+    elif not answer["events"]:
+        closing, resting, film = 1, 0, 1
+    else:  # at rest on the solids it is zero, and nowhere else but at a turn
+        closing, resting, film = velocity < 0, velocity == 0, int(gap < 1)
+    phase = Phase(film, 0, CLOSING if closing else OPENING, resting=bool(resting))
     spent = f"{answer['steps']} steps with {answer['events']} events have not decided the outcome"
     why = RESTS if phase.resting else CREEPS
     ended = ', or an event with ends="stick" in the model' * own

@@ -89,7 +89,7 @@ typedef struct {
     const buffer *columns; /* quantities in SI */
     double rtol;
     answer *answers;
-    happening *log; /* `log_room` rows per collision; its answer also counts events beyond that */
+    happening *log; /* `log_room` rows per collision; the last has the last event, which its answer counts too */
     long log_room;
 #if WITH_LEDGER
     ledger *books; /* one per collision */
@@ -148,24 +148,29 @@ static void put(queue *q, long index, int status, int outcome, int certified)
     a->reversal = -1;
 }
 
+/* The row of the event of a collision that was noted last; null without a log. */
+static happening *last_row(const queue *q, long index)
+{
+    long events = q->answers[index].events, row = events < q->log_room ? events : q->log_room;
+    return row > 0 ? q->log + index*q->log_room + row - 1 : 0;
+}
+
 static void note(queue *q, long index, int kind, double time)
 {
-    answer *a = &q->answers[index];
-    if (a->events < q->log_room) {
-        happening *row = q->log + index*q->log_room + a->events;
+    q->answers[index].events++;
+    happening *row = last_row(q, index);
+    if (row) {
         row->kind = kind;
         row->time = time;
     }
-    a->events++;
 }
 
 /* The mode of a lane, beside the event noted last: that which follows it. */
 static void note_mode(queue *q, const lanes *l, int lane)
 {
-    const answer *a = &q->answers[LANE(l->index, lane)];
-    if (a->events < 1 || a->events > q->log_room)
+    happening *row = last_row(q, LANE(l->index, lane));
+    if (!row)
         return;
-    happening *row = q->log + LANE(l->index, lane)*q->log_room + a->events - 1;
     row->closing = LANE(l->closing, lane) != 0;
     row->resting = LANE(l->resting, lane) != 0;
     row->film = LANE(l->film, lane) != 0.0;

@@ -5,10 +5,12 @@ from typing import Any
 
 import numpy as np
 import pytest
+from wetdoublet.generated.automaton import LAST_ANSWER
 from wetdoublet.solvers import Collision, Scene, collide
 from wetdoublet.solvers.engines.taylor import build as library
 from wetdoublet.solvers.engines.taylor import call as engine
 from wetdoublet.solvers.engines.taylor import layout, record
+from wetdoublet.solvers.engines.taylor.undecided import undecided
 from wetdoublet.solvers.host.compiler import compiler
 
 from ....helpers.data import COLLISIONS as REFERENCE
@@ -72,13 +74,12 @@ def test_the_trajectory_is_that_of_rosenbrock(name: str):
         assert mine[variable].attrs == other[variable].attrs
 
 
-def collided(room: tuple[int, int], keep: bool = True) -> record.Recorded:
+def collided(room: tuple[int, int], keep: bool = True, **options: int) -> record.Recorded:
     """Chatter on a rough pendulum, and a short trajectory beside it, with this room for events and steps at first."""
     scene = Scene.load("pendulum").with_entries({"particles.roughness": "208.57911437038672 um"})
     speeds = np.array([scene.speed_of(0.06760659), scene.speed_of(3.0)])
-    found = record.run_recorded(
-        record.Impacts(scene, speeds, np.full(2, 0.7759), {}), True, RTOL, trajectory=True, keep=keep, room=room
-    )
+    impacts = record.Impacts(scene, speeds, np.full(2, 0.7759), {})
+    found = record.run_recorded(impacts, True, RTOL, trajectory=True, keep=keep, room=room, **options)
     assert found is not None
     return found
 
@@ -93,6 +94,19 @@ def test_too_little_room_is_asked_for_again(room: tuple[int, int]):
     assert found.steps is not None
     assert ample.steps is not None
     np.testing.assert_array_equal(found.steps.rows, ample.steps.rows)
+
+
+@pytest.mark.parametrize("budget", [50, 51, 58])
+def test_an_undecided_collision_is_in_the_phase_after_its_last_event(budget: int):
+    """Where the log has no room for all events, its last row has the last, and the message the phase that followed."""
+    found, ample = collided((5, 256), budget=budget), collided((1000, 5000), budget=budget)
+    answer, count = found.answers[0], int(found.answers["events"][0])
+    assert answer["status"] > LAST_ANSWER
+    assert count > 5
+    last, words = ample.events[0, count - 1], {1: "closing", 0: "opening"}
+    assert found.events[0, -1] == last
+    phase = f"{words[int(last['closing'])]} {'inside' if last['film'] else 'beyond'} the film"
+    assert f"in phase {phase} at" in str(undecided(answer, ("gap", "normal_velocity"), found.events[0, -1]))
 
 
 def test_steps_that_are_not_kept_are_not_written():
