@@ -224,3 +224,45 @@ def test_an_event_that_never_comes_keeps_no_stick_undecided(guard: str, entries:
             assert alone.outcome == "stick"
             assert "kick" not in [event.kind for event in alone.events]
             assert alone.steps < 1e5
+
+
+RUNAWAY = """
+fastest = quantity("fastest", unit="1/s", default="1e4 1/s", meaning="spin at which it ends")
+start = quantity("start", unit="N m", default="1e-20 N m", meaning="torque on the spin")
+growth = quantity("growth", unit="1/s", default="1e3 1/s", meaning="rate at which the spin grows")
+force_on("spin", start + growth * Rational(32, 5) * m * a**2 * xi)
+event("spun", guard=fastest - xi, ends="stick")
+"""
+
+
+def test_a_spin_that_grows_from_nearly_nothing_is_not_settled(tmp_path: Path):
+    """Where no shear acts, xi = s/(I k) (exp(k t) - 1): from 1e-18 of the initial rotation rate to the event."""
+    (tmp_path / "runaway.py").write_text(f'"""x"""\nfrom wetdoublet.derive.user import *\n{RUNAWAY}')
+    own = scene(tmp_path / "runaway.py").with_entries({"model.tangential": "film"})
+    bodies, growth, fastest = bodies_of(own), 1e3, 1e4
+    least = 9e-19 * own.speed_of(IMPACT["stokes"]) * math.tan(IMPACT["angle"]) / (4 * bodies.a)
+    own = own.with_entries({"custom.start": least * growth * 32 / 5 * bodies.m * bodies.a**2})
+    found = collide(own, **IMPACT, engine="taylor", rtol=1e-12)
+    assert [event.kind for event in found.events] == ["glass", "rests", "spun"]
+    # what is below the absolute tolerance grows by rates that are less accurate
+    assert found.events[-1].time == pytest.approx(math.log1p(fastest / least) / growth, rel=0.01)
+
+
+def test_an_angle_that_turns_for_ever_ends_alike_with_the_ledger_and_without(tmp_path: Path):
+    """A guard that swings and stays positive: a stick after a thousand turns, within as many steps, by either form."""
+    (tmp_path / "swings.py").write_text(
+        '"""x"""\nfrom wetdoublet.derive.user import *\n'
+        'largest = quantity("largest", default=1.033, meaning="never reached")\n'
+        'event("kick", guard=largest + cos(beta), jump={u: u + v0}, releases=m*v0**2)\n'
+    )
+    own = Scene.load("granulation", model=tmp_path / "swings.py").with_entries(
+        {"particles.dry_restitution": 0.3, "bridge.surface_tension": "0.509 N/m", "liquid.viscosity": "0.185 Pa s",
+         "particles.roughness": "0.66 um"}
+    )  # fmt: skip
+    impact = {"stokes": 0.0544, "angle": 0.1945}
+    found = collide(own, **impact, engine="taylor")
+    many = collide_many(own, stokes=[impact["stokes"]] * 3, angle=impact["angle"], of=("outcome", "steps", "until"))
+    assert (found.outcome, many.outcome.values.tolist()) == ("stick", [0, 0, 0])
+    assert found.steps < 2e4
+    np.testing.assert_allclose(many.steps, found.steps, rtol=0.01)
+    np.testing.assert_allclose(many.until, found.until, rtol=1e-3)

@@ -14,6 +14,7 @@
 #include "model.h"
 #include "nearness.h"
 #include "queue.h"
+#include "settled.h"
 #include "state.h"
 #include "step.h"
 #include "step_record.h"
@@ -36,6 +37,9 @@ typedef struct {
     axes turning;
     mask turns; /* lanes in axes that turn along: what creeps turns as one body */
 #endif
+#if OWN_EVENTS
+    mask settled; /* lanes that rest and turn steadily */
+#endif /* OWN_EVENTS */
 } expansion;
 
 /* Puts the first collisions into the lanes; false if there is none. Idle lanes repeat a live one: no traps, no slow
@@ -137,6 +141,13 @@ static void expand_states(expansion *e, const lanes *l, const fixed *f)
         expand_rubbing(&e->r, &e->s, &f->c, l);
 #endif
 #endif
+#if OWN_EVENTS
+    e->settled = bits(l->alive & l->resting) ? hold_settled(&e->s, l) : splat_mask(0);
+#if FRICTION
+    if (bits(e->settled))
+        expand_damped(&e->r, &e->s, &f->c, l);
+#endif
+#endif /* OWN_EVENTS */
 }
 
 /* The length of the step, after which the series are those that are summed; lanes in `creeps` are damped. */
@@ -157,6 +168,9 @@ static vec length_of_step(queue *q, expansion *e, const lanes *l, const fixed *f
 #if BACKWARD
     h = held_for_derivatives(e->contraction, h, *creeps);
 #endif
+#if OWN_EVENTS
+    *creeps &= NOT(e->settled);
+#endif /* OWN_EVENTS */
     if (bits(*creeps))
         damp(a, *creeps);
 #if OWN_EVENTS
@@ -282,9 +296,7 @@ static void run(queue *q)
         act_on(q, &l, &f, due, happens);
         if (bits(due))
             continue;
-#endif /* OWN_EVENTS */
-#if OWN_EVENTS
-        if (bits(l.alive & l.resting) && rests_ended(q, &l, &f))
+        if (bits(l.alive & l.resting) && ended_at_rest(q, &l, &f, has_rested_long(&l)))
             continue;
 #endif /* OWN_EVENTS */
         expand_states(&e, &l, &f);

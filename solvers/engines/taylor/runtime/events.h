@@ -164,8 +164,8 @@ OUTLINE vec guards_resolved(const series *s, const lanes *l, const fixed *f, vec
         mask watched = l->alive & l->resting & own_watched(l->y, which, l->closing, l->resting, l->film);
         vec size = f->tolerance*(vec_abs(own.guard[which][0]) + 1e-3);
         for (int k = ORDER - 1; k <= ORDER; k++) {
-            vec room = size/vec_max(vec_abs(own.guard[which][k]), splat(1e-300));
-            h = choose(watched, vec_min(h, vec_exp(vec_log(room)*(1.0/k))), h);
+            vec error = vec_max(vec_abs(own.guard[which][k])/size, splat(1e-300)); /* of a step of 1; not the inverse, as guards may be large */
+            h = choose(watched, vec_min(h, vec_exp(vec_log(error)*(-1.0/k))), h);
         }
     }
     return h;

@@ -19,6 +19,7 @@
 #include "own_events.h"
 #include "queue.h"
 #include "rest_in_friction.h"
+#include "settled.h"
 #include "state.h"
 #include "turning_axes.h"
 

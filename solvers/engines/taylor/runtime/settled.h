@@ -1,0 +1,106 @@
+/* Resting contact in which no force changes any more: it ends as a stick, or goes on for what declared events watch. */
+#pragma once
+
+#include "criteria.h"
+#include "model.h"
+#include "own_events.h"
+#include "queue.h"
+#include "state.h"
+
+#if TURNS || OWN_EVENTS
+/* Ends as sticks those of these lanes that rest and are pressed together. Returns whether there were any.
+ * The sticks are not certified: the sign of the force is taken without an error.
+ */
+static int ended_at_rest(queue *q, lanes *l, fixed *f, mask still)
+{
+    still &= l->alive & l->resting & provable(q, l->closing);
+#if WITH_LIMIT
+    if (q->contact && q->contact->stuck)
+        return 0;
+#endif
+    if (bits(still))
+        still &= inward_force(&f->c, l->y) > 0.0;
+    EACH_OF(lane, bits(still))
+        sticks_for_good(q, l, f, lane, 0);
+    return bits(still) != 0;
+}
+#endif
+
+#if OWN_EVENTS
+/* In x0/v0, and rad: a doublet that has rested and turned for so long counts as a stick, without proof. */
+static const double LONGEST_REST = 1e12, FARTHEST_TURN = 6300.0;
+/* What a decaying state may still lose, relative to itself, to count as constant: rounding, also that of a larger state
+ * which it is exchanged with. */
+static const double SETTLED = 1e-14, LEAST_SIZE = 1e-3;
+
+static mask has_rested_long(const lanes *l)
+{
+    mask rested = l->time > LONGEST_REST;
+#if defined(ANGLE_STATE)
+    rested |= vec_abs(l->y[ANGLE_STATE]) > FARTHEST_TURN;
+#endif
+    return l->resting & rested;
+}
+
+static mask is_constant(const vec *a)
+{
+    mask constant = splat_mask(TRUTH);
+    for (int k = 1; k <= ORDER; k++)
+        constant &= a[k] == 0.0;
+    return constant;
+}
+
+/* Lanes in which a state decays and has less than that to go: A of A exp(-z t), by its first terms. What grows has the
+ * same sign in both. */
+static mask has_decayed(const vec *a)
+{
+    mask decays = ((a[1] < 0.0) & (a[2] > 0.0)) | ((a[1] > 0.0) & (a[2] < 0.0));
+    return decays & (a[1]*a[1] <= 2.0*SETTLED*vec_abs(a[2])*(vec_abs(a[0]) + LEAST_SIZE));
+}
+
+/* Makes the series constant, and those of clocks and integrals linear, in lanes that rest beside events to come and have
+ * settled. Returns them.
+ *
+ * Only guards then limit the step. Otherwise rounding of what has decayed would, to some decay times of it.
+ */
+static mask hold_settled(series *s, const lanes *l)
+{
+    vec (*a)[TERMS] = (vec (*)[TERMS])s;
+    mask settled = l->alive & l->resting & own_to_come(l->y, l->film, BY_ROTATION | BY_ANGLE | BY_TIME);
+    for (int state = 0; state < MODEL_STATES; state++)
+        if (state != ANGLE_CLOCK && state != TIME_CLOCK)
+            settled &= is_constant(a[state]) | has_decayed(a[state]);
+    if (!bits(settled))
+        return settled;
+    for (int state = 0; state < STATES; state++) {
+        int goes_on = state >= MODEL_STATES || state == ANGLE_CLOCK || state == TIME_CLOCK;
+        for (int k = goes_on ? 2 : 1; k <= ORDER; k++)
+            a[state][k] = only(NOT(settled), a[state][k]);
+    }
+    for (int k = 1; k <= ORDER; k++)
+        s->acceleration[k] = only(NOT(settled), s->acceleration[k]);
+    return settled;
+}
+#endif /* OWN_EVENTS */
+
+#if TURNS
+/* Ends as sticks the resting lanes whose series are constant: no force changes any more. */
+static int stills_ended(queue *q, lanes *l, fixed *f, vec (*a)[TERMS])
+{
+    mask still = l->resting;
+#if OWN_EVENTS
+    mask by_angle = own_to_come(l->y, l->film, BY_ANGLE), by_time = own_to_come(l->y, l->film, BY_TIME);
+#endif /* OWN_EVENTS */
+    for (int state = 0; state < MODEL_STATES; state++)
+        for (int k = 1; k <= ORDER; k++) {
+#if OWN_EVENTS
+            if (state == ANGLE_CLOCK || state == TIME_CLOCK) { /* they change nothing but the guards of events to come */
+                still &= NOT(state == ANGLE_CLOCK ? by_angle : by_time) | (a[state][k] == 0.0);
+                continue;
+            }
+#endif /* OWN_EVENTS */
+            still &= a[state][k] == 0.0;
+        }
+    return ended_at_rest(q, l, f, still);
+}
+#endif
