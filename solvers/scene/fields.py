@@ -160,8 +160,8 @@ class Field:
         return value
 
     def with_unit(self, raw: object) -> bool:
-        """Whether a value that may be a plain number or a quantity is a quantity."""
-        if not self.or_unit or isinstance(raw, Real):
+        """Whether a value that may be a plain number or a quantity is a quantity; no list is either."""
+        if not self.or_unit or isinstance(raw, (Real, list, tuple)):
             return False
         if isinstance(raw, str):
             return raw.strip() not in self.words and not units.is_number(raw)

@@ -39,7 +39,11 @@ KINDS: dict[str, type[Table]] = {}
 
 
 class Table:
-    """Base of the tables. An entry whose type allows None has that value where it is not given, not its default."""
+    """Base of the tables, made by keywords.
+
+    An entry whose type allows None has that value where it is not given, not its default; one that has neither must be
+    given.
+    """
 
     name: ClassVar[str]
     keys: ClassVar[Mapping[str, str]]  # by dotted name
@@ -51,7 +55,9 @@ class Table:
         for name, key in cls.keys.items():
             declared = vars(cls)[key]
             field = FIELDS[name] = Field(name, **declared.metadata)
-            declared.default = None if cls.__annotations__[key].endswith("None") else field.default
+            optional = cls.__annotations__[key].endswith("None")
+            declared.default = None if optional else dataclasses.MISSING if field.default is None else field.default
+            declared.kw_only = True  # what must be given may stand behind what need not
         KINDS[cls.name], TABLES[cls.name] = cls, tuple(cls.keys)
 
     def __post_init__(self) -> None:
@@ -64,7 +70,7 @@ class Table:
     def of(cls, values: Mapping[str, Any]) -> Self:
         """Return the table of entries already read, by dotted name (a user's model may add laws)."""
         table = object.__new__(cls)
-        table.__dict__.update((key, values.get(name, getattr(cls, key))) for name, key in cls.keys.items())
+        table.__dict__.update((key, values.get(name, getattr(cls, key, None))) for name, key in cls.keys.items())
         return table
 
 

@@ -13,6 +13,7 @@ from wetdoublet.solvers.errors import InputError
 from wetdoublet.solvers.scene import scenefile
 from wetdoublet.solvers.scene.scene import Scene
 from wetdoublet.solvers.scene.scenefile import PRESETS
+from wetdoublet.solvers.scene.schema import Particles
 
 from ...harness.scenes import scenes
 from ...helpers.data import COLLISIONS as REFERENCE
@@ -109,6 +110,21 @@ def test_python_numbers_are_si():
     assert "has no unit" in str(refused({**BASE, "liquid.viscosity": 2}))
     assert Scene.from_dict(tables({**BASE, "particles.dry_restitution": "0.9"})).particles.dry_restitution == 0.9
     assert "is text" in str(refused({**BASE, "particles.dry_restitution": "0.9"}))
+
+
+@pytest.mark.parametrize("volumes", [[0.1, "5e-5 mm^3"], ["5e-5 mm^3", "6e-5 mm^3"], (0.1, 0.2)])
+def test_a_scene_has_one_number_for_an_entry(volumes):
+    """A list is no number, of one kind or of both: what is accepted is one value, and no list."""
+    with pytest.raises(InputError, match=r"bridge.volume: .* is not a number; accepted: a number V/R\^3"):
+        Scene.load("granulation").with_entries({"bridge.volume": volumes})
+
+
+def test_a_table_without_what_it_needs_is_none():
+    """Made by hand, a table asks for what has no default, as a function does; what may be left out is None."""
+    with pytest.raises(TypeError, match="'reduced_radius', 'reduced_mass', 'roughness', and 'dry_restitution'"):
+        Particles()
+    made = Particles(reduced_radius="50 um", reduced_mass="5.2e-6 g", roughness="0.2 um", dry_restitution=0.99)
+    assert (made.reduced_radius, made.friction) == (50e-6, None)
 
 
 def test_with_entries_and_impact_leave_the_original_alone():
