@@ -6,7 +6,7 @@ CasADi differentiates the whole: forward, one direction in the groups after anot
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import partial
 
 import numpy as np
@@ -133,7 +133,7 @@ def slopes(problem: Problem, query: Query, plugin: str) -> Slopes:
     p, scales = np.split(numbers, [-len(SCALES)])
     record, parting = partial(sequence_of, n), problem.path.parting
     try:
-        z, dz, dp = differentiated(record, choice, query, plugin, parting, p, by_theta[: p.size])
+        z, dz, dp = Replayable(record, choice, plugin, parting, p, by_theta[: p.size]).differentiated(query)
     except ComputationError as error:
         raise n.in_si(error) from None
     # in SI: a result is its dimensionless value times a scale
@@ -143,75 +143,71 @@ def slopes(problem: Problem, query: Query, plugin: str) -> Slopes:
     return z * scale, (dz @ dp * scale[:, None] + z[:, None] * by_scale) / units
 
 
-def differentiated(
-    record: Callable[[float], EventSequence],
-    choice: ModelKey,
-    query: Query,
-    plugin: str,
-    parting: float,
-    p: np.ndarray,
-    dp: np.ndarray,
-) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """The results of a collision that is replayed, their derivatives in the groups, and the directions that matter.
+@dataclass(frozen=True)
+class Replayable:
+    """A collision to be replayed and differentiated.
 
     Arguments:
         record: as for `replayed`.
         parting: opening speed at separation over v0.
         p, dp: groups, and directions (groups, n) along which derivatives are needed.
-
-    Raises:
-        ComputationError: the replay does not agree with the record, the trajectory cannot be differentiated, or its
-            derivatives are not resolved.
     """
-    z, dz, along = _at_tolerance(record, choice, query, plugin, parting, p, dp)
-    if plugin != "rosenbrock" or choice.package is None:
-        return z, dz, along
-    while True:
-        coarse, rtol = dz @ along, query.rtol
-        query = replace(query, rtol=max(rtol * _FINER, SHARPEST))
-        z, dz, along = _at_tolerance(record, choice, query, plugin, parting, p, dp)
-        fine = dz @ along
-        error = np.max(np.abs(fine - coarse) / (np.abs(fine).max(axis=1, keepdims=True) + _TINY), initial=0.0)
-        if error <= _RESOLVED:
+
+    record: Callable[[float], EventSequence]
+    choice: ModelKey
+    plugin: str
+    parting: float
+    p: np.ndarray
+    dp: np.ndarray
+
+    def differentiated(self, query: Query) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """The results of a query, their derivatives in the groups, and the directions that matter.
+
+        Raises:
+            ComputationError: the replay does not agree with the record, the trajectory cannot be differentiated, or its
+                derivatives are not resolved.
+        """
+        z, dz, along = self._at_tolerance(query)
+        if self.plugin != "rosenbrock" or self.choice.package is None:
             return z, dz, along
-        if query.rtol <= SHARPEST:
+        while True:
+            coarse, rtol = dz @ along, query.rtol
+            query = replace(query, rtol=max(rtol * _FINER, SHARPEST))
+            z, dz, along = self._at_tolerance(query)
+            fine = dz @ along
+            error = np.max(np.abs(fine - coarse) / (np.abs(fine).max(axis=1, keepdims=True) + _TINY), initial=0.0)
+            if error <= _RESOLVED:
+                return z, dz, along
+            if query.rtol <= SHARPEST:
+                raise ComputationError(
+                    f"rosenbrock does not resolve the derivatives: between tolerances {rtol:.1g} and {query.rtol:.1g} "
+                    f"they change by {error:.1g} of the largest",
+                    advice="another --rtol, or CVODES where it can be chosen",
+                )
+
+    def _at_tolerance(self, query: Query) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """`differentiated` at the tolerance that the query has."""
+        choice, plugin, sharp, near = self.choice, self.plugin, query.sharpened(self.parting), query.near
+        if plugin == "cvodes":
+            if query.amplified and near is not None and near.boundary == SADDLE:
+                message = "no derivative by cvodes: its steps do not follow those of a trajectory that lies at the"
+                raise ComputationError(f"{message} {near}, nearer than {NEAR:g}", advice="--engine rosenbrock")
+            sharp = max(sharp, _SHARPEST_CVODES)
+        try:
+            path, replay = replayed(self.record, choice, quadratures(load(choice), query.of), plugin, sharp)
+        except Stopped as stopped:
+            raise stopped.error(plugin, load(choice)) from None
+        check_grip(replay.grip, query.rtol)
+        course = course_of(path, replay, choice)
+        function = trajectory(course, query.of, plugin, replay.tolerance)
+        durations = np.array([piece.duration for piece in replay.pieces])
+        dp = self.dp * course.influences(path.groups)[:, None]
+        try:
+            z, dz = derivatives(function, self.p, durations, dp, query.method, query.amplified)
+        except IntegrationFailed as failure:
             raise ComputationError(
-                f"rosenbrock does not resolve the derivatives: between tolerances {rtol:.1g} and {query.rtol:.1g} they "
-                f"change by {error:.1g} of the largest",
-                advice="another --rtol, or CVODES where it can be chosen",
-            )
-
-
-def _at_tolerance(
-    record: Callable[[float], EventSequence],
-    choice: ModelKey,
-    query: Query,
-    plugin: str,
-    parting: float,
-    p: np.ndarray,
-    dp: np.ndarray,
-) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """`differentiated` at the tolerance that the query has."""
-    sharp, near = query.sharpened(parting), query.near
-    if plugin == "cvodes":
-        if query.amplified and near is not None and near.boundary == SADDLE:
-            message = "no derivative by cvodes: its steps do not follow those of a trajectory that lies at the"
-            raise ComputationError(f"{message} {near}, nearer than {NEAR:g}", advice="--engine rosenbrock")
-        sharp = max(sharp, _SHARPEST_CVODES)
-    try:
-        path, replay = replayed(record, choice, quadratures(load(choice), query.of), plugin, sharp)
-    except Stopped as stopped:
-        raise stopped.error(plugin, load(choice)) from None
-    check_grip(replay.grip, query.rtol)
-    course = course_of(path, replay, choice)
-    function = trajectory(course, query.of, plugin, replay.tolerance)
-    durations, dp = np.array([piece.duration for piece in replay.pieces]), dp * course.influences(path.groups)[:, None]
-    try:
-        z, dz = derivatives(function, p, durations, dp, query.method, query.amplified)
-    except IntegrationFailed as failure:
-        raise ComputationError(
-            f"{plugin} could not differentiate the trajectory ({failure})",
-            phase=str(path.steps[-1].phase),
-            advice="try another --rtol, or the other --engine",
-        ) from None
-    return z, dz, dp
+                f"{plugin} could not differentiate the trajectory ({failure})",
+                phase=str(path.steps[-1].phase),
+                advice="try another --rtol, or the other --engine",
+            ) from None
+        return z, dz, dp

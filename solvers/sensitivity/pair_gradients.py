@@ -31,7 +31,7 @@ from ..space.collide_pair import NUMBERS, VECTORS, check_scene, refusals
 from ..space.pairs import AXES, Pairs, without_spins
 from ..space.pairs import checked as checked_pairs
 from .boundary_distance import FINE, Course, Courses, checked, course, courses_of
-from .by_casadi import differentiated
+from .by_casadi import Replayable
 from .pair_maps import RESULTS, pair_maps
 from .parameters import kind_of, parameter_map, references
 from .problem import RECORDED, Query
@@ -173,7 +173,8 @@ def _of_one_pair(
         near = checked(courses, True, rtol)
         last = tuple(STATE + name for name in model.state)
         query = Query((*last, "contact_time"), "forward", rtol, near)
-        end, by_p, dp = differentiated(followed, model.choice, query, "rosenbrock", path.parting, p.ravel(), dp)
+        collision = Replayable(followed, model.choice, "rosenbrock", path.parting, p.ravel(), dp)
+        end, by_p, dp = collision.differentiated(query)
     except ComputationError as error:
         raise n.in_si(error) from None
     value, by_end, by_theta = (matrix.full() for matrix in in_results(end, *given))
