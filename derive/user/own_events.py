@@ -221,7 +221,7 @@ def extended(model: Model, events: tuple[OwnEvent, ...]) -> Model:
     for event in present:
         guard, jump, released = event.in_structure(model.structure)
         forms[event.name] = rounded(guard), {state: rounded(value) for state, value in jump.items()}, rounded(released)
-    guards, watched = _in_order(forms, together(present)), groups_of(events, model.structure)
+    guards, watched = _in_order(forms, together(present, model.structure)), groups_of(events, model.structure)
     clocks = {q.angle_turned: model["turning_rate"][q.beta.name]} if q.angle_turned in watched else {}
     clocks |= {q.time_passed: sp.Integer(1)} if q.time_passed in watched else {}
     clocks = {state: rate for state, rate in clocks.items() if state not in model.states}  # which terms watch already
@@ -250,13 +250,18 @@ def extended(model: Model, events: tuple[OwnEvent, ...]) -> Model:
     return replace(model, states=states, functions=tuple(functions))
 
 
-def together(events: Sequence[OwnEvent]) -> dict[str, OwnEvent]:
-    """By name of an event, that before it in the file whose guard falls to zero together with its own."""
-    pairs = ((event, first) for place, event in enumerate(events) for first in events[:place])
+def together(events: Sequence[OwnEvent], structure: Structure) -> dict[str, OwnEvent]:
+    """By name of an event, one before it in the file whose guard falls to zero with its own in a structure."""
+    present = [event for event in events if event.fits(structure)]
+    if len(present) < 2:
+        return {}
+    guards = {event.name: event.in_structure(structure)[0] for event in present}
+    pairs = ((event, first) for place, event in enumerate(present) for first in present[:place])
     return {
         event.name: first
         for event, first in pairs
-        if event.proposed.where == first.proposed.where and sp.simplify(event.guard / first.guard).is_positive
+        if event.proposed.where == first.proposed.where
+        and sp.simplify(guards[event.name] / guards[first.name]).is_positive
     }
 
 

@@ -155,7 +155,9 @@ def express(name: str, meaning: str, declared: Declarations) -> UserModel:
     called = {symbol for symbols in extra.values() for symbol in symbols}
     events = tuple(_event(event, declared, groups) for event in declared.events.values())
     watched = called.union(*(event.guard.free_symbols for event in events))
-    watched |= {event.mark for event in own_events.together(events).values()}
+    for oblique in (True, False):  # guards that differ by a rotation fall to zero together head-on
+        same = own_events.together(events, Structure(oblique, bridge=False, strings=False))
+        watched |= {event.mark for event in same.values()}
     events = tuple(replace(event, used=event.mark in watched) for event in events)
     touched = set().union(*(criterion.gap.free_symbols for criterion in declared.criteria.values()))
     used = called.union(*(event.symbols for event in events), terms.symbols if terms else ())

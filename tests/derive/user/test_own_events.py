@@ -149,6 +149,21 @@ def test_an_event_with_the_guard_of_an_earlier_one_waits_for_it(second: str, wai
     assert (str(guard) == waits) if waits else not guard.has(sp.Symbol("before_first", nonnegative=True))
 
 
+def test_guards_that_differ_by_a_rotation_are_one_head_on():
+    """What a structure makes of two guards decides whether they fall to zero together."""
+    made = model(
+        'event("first", guard=d - x, where="opening", jump={u: u/2})\n'
+        'event("second", guard=d - x + d*beta**2, where="opening")'
+    )
+    second = {
+        oblique: made.extended(derive(Structure(oblique, True, False)))["events"].by_name["second"]
+        for oblique in (True, False)
+    }
+    assert str(second[False]) == "before_first - 1/2"
+    assert not second[True].has(sp.Symbol("before_first", nonnegative=True))
+    assert not made.events[0].harmless
+
+
 def test_an_event_waits_and_then_watches_its_guard_where_the_earlier_one_changes_it():
     """A guard of u after a jump of u, and one on the other side of a reversal: the guard itself decides when."""
     body = (
