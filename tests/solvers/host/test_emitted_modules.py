@@ -63,6 +63,15 @@ def test_generate_check_and_clean_up(mine: Path, tmp_path: Path):
     assert {path.name for path in folder.rglob("*.*")} == {"bridge_one.py", "manifest.json", "model.py", "notes.txt"}
 
 
+def test_generate_says_what_a_law_with_kinks_changes(tmp_path: Path):
+    """Against the library: the law's guard and side are equations of it, read back as they are emitted."""
+    body = 'law("bridge", "bent", force=pi*R*sigma*(2 + Min(x/x0, 1)))'
+    (tmp_path / "mine.py").write_text(f"from wetdoublet.derive.user import *\n{body}\n")
+    done = run("generate", str(tmp_path / "mine.py"), "--out", str(tmp_path / "bent"))
+    assert done.exit_code == 0, done.output
+    assert "\nbridge: kink_2\n  added    aspect - 2*gap_over_radius\n" in done.output
+
+
 def test_generate_says_what_has_changed(mine: Path, tmp_path: Path):
     """The terms that differ from the model as it was, and what is written; where nothing has changed, that."""
     folder = copied(mine, tmp_path)
