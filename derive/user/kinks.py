@@ -197,6 +197,10 @@ class _Smoothing:
     def _arcsine(self, node: sp.Expr) -> sp.Expr:
         """An arcsine or arccosine by an arctangent, whose root is a guard: the slope is infinite where it vanishes."""
         sine = node.args[0]
+        if sine.has(sp.Min, sp.Max, sp.Piecewise):
+            branches = sp.piecewise_fold(sine.rewrite(sp.Piecewise)).args
+            if any(value**2 == 1 for value, _ in branches):  # constant there, where the root is 0 and its slope is not
+                return self(sp.Piecewise(*((node.func(value), condition) for value, condition in branches)))
         arcsine = 2 * self(sp.atan(sine / (1 + sp.sqrt(1 - sine**2))))
         return arcsine if isinstance(node, sp.asin) else sp.pi / 2 - arcsine
 

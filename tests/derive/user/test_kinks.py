@@ -18,6 +18,7 @@ KINKED = [
     "Max(x - 0.4*x0, 0)/x0", "(sqrt(u**2 + v0**2/9)/v0)**(x/x0 - 1)", "Abs(u + Max(u, -v0/2))/v0",
     "sqrt((x/x0 - 0.6)**2)", "exp(-Abs(x/x0 - 0.5))", "1 + sp.sign(u)/2", "(1 - x/x0)**1.5", "acos(x/x0)",
     "asin(Abs(u)/v0)", "1 + atan(3*u/v0)", "Abs(log(Abs(u/v0)))",
+    "asin(Min(1, 2*x/x0))", "acos(Max(-1, u/v0 - x/x0))",
 ]  # fmt: skip
 
 
@@ -89,6 +90,13 @@ def test_what_no_engine_has_is_refused(body: str, said: str):
     """`generate` refuses a law with the reason; a pole inside a branch is found where it is met."""
     failing = [check.figure for check in model_checks(Path("mine.py"), HEAD + body)[1] if not check.ok]
     assert any(said in figure for figure in failing) or not said
+
+
+@pytest.mark.parametrize("factor", ["asin(Min(1, x0/x/2))", "1 + asin(Max(-1, 1 - x/x0))/4"])
+def test_an_arc_may_stay_at_the_end_of_its_domain(factor: str):
+    """Where its argument is bounded by 1 an arcsine is constant, by CasADi and by the kernel's recurrences."""
+    body = f'law("bridge", "mine", force=pi*R*sigma*({factor}))'
+    assert [check.figure for check in model_checks(Path("mine.py"), HEAD + body)[1] if not check.ok] == []
 
 
 def test_several_kinks_below_a_fraction():

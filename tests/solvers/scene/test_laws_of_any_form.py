@@ -113,8 +113,9 @@ CAPPED = "force=Min(1/gap**2, 100), potential=-Piecewise((20 - 100*gap, gap < Ra
         (f'law("film", "mine", resistance=6*pi*mu*a**2*u/x*(1 - x/x0)**2*{STEP})', "granulation"),  # no exp overflows
         (f'law("glass", "mine", pressure={BENT})', "granulation"),  # the criterion is met behind the kink
         (f'law("film", "mine", resistance=6*pi*mu*a**2*u/x*(1 - x/x0)**2*{ARCS})', "granulation"),
+        ('law("bridge", "mine", force=pi*R*sigma*asin(Min(1, x0/x/2)))', "granulation"),
     ],
-    ids=["potential", "steep", "pressure", "arcs"],
+    ids=["potential", "steep", "pressure", "arcs", "arc at its bound"],
 )
 def test_all_engines_agree(body: str, preset: str, tmp_path: Path):
     """A potential with kinks, a step by tanh, a pressure with a kink, an arccosine at the end of its domain."""
