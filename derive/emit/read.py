@@ -36,13 +36,17 @@ class Read:
 
 
 def functions(text: str) -> tuple[Read, ...]:
-    """Every function of an emitted law, structure or scaling module; ReadError for text that is never emitted."""
+    """Every function of an emitted law, structure or scaling module, but for guards; ReadError for other text."""
     try:
         tree = ast.parse(text)
     except SyntaxError as error:
         raise ReadError(f"line {error.lineno}: {error.msg}") from None
-    written = (node for node in tree.body if isinstance(node, ast.FunctionDef))
-    return tuple(_function(node) for node in written if not node.name.endswith("_kinks"))  # guards, which laws name
+    return tuple(_function(node) for node in tree.body if isinstance(node, ast.FunctionDef) and not _guards(node))
+
+
+def _guards(node: ast.FunctionDef) -> bool:
+    """Whether a function has the guards of a law's kinks, which follow from the law."""
+    return any(isinstance(statement, ast.Return) and isinstance(statement.value, ast.Tuple) for statement in node.body)
 
 
 def _function(node: ast.FunctionDef) -> Read:

@@ -9,8 +9,10 @@ import numpy as np
 import pytest
 import sympy as sp
 from matplotlib.mathtext import MathTextParser
+from wetdoublet.derive.emit.casadi.modules import law_module
 from wetdoublet.derive.emit.compare import compare, equations, plain, same
 from wetdoublet.derive.emit.read import ReadError, functions
+from wetdoublet.derive.laws.modelfile import read
 from wetdoublet.solvers import Scene, collide
 from wetdoublet.solvers.export import differences
 from wetdoublet.solvers.export.functions import texts as c_texts
@@ -39,6 +41,19 @@ def test_every_emitted_module_is_read_back(path: Path):
     assert len(functions(text)) == len(re.findall(r"^def ", text, re.MULTILINE)) > 0
     found = equations({"": text})
     assert compare(found, found) == ()
+
+
+def test_a_law_with_a_kink_is_read_back():
+    """A law that ends at a gap, and one of a power of the speed: read as one equation and its parts, without guards."""
+    forms = (
+        '"bridge", "mine", force=pi*R*sigma*Max(0, 2 - x/x0/10)',
+        '"film", "mine", resistance=mu*a*u*(Abs(u)/v0)**0.7',
+    )
+    for form in forms:
+        [law] = read(Path("mine.py"), f"from wetdoublet.derive.user import *\nlaw({form})\n").laws
+        text = law_module(law)
+        assert law.functions[0].kinks and f"def {law.functions[0].name}_kinks(" in text
+        assert [function.name for function in functions(text)] == [law.functions[0].name]
 
 
 def test_an_added_and_a_removed_term():
