@@ -155,6 +155,8 @@ class _Table:
         if si and column.unit is None and any(isinstance(cell, str) for cell in column.cells):
             raise InputError(self.header, name, f"the unit in brackets, such as {name} [{unit}]", "has no unit")
         if column.unit == "%":
+            if si and not name.endswith("_sd"):
+                raise InputError(self.header, f"{name} [%]", f"{name} in {unit}", "is a part of nothing")
             factor = 0.01
         elif column.unit is not None and (column.unit or si):
             written = f"{name} [{column.unit}]"
@@ -200,7 +202,7 @@ class _Table:
             for entry in (self.scene.fields[name],)
         }
         speed, of_speed = self._speed(angle, columns)
-        speed_sd, angle_sd = (np.ones(self.size),) * 2 if flown else self._scatter(speed, of_speed)
+        speed_sd, angle_sd = (np.ones(self.size),) * 2 if flown else self._scatter(speed, angle, of_speed)
         outcome, observed = self._outcome(), self._observed(DEPARTING if flown else OBSERVED)
         if "restitution" in observed:
             values = observed["restitution"][0]
@@ -262,7 +264,7 @@ class _Table:
             self.remarks.append("Normal speeds are those of the Stokes numbers with the scene's own entries.")
         return np.broadcast_to(speed, self.size).copy(), name
 
-    def _scatter(self, speed: np.ndarray, of_speed: str) -> tuple[np.ndarray, np.ndarray]:
+    def _scatter(self, speed: np.ndarray, angle: np.ndarray, of_speed: str) -> tuple[np.ndarray, np.ndarray]:
         speed_sd, angle_sd = np.full(self.size, np.nan), np.full(self.size, np.nan)
         for name in [column for column in _SPREAD[:2] if column in self.by_name][:1]:
             accepted = f"a standard deviation from 0 to below {_WIDEST:.2g} of the speed"
@@ -276,6 +278,8 @@ class _Table:
         if "angle_sd" in self.by_name:
             words = "a standard deviation from 0 to 0.5 rad"
             angle_sd = self._numbers("angle_sd", "rad", lambda v: 0 <= v < 0.5, words)
+            if self.by_name["angle_sd"].unit == "%":
+                angle_sd = angle_sd * angle
         if np.isnan(angle_sd).any():
             self.remarks.append(f"Scatter of the angle, where it is not given: {math.degrees(ANGLE_SD):.3g} deg.")
             angle_sd = np.where(np.isnan(angle_sd), ANGLE_SD, angle_sd)
@@ -344,7 +348,9 @@ class _Table:
             sd = np.full(self.size, np.nan)
             if error in self.by_name:
                 sd = self._numbers(error, UNITS[name], lambda v: v > 0, "a standard deviation > 0")
-                if self.by_name[error].unit == "%":
+                if self.by_name[name].unit == self.by_name[error].unit == "%":
+                    self.remarks.append(f"Standard deviations of {name} are taken for per cent as it is, not of it.")
+                elif self.by_name[error].unit == "%":
                     sd = sd * np.abs(values)
             if name in RESULT_SD and (np.isnan(sd) & np.isfinite(values)).any():
                 text = f"{100 * RESULT_SD[name]:g} %" if relative else f"{RESULT_SD[name]:.4g}"

@@ -37,6 +37,22 @@ def test_units_missing_cells_and_comments(tmp_path):
     ]  # fmt: skip
 
 
+def test_per_cent():
+    """A standard deviation in per cent is of its value; of a value in per cent it is in per cent too; no length is."""
+    impacts = {"speed [m/s]": [2.0, 3.0], "angle [deg]": [10.0, 40.0]}
+    found = read_data(
+        {**impacts, "angle_sd [%]": [5.0, 5.0], "restitution": [0.5, 0.6], "e err (%)": [2.0, 2.0]}, SCENE
+    )
+    np.testing.assert_allclose(found.angle_sd, 0.05 * np.radians([10, 40]))
+    np.testing.assert_allclose(found.observed["restitution"], [[0.5, 0.6], [0.01, 0.012]])
+    found = read_data({**impacts, "e (%)": [50.0, 60.0], "e err (%)": [2.0, 2.0]}, SCENE)
+    np.testing.assert_allclose(found.observed["restitution"], [[0.5, 0.6], [0.02, 0.02]])
+    assert any("per cent as it is" in remark for remark in found.remarks)
+    for name in ("contact_time", "rotation", "liquid.viscosity"):
+        with pytest.raises(InputError, match=f"{name}.*part of nothing"):
+            read_data({**impacts, "restitution": [0.5, 0.6], f"{name} [%]": [5.0, 5.0]}, SCENE)
+
+
 def test_a_plain_angle_is_radians():
     """Degrees as plain numbers are told so; what is wrong in degrees as well is not."""
     for value, says in (
