@@ -31,6 +31,7 @@ _BY_DIRECTION = (
     "count by the direction of their line of centres only: they lie off the straight path of the others, as of a "
     "tracker that displaces near discs"
 )
+_FINE = 0.01  # digits over the noise, from which two frames alike are one picture
 _ROUNDING = 1e-9  # of positions, over the distance of the centres
 _SIDEWAYS = 3.0  # standard deviations from which an impact is oblique
 _NAMED = 6  # frames in a sentence
@@ -111,7 +112,8 @@ class _Measured:
         nearest = int(np.argmin(distance))
         nearly = distance[nearest] + _RESTING * film.solids  # a tracker may never see them touch
         met = np.append(np.flatnonzero(distance[:nearest] <= max(film.touch, nearly) + clear), nearest)
-        nearby = np.append(nearest, nearest + np.flatnonzero(distance[nearest:] <= max(film.apart, nearly) + clear))
+        self.leaving = max(film.apart, nearly) + clear
+        nearby = np.append(nearest, nearest + np.flatnonzero(distance[nearest:] <= self.leaving))
         rest = _rests_from(time, distance, max(clear, _RESTING * film.solids))
         self.first, self.last, self.rests = int(min(met[0], rest)), int(nearby[-1]), rest < size
         frames = np.arange(size)
@@ -157,6 +159,10 @@ class _Measured:
             rupture = f"where the scene's rupture is at {self.film.apart:.4g} m: is it a stick?"
             accepted = f"a film that goes on until the spheres are {sure:.4g} m apart"
             raise InputError(self.where, None, accepted, f"ends {distance[-1]:.4g} m apart, {rupture}")
+        apart = self.first + np.flatnonzero(distance[self.first : self.last] > self.leaving + sure - self.film.apart)
+        if apart.size >= LEAST:
+            problem = f"separate at {self.names[apart[0]]}, and meet again: are these several films?"
+            raise InputError(self.where, None, "a column impact that tells films apart", problem)
         for flight in self.free(0.0):
             back = np.flatnonzero((flight.places[1:] * flight.places[:-1]).sum(axis=1) < 0)
             if back.size:
@@ -243,6 +249,10 @@ class _Measured:
         """InputError where they do not meet, or too little is filmed of a stick; remarks on how near they come."""
         film, solids, time = self.film, self.film.solids, self.time
         end = float(np.median(self.distance[max(self.first, time.size - LEAST) :])) if self.sticks else self.least
+        still = (np.diff(self.relative[self.first - 1 : self.last + 2], axis=0) == 0).all(axis=1)
+        if still.any() and not self.sticks and film.rounding < _FINE * self.sigma:
+            problem = f"has the same picture again after {self.names[self.first - 1 + int(np.argmax(still))]}"
+            raise InputError(self.where, None, "frames numbered as they were filmed, each once", problem)
         if self.sticks:
             if self.apart_still and not (self.rests and end < (1 + REACH) * solids):
                 problem = f"end {end:.4g} m apart, before the films meet at {film.touch:.4g} m"

@@ -38,6 +38,7 @@ _SPELT = {  # as trackers name columns, in small letters and underscores; of sev
     "impact": "impact film video",
     "x": "x position_x x_position pos_x axis_2 xm",
     "y": "y position_y y_position pos_y axis_1 ym",
+    "z": "z position_z z_position pos_z",
     "particle": "particle track_id trackid particle_id track trajectory track_n id",
 }
 _KINDS = {  # columns by which a table is known, of several kinds the first
@@ -54,6 +55,7 @@ _TRACKER, _XML = "an export of Tracker", "TrackMate's XML"
 _UNITS = {"sec": "s", "seconds": "s", "msec": "ms", "micron": "um", "microns": "um"}  # as Fiji writes them
 _BODY = re.compile(r"([xy])_?(\d+)|(\w*?)_?([xy])")  # x1, x_1, pt1_cam1_x, mass_a_x
 _NEAR = (0.7, 1.2)  # closest approach of two that meet, over the distance of touching solids
+_OFF = 1.3  # of times that are rounded, from a rate that is given beside them
 _AVI, _MATROSKA = 600.0, 1e-3  # 1/s of an AVI header for every faster film; s, the clock of Matroska
 
 
@@ -90,7 +92,7 @@ def read_film(source: Any, particles: Any, solids: float, lengths: Units) -> Fil
     header = ", ".join(column.name for column in columns)
     words = [re.sub(r"\W+", "_", column.name.strip().lower()).strip("_") for column in columns]
     if "axis_3" in words:  # of napari: t, z, y, x
-        words = [{"axis_2": "y", "axis_3": "x"}.get(word, word) for word in words]
+        words = [{"axis_1": "z", "axis_2": "y", "axis_3": "x"}.get(word, word) for word in words]
     by_word: dict[str, Column] = {}
     for word, column in zip(words, columns):
         by_word[word] = _same(by_word.get(word, column), column)
@@ -132,9 +134,14 @@ def read_film(source: Any, particles: Any, solids: float, lengths: Units) -> Fil
             cells = [None if k != k else by_name[place[0]].cells[int(k)] for k in both[f"row{place[1]}"]]
             shared[place] = replace(by_name[place[0]], name=place, cells=cells)
         lines = [lines[k] for k in rows]
+        depth = [by_name["z"].cells[k] for part in (first, second) for k in part.row] if "z" in by_name else []
     else:
         four = [word for body in pair for word in bodies[body[0]]]
+        deep = [re.sub(r"^x(?=_?\d+$)|x$", "z", word) for word in four[::2]]
+        depth = [cell for word in deep if word in by_word for cell in by_word[word].cells]
         shared |= {place: replace(by_word[word], name=place) for place, word in zip(PLACES, four)}
+    if len({z for z in map(_number, depth) if z == z}) > 1:
+        raise InputError("tracks, header", header, "x and y in the plane of the collision", "has a z that changes")
     if kind == _TRACKER:
         shared = _calibrated(shared, solids)
     which = ", particles " + (of_films or " and ".join("+".join(ids) for ids in pair)) if long or len(every) > 2 else ""
@@ -172,6 +179,11 @@ def with_one_clock(film: Film, rate: float | None, times: Units) -> Film:
         raise InputError("rate", None, "the camera's frames per second (--rate)", f"is not known: the times {problem}")
     if frame is None and counts is not None:
         frame = Column("frame", None, counts.tolist())
+    step = float(np.median(steps)) if steps.size else 0.0
+    shared = at.size > ticks.size and "impact" not in columns  # times that several frames have are named later
+    if frame is None and rate and step and not shared and not 1 / _OFF < step * rate < _OFF:
+        problem = f"is not that of the times, which come at {1 / step:.4g} 1/s"
+        raise InputError("rate", f"{rate:g} 1/s", "no rate beside times, or a column frame", problem)
     if frame is None or rate is None:
         columns.pop("frame" if time.unit else "time", None)
         return replace(film, columns=columns)

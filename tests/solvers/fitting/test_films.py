@@ -58,6 +58,23 @@ def test_films_without_fault_are_given_within_their_deviations() -> None:
     assert abs(np.std(errors) - 1) < 4 / math.sqrt(2 * len(errors))
 
 
+def test_what_would_be_measured_wrong_is_refused(film: dict[str, np.ndarray]) -> None:
+    """Two films under running numbers, a picture that is there twice in contact, a rate beside other times, depth."""
+    both = {name: np.append(cells, cells + 500 * (name == "frame")) for name, cells in film.items()}
+    middle = int(np.argmin(np.hypot(film["x2"] - film["x1"], film["y2"] - film["y1"])))
+    twice = {name: np.insert(cells, middle, cells[middle]) for name, cells in film.items()}
+    twice["frame"] = np.arange(twice["frame"].size)
+    slow = {"time [s]": film["frame"] / 30} | {name: film[name] for name in ("x1", "y1", "x2", "y2")}
+    tilted = film | {"z1": 0.5 * film["y1"], "z2": 0.5 * film["y2"]}
+    for wrong, words in (
+        (both, "meet again"), (twice, "same picture again"), (slow, "come at 30 1/s"), (tilted, "has a z"),
+    ):  # fmt: skip
+        with pytest.raises(InputError, match=words):
+            read(wrong)
+    flat = film | {"z1": 0 * film["y1"], "z2": 0 * film["y2"]}
+    assert read(flat).to_csv() == read(film).to_csv()
+
+
 def test_a_tracker_that_pushes_near_discs_apart_is_noticed() -> None:
     """Centres displaced as trackpy displaces them: sticks stay sticks, speeds stay right, and it is said.
 
