@@ -21,10 +21,15 @@ SCENE = "granulation"  # of equal spheres; cooling.c includes granulation.h
 INK = {"single": "#b5c4d6", "rotate": "#3b6ea5", "bounce": "#c9762f", "doublet": "#1d1d1d"}
 
 
-def build(folder: Path, optimise: str = "-O2", loop: str = "cooling") -> Path:
-    """Export the law into a folder and compile a loop with it; returns the program."""
+def exported(folder: Path) -> Path:
+    """The folder, with the exported law."""
     export = [sys.executable, "-m", "wetdoublet.solvers", "export", SCENE, "--to", "c", "--out", str(folder)]
     subprocess.run(export, check=True, stdout=subprocess.DEVNULL)
+    return folder
+
+
+def build(folder: Path, optimise: str = "-O2", loop: str = "cooling") -> Path:
+    """Compile a loop with the law that is exported to a folder; returns the program."""
     compiler = shlex.split(os.environ.get("CC", "cc"))
     sources = [str(HERE / f"{loop}.c"), str(folder / f"{SCENE}.c")]
     program = folder / loop
@@ -123,14 +128,14 @@ def main() -> None:
     given = parser.parse_args()
     given.out.mkdir(parents=True, exist_ok=True)
     if given.agglomerates:
-        rows, sizes = agglomerate(build(given.out.resolve(), loop="agglomerates"), given.contacts, given.seed)
+        rows, sizes = agglomerate(build(exported(given.out.resolve()), loop="agglomerates"), given.contacts, given.seed)
         last = rows[-1]
         print(f"{last['contacts_begun']:.0f} contacts begun, {last['rotate'] + last['bounce']:.0f} ended; ", end="")
         print(f"{last['agglomerates']:.0f} agglomerates, the largest of {last['largest']:.0f}; {sizes}")
         off = max(rows["momentum"].max(), rows["angular_momentum"].max())
         print(f"momentum and angular momentum are kept to {off:.1e} of their size")
         return
-    program = build(given.out.resolve())
+    program = build(exported(given.out.resolve()))
     rows, snapshots = simulate(program, given.spheres, given.share, given.speed, given.collisions)
     draw_cooling(rows, given.out / "cooling.png")
     draw_strip(snapshots, given.out / "strip.png")

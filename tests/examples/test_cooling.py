@@ -1,6 +1,5 @@
 """The example of a cooling gas: momentum, energy, and Haff's law where the restitution is constant."""
 
-import os
 import shlex
 import subprocess
 import sys
@@ -61,6 +60,12 @@ def cooling() -> object:
         sys.path.remove(str(FOLDER))
 
 
+@pytest.fixture(scope="module")
+def folder(cooling, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The exported law, which programs are compiled with."""
+    return cooling.exported(tmp_path_factory.mktemp("law"))
+
+
 def test_constant_restitution_cools_by_haffs_law(cooling, tmp_path: Path) -> None:
     """T falls as exp(-(1 - e^2) C/3) with the collisions C of a sphere, and as 1/(1 + t/tau)^2 with Enskog's tau."""
     (tmp_path / "granulation.h").write_text(CONSTANT)
@@ -80,10 +85,12 @@ def test_constant_restitution_cools_by_haffs_law(cooling, tmp_path: Path) -> Non
 
 
 @pytest.mark.slow
-def test_a_wet_gas_keeps_its_momentum_and_loses_energy(cooling, tmp_path: Path) -> None:
+def test_a_wet_gas_keeps_its_momentum_and_loses_energy(
+    cooling, folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """Exported, compiled and run small: all three outcomes occur, and a doublet is no single sphere any more."""
-    os.environ.setdefault("CC", shlex.join(compiler().command))
-    program = cooling.build(tmp_path, "-O0")
+    monkeypatch.setenv("CC", shlex.join(compiler().command))
+    program = cooling.build(folder, "-O0")
     rows, snapshots = cooling.simulate(program, 200, 0.02, 2.0, 12)
     last = rows[-1]
     assert min(last["stick"], last["rotate"], last["bounce"]) > 10
@@ -101,13 +108,11 @@ def test_a_wet_gas_keeps_its_momentum_and_loses_energy(cooling, tmp_path: Path) 
 
 
 @pytest.mark.slow
-def test_agglomerates_are_the_same_whoever_compiles(cooling, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_agglomerates_are_the_same_whoever_compiles(cooling, folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Momenta to rounding, energy never grows, and the same bits from all compilers, in one lane and many."""
     texts = []
     for name in FOUND:
         for flag in ("-march=native", "-DGRANULATION_LANES=1"):
-            folder = tmp_path / f"{name}{flag}"
-            folder.mkdir()
             monkeypatch.setenv("CC", f"{name} {flag}")
             rows, sizes = cooling.agglomerate(cooling.build(folder, "-O0", "agglomerates"), 300, 3, 60)
             last = rows[-1]
