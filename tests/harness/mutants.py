@@ -66,12 +66,12 @@ MUTANTS = {
     ),
     "no range": Mutant(
         "solvers/scene/fields.py", "if self.range.holds(value):", "if self.range is not None:",
-        "test_spoilt_scenes.py::test_a_spoilt_entry_is_named",
+        "../solvers/scene/test_refused.py::test_a_spoilt_entry_is_named",
     ),
     "the farthest name": Mutant(
         "solvers/errors.py", 'return f", did you mean {name}?" if name else ""',
         'return f", did you mean {name[::-1]}?" if name else ""',
-        "test_spoilt_scenes.py::test_a_misspelt_entry_is_told_the_nearest",
+        "../solvers/scene/test_refused.py::test_a_misspelt_entry_is_told_the_nearest",
     ),
     "a restitution that is too large": Mutant(
         "solvers/collision/assemble.py", 'restitution=outputs["restitution"] if separated',

@@ -31,6 +31,15 @@ def test_a_spoilt_entry_is_named(name: str):
         assert refused({**BASE, name: value}).field == name
 
 
+@pytest.mark.parametrize("name", FIELDS)
+def test_a_misspelt_entry_is_told_the_nearest(name: str):
+    """Its last letter twice: the name that was meant stands in the message."""
+    wrong = name + name[-1]
+    error = refused({**BASE, wrong: 1.0})
+    assert error.field == wrong
+    assert f"did you mean {name}?" in str(error)
+
+
 @pytest.mark.parametrize(
     "name", [n for n, f in FIELDS.items() if f.required and not n.startswith(("bridge", "attraction", "pendulum"))]
 )
