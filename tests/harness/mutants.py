@@ -23,8 +23,8 @@ MUTANTS = {
         "generated/taylor/laws/arm_midgap.h", "s->result[k] = 0.5*", "s->result[k] = 0.5001*",
         "test_conservation.py::test_angular_momentum_is_kept",
     ),
-    "a film that depends on the lane": Mutant(
-        f"{RUNTIME}/queue.h", "LANE(l->film, lane) = 1.0;\n", "LANE(l->film, lane) = 1.0 + 1e-9*lane;\n",
+    "a clock that depends on the lane": Mutant(
+        f"{RUNTIME}/queue.h", "LANE(l->time, lane) = 0.0;\n", "LANE(l->time, lane) = 1e-12*lane;\n",
         "test_engines.py::test_neighbours_and_order_change_no_bit",
     ),
     "a tolerance ten thousand times too loose": Mutant(
