@@ -16,7 +16,7 @@ import numpy as np
 import pytest
 from wetdoublet.solvers import Scene, collide
 
-from ..helpers.exported_law import FOUND, written
+from ..helpers.exported_law import FOUND, law_alone
 from ..helpers.flags import QUICK
 
 FOLDER = Path(__file__).resolve().parents[2] / "examples" / "time_steps"
@@ -134,7 +134,7 @@ def test_a_world_of_yade_is_saved_with_its_contacts(tmp_path: Path):
     program = shutil.which("yade")
     if program is None:
         pytest.skip("yade is not installed (Debian and Ubuntu: apt install yade)")
-    folder = written(Scene.load("granulation"), tmp_path / "granulation")
+    folder = law_alone(Scene.load("granulation"), tmp_path / "granulation")
     (tmp_path / "saved.py").write_text(SAVED)
     environment = {**os.environ, "CC": UNOPTIMIZED, "FORCES_EXAMPLE": str(FOLDER), "FORCES_FOLDER": str(folder)}
     command = [program, "-n", "-x", str(tmp_path / "saved.py")]

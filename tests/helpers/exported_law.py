@@ -10,7 +10,8 @@ from typing import Any
 
 import numpy as np
 from wetdoublet.solvers import Scene
-from wetdoublet.solvers.export.law.texts import law_name, texts
+from wetdoublet.solvers.export.law import texts as law_texts
+from wetdoublet.solvers.export.law.texts import law_name, source, texts
 
 from .flags import CALLS
 
@@ -30,6 +31,15 @@ def written(scene: Scene, folder: Path) -> Path:
     folder.mkdir(parents=True, exist_ok=True)
     for name, text in texts(scene).items():
         (folder / name).write_text(text)
+    return folder
+
+
+def law_alone(scene: Scene, folder: Path) -> Path:
+    """The folder, with C file and header: there are no test vectors, for which kernels would be compiled."""
+    folder.mkdir(parents=True, exist_ok=True)
+    name, law = law_name(scene), source(scene)
+    for suffix, text in ((".h", law.header), (".c", law.c)):
+        (folder / f"{name}{suffix}").write_text(law_texts._named(name, text))
     return folder
 
 

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 from wetdoublet.solvers import Scene
 
-from ...helpers.exported_law import FOUND, Law, written
+from ...helpers.exported_law import FOUND, Law, law_alone, written
 from ...helpers.flags import QUICK
 
 SPHERES = Scene.load("glass-beads-water").with_entries(
@@ -35,7 +35,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 @pytest.fixture(scope="session")
 def walled(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Law]:
     """The folder and the law of granulation beside a wall."""
-    folder = written(WALL, tmp_path_factory.mktemp("law") / "wall")
+    folder = law_alone(WALL, tmp_path_factory.mktemp("law") / "wall")
     return folder, Law(WALL, folder, *STRICT)
 
 

@@ -8,7 +8,7 @@ import pytest
 from wetdoublet.solvers import Scene
 from wetdoublet.solvers.space.pairs import Bodies
 
-from ...helpers.exported_law import FOUND, Law, written
+from ...helpers.exported_law import FOUND, Law, law_alone
 from ...helpers.flags import QUICK
 from ...helpers.host_of_forces import Host
 from .conftest import OWN, WALL
@@ -23,7 +23,7 @@ COUNT = 60
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The exported folder of unequal spheres with a bridge."""
-    return written(OWN, tmp_path_factory.mktemp("law") / "bridge")
+    return law_alone(OWN, tmp_path_factory.mktemp("law") / "bridge")
 
 
 @pytest.fixture(scope="module")
@@ -41,7 +41,7 @@ def host(law: Law, folder: Path) -> Host:
 @pytest.fixture(scope="module")
 def alone(tmp_path_factory: pytest.TempPathFactory) -> tuple[Law, Host]:
     """Law and host of equal spheres without a bridge, whose kinetic energy is all there is."""
-    folder = written(FILM_ALONE, tmp_path_factory.mktemp("law") / "film")
+    folder = law_alone(FILM_ALONE, tmp_path_factory.mktemp("law") / "film")
     law = Law(FILM_ALONE, folder, *QUICK.split())
     return law, Host(FILM_ALONE, law, folder)
 
@@ -248,7 +248,7 @@ def test_what_has_no_forces_says_so(walled: tuple[Path, Law]):
 def test_dry_contacts_rub(tmp_path: Path):
     """With friction at every rebound, outcomes, e_n and both spins are the law's; rubbing adds no energy."""
     scene = FILM_ALONE.with_entries(ROUGH | {"model.contact_friction": "all"})
-    law = Law(scene, written(scene, tmp_path), *QUICK.split())
+    law = Law(scene, law_alone(scene, tmp_path), *QUICK.split())
     host, pairs = Host(scene, law, tmp_path), arrivals(scene, COUNT, seed=3)
     found, times = durations(scene, law, pairs)
     smooth = law.material()

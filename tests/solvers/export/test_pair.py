@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from wetdoublet.solvers import InputError, Scene, collide_many
 
-from ...helpers.exported_law import FOUND, Law, written
+from ...helpers.exported_law import FOUND, Law, law_alone
 from ...helpers.flags import QUICK
 from .conftest import SPHERES
 
@@ -90,7 +90,7 @@ def test_materials_are_those_of_a_scene(own: Pairs):
 @pytest.mark.parametrize("name", SCENES)
 def test_materials_are_those_of_scenes(name: str, tmp_path: Path):
     """By a number, a volume and a part of coatings, beside a wall and on strings."""
-    check(Pairs(SCENES[name], Law(SCENES[name], written(SCENES[name], tmp_path), *QUICK.split())), 40, 0)
+    check(Pairs(SCENES[name], Law(SCENES[name], law_alone(SCENES[name], tmp_path), *QUICK.split())), 40, 0)
 
 
 def check(own: Pairs, count: int, collided: int):
