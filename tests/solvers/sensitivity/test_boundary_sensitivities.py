@@ -12,7 +12,7 @@ from wetdoublet.solvers.sensitivity.boundaries import BoundarySensitivities, Mov
 from ...helpers.data import DATA
 from ...helpers.sensitive import HARD
 
-pytestmark = [pytest.mark.slow, pytest.mark.usefixtures("optimized")]
+pytestmark = pytest.mark.slow
 
 # scene, its changes, degrees, Stokes numbers about the one change that is looked at
 LINES = {
