@@ -9,6 +9,7 @@ import warnings
 from types import ModuleType, SimpleNamespace
 
 import pytest
+from click.testing import CliRunner
 from wetdoublet.solvers.commands.cli import COMMANDS, cli
 from wetdoublet.solvers.commands.texts import entry_range
 from wetdoublet.solvers.errors import CheckFailed, ComputationError, InputError, ModelWarning
@@ -296,11 +297,8 @@ def test_a_shell_completes(line, completed):
     """Commands, options, presets, choices and names of entries, by what click writes for bash; the rest is files."""
     words = f"wetdoublet {line}"
     env = {"_WETDOUBLET_COMPLETE": "bash_complete", "COMP_WORDS": words, "COMP_CWORD": str(words.count(" "))}
-    done = subprocess.run(
-        [sys.executable, "-c", "from wetdoublet.solvers.commands.cli import main; main()"],
-        check=False, capture_output=True, text=True, env=os.environ | env,
-    )  # fmt: skip
-    assert (done.returncode, done.stderr) == (0, "")
+    done = CliRunner().invoke(cli, [], env=env, prog_name="wetdoublet")
+    assert (done.exit_code, done.stderr) == (0, "")
     assert completed <= {entry.partition(",")[2] for entry in done.stdout.split()}
 
 
