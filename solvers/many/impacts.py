@@ -14,7 +14,7 @@ import numpy as np
 
 from ...generated import scaling
 from ..errors import InputError
-from ..formatting.labelled import Column, labelled
+from ..formatting.labelled import Column, labelled, variable
 from ..host.pictures import register
 from ..model.validity import flag_attributes, warn
 from ..results import ALWAYS, FAILED, NONE, REQUESTED, VALIDITY, attributes, outcome_attributes
@@ -239,7 +239,10 @@ class Impacts:
         coordinates, about = self.coordinates(), self.about()
         if self.dims == LISTED and self.beside is None:
             return labelled(variables, coordinates, about)
-        data = xr.Dataset(variables, coordinates, about)
+        data_variables, labels = (
+            {name: variable(name, *column) for name, column in columns.items()} for columns in (variables, coordinates)
+        )
+        data = xr.Dataset(data_variables, labels, about)
         if self.beside is None:
             return data
         return data.assign_coords(without(self.beside, {*variables, *coordinates}).coords)
