@@ -5,8 +5,10 @@ from functools import cache
 
 import sympy as sp
 
+from ..emit.provenance import law_digest, model_digest
 from ..equations.invariants import invariants
 from ..equations.model import Model
+from ..equations.store import stored
 from ..laws import LAWS, Law, filled
 from ..physics.structure import BRIDGED
 from ..user.own_events import OwnEvent
@@ -76,8 +78,11 @@ def conserved(model: UserModel) -> tuple[str, ...]:
 
 @cache  # the library's equations are those of most models
 def _conserved(equations: Model, arm: Law) -> tuple[str, ...]:
-    result = invariants(equations, {"arm": arm})
-    return tuple(_ANGULAR_MOMENTUM if invariant.is_angular_momentum else invariant.describe() for invariant in result)
+    def described() -> tuple[str, ...]:
+        result = invariants(equations, {"arm": arm})
+        return tuple(_ANGULAR_MOMENTUM if item.is_angular_momentum else item.describe() for item in result)
+
+    return stored(f"conserved-{model_digest(equations)[:32]}-{law_digest(arm)[:32]}", described)
 
 
 def in_words(model: UserModel) -> tuple[str, ...]:

@@ -22,6 +22,7 @@ from .events import CONTACT_GAPS, TARGET_GROUPS, start
 from .functions import ModelFunction, functions
 from .intermediates import MOMENTUM, intermediates, inward_force
 from .invariants import Invariant, conserved_components, conserved_momentum
+from .store import stored
 
 
 @dataclass(frozen=True)
@@ -89,6 +90,10 @@ def _expanded(expression: sp.Expr, definitions: Mapping[sp.Basic, sp.Expr], valu
 @cache
 def derive(structure: Structure) -> Model:
     """The nondimensional model of `structure`; ValueError if an equation uses a group that is not among GROUPS."""
+    return _derived(structure) if structure.terms else stored(structure.name, lambda: _derived(structure))
+
+
+def _derived(structure: Structure) -> Model:
     states = _states(structure)
     members = functions(structure, states)
     definitions = _definitions(structure)

@@ -3,9 +3,10 @@
 import traceback
 from pathlib import Path
 
+from .. import laws
 from ..user.declarations import Declarations, ModelFileError, collecting
 from ..user.structures import UserModel, express
-from . import LAWS
+from . import LAWS, files
 
 _LARGEST = 1_000_000  # bytes
 _ACCEPTED = "a model file (see `wetdoublet generate --template`)"
@@ -18,6 +19,8 @@ def declared(path: Path, text: str | None = None) -> tuple[str, Declarations]:
         ModelFileError: the file cannot be read or run, or declares nothing; names the line.
     """
     source = _text(path) if text is None else text
+    for name in files() if ".laws" in source else ():  # what it imports declares nothing of its own
+        getattr(laws, name)
     namespace = {"__name__": "wetdoublet_model", "__file__": str(path)}
     with collecting(LAWS) as result:
         try:

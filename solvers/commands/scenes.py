@@ -260,6 +260,7 @@ def _model(source: Path, folder: Path | None, check: bool) -> None:
     if folder.resolve() == OWN:
         raise InputError("--out", str(folder), "a folder of its own for a model", "is the package's own folder")
 
+    from ..host.emitted import deriving
     from ..host.user_cache import fetch, lookup
     from ..scene.user_model_derived import derived_package, origin_of
     from ..scene.user_model_source import key_of
@@ -270,7 +271,8 @@ def _model(source: Path, folder: Path | None, check: bool) -> None:
     if before is not None and not differing(folder, emitted := json.loads(before)):
         click.echo(f"nothing has changed: the {len(emitted)} files in {folder} are what {source} gives")
         return
-    derived = derived_package(source, folder)
+    with deriving():
+        derived = derived_package(source, folder)
     click.echo(derived.report)
     if not derived.files:
         raise CheckFailed(f"{source}: {derived.failed}")

@@ -10,7 +10,8 @@ import json
 import re
 import threading
 from collections import defaultdict
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from functools import cache
 from importlib import import_module
 from pathlib import Path
@@ -21,7 +22,7 @@ from ..errors import CheckFailed
 
 _PACKAGE = f"{__package__.rsplit('.', 2)[0]}.generated"
 _FOLDER = Path(__file__).resolve().parents[2] / "generated"
-_DERIVE = _FOLDER.with_name("derive")
+DERIVE = _FOLDER.with_name("derive")
 _IMPORTED = re.compile(r"^from \.(\w+) import", re.MULTILINE)  # structures whose functions a structure has too
 _INCLUDED = re.compile(r'^#include "(shared/\w+\.h)"\n', re.MULTILINE)
 DERIVING = threading.RLock()  # sympy is not thread-safe
@@ -152,9 +153,19 @@ def derivation() -> str:
     digest = hashlib.sha256()
     for name in ("wetdoublet", "sympy", "casadi"):
         digest.update(f"{name} {version(name)}\n".encode())
-    for path in sorted(_DERIVE.rglob("*.py")):
-        digest.update(path.relative_to(_DERIVE).as_posix().encode() + b"\0" + path.read_bytes() + b"\0")
+    for path in sorted(DERIVE.rglob("*.py")):
+        digest.update(path.relative_to(DERIVE).as_posix().encode() + b"\0" + path.read_bytes() + b"\0")
     return digest.hexdigest()
+
+
+@contextmanager
+def deriving() -> Iterator[None]:
+    """The right to derive, one thread at a time, laws and structures from the user's cache where it has them."""
+    from ...derive.equations.store import opened
+    from .user_cache import fetch
+
+    with DERIVING, opened(lambda name, make: fetch(f"derived-{derivation()[:32]}-{name}.pickle", make)):
+        yield
 
 
 def derived_once(name: str, function: str, *arguments: str | bool) -> str:
@@ -162,7 +173,7 @@ def derived_once(name: str, function: str, *arguments: str | bool) -> str:
     from .user_cache import fetch
 
     def alone() -> bytes:
-        with DERIVING:  # one thread at a time
+        with deriving():
             from ...derive.emit import first_use  # imports sympy
 
             text: str = getattr(first_use, function)(*arguments)

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from ..errors import InputError
 from ..host import bounded
-from ..host.emitted import DERIVING, derivation, library_digest
+from ..host.emitted import derivation, deriving, library_digest
 from .user_model import ACCEPTED, Package
 
 
@@ -43,7 +43,7 @@ def _derived_once(key: str, function: str, source: Path | str) -> Package:
     def derived() -> bytes:
         from . import user_model_derived  # imports sympy
 
-        with DERIVING:
+        with deriving():
             return json.dumps(dict(getattr(user_model_derived, function)(source))).encode()
 
     files = json.loads(fetch(key, derived))
