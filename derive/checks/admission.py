@@ -14,7 +14,7 @@ from .base import Check, once, readable
 from .conservation import strings_are_conservative
 from .pendulum_certificate import pendulum_certificate
 
-_DEFAULTS = {"film": "finite", "shear": "immersed", "arm": "midgap", "strings": "exact"}
+DEFAULTS = {"film": "finite", "shear": "immersed", "arm": "midgap", "strings": "exact"}
 
 
 @dataclass(frozen=True)
@@ -47,7 +47,7 @@ def certificate(structure: Structure, laws: Mapping[str, Law] | None = None) -> 
     Its preconditions: solids, film and shear only dissipate; bridge and strings have a potential; the angular momentum,
     if there is any, is among the invariants found; and the potential has a barrier.
     """
-    chosen = {slot: LAWS[slot][name] for slot, name in _DEFAULTS.items()} | dict(laws or {})
+    chosen = {slot: LAWS[slot][name] for slot, name in DEFAULTS.items()} | dict(laws or {})
     checks = [dissipation.film_dissipates(chosen["film"]), *once(dissipation.rebound_dissipates)]
     if structure.bridge:
         checks += once(dissipation.bridge_does_work)
@@ -104,13 +104,13 @@ def _argument(structure: Structure) -> str:
     return f"energy below the barrier ahead of U_eff = {' + '.join(parts)}, which no loss can make up for"
 
 
-def certificates(laws: Mapping[str, Law] | None = None) -> tuple[Check, ...]:
-    """The certificate of every structure; a note gives the reason where there is none."""
+def certificates(*laws: Law) -> tuple[Check, ...]:
+    """The certificate of every structure with these laws; a note gives the reason where there is none."""
     checks = []
     for structure in structures():
         if structure.reduced:
             continue
-        proof = certificate(structure, laws)
+        proof = certificate(structure, {law.slot: law for law in laws})
         statement = "; ".join(proof.held) or "which proof of a stick the model admits"
         checks.append(Check(f"certificate: {structure.name}", statement, proof.admitted or None, proof.describe()))
     return tuple(checks)

@@ -98,8 +98,8 @@ def verify(
 ) -> None:
     """Check the laws on SCENE, or on all presets: symbolic identities and numbers; the report goes to standard output.
 
-    Its first line says that all hold, or what failed and why. The symbolic verdicts are kept in the cache for as long
-    as the equations, and what they depend on otherwise, are the same.
+    Its first line says that all hold, or what failed and why. The symbolic verdicts come with the package or are kept
+    in the cache, for as long as the equations, and what they depend on otherwise, are the same.
 
     With --stress, all engines compute the same scenes: each difference between them is explained by a boundary within
     their error, or makes the exit status 1.
@@ -109,7 +109,7 @@ def verify(
         -o FILE (output): Write the report to FILE as well.
         --stress [N=500]: Instead: compare all engines on N scenes, drawn and beside boundaries.
         --out DIR: Folder for record, tables and worst scenes of --stress [stress].
-        --recompute: Make the symbolic verdicts again, though they are kept.
+        --recompute: Prove all symbolic verdicts here, though they are known.
     """
     if stress is not None:
         others = {"SCENE": request.source, **request.options, "-o": output and str(output)}
@@ -129,10 +129,11 @@ def verify(
             work = Estimated(bar, _SYMBOLIC + _NUMERIC * (1 if scene else 4))
 
             def progress(finding: Finding) -> None:
-                if finding.kept and not findings:  # the symbolic ones take no time
+                took = not (finding.kept or finding.shipped)
+                if not took and not findings:  # the symbolic ones take no time
                     work.start(-_SYMBOLIC)
                 findings.append(finding)
-                work.add(0.0 if finding.kept else 1.0)
+                work.add(float(took))
 
             report = verify(scene, progress, recompute)
     except KeyboardInterrupt:

@@ -1,8 +1,9 @@
 """Symbolic identities of the derivation, as findings; computed again only if something they depend on has changed.
 
-They are kept in the user's cache. The name of an entry is a digest of everything they depend on: the derivation's
-sources, the versions of sympy, Python and the libraries below, and the selected laws. The cache verifies an entry's
-content, so a damaged one is computed again.
+Those of a scene are kept in the user's cache as a whole, which needs no sympy; where anything has changed they are
+taken one by one (`verdicts`). The name of an entry is a digest of everything they depend on: the derivation's sources,
+the versions of sympy, Python and the libraries below, and the selected laws. The cache verifies an entry's content, so
+a damaged one is computed again.
 """
 
 import hashlib
@@ -16,10 +17,10 @@ from pathlib import Path
 
 from ..host import user_cache
 from ..host.emitted import DERIVING, derivation
-from ..model.model import select_model
 from ..scene.scene import Scene
 from ..scene.user_model import Package
 from .report import Finding
+from .verdicts import findings, laws_of
 
 _BENEATH = ("mpmath", "gmpy2", "python-flint")  # what sympy computes with, as far as it is installed
 
@@ -33,24 +34,10 @@ def symbolic(scene: Scene | None = None, recompute: bool = False) -> Iterator[Fi
     Arguments:
         recompute: compute them even if they are kept.
     """
-    chosen = dict(select_model(scene, oblique=True, full=True).laws) if scene is not None else {}
-    yield from kept_verdicts(symbolic_key(chosen), lambda: _computed(chosen), recompute)
+    chosen = laws_of(scene)
+    yield from kept_verdicts(symbolic_key(chosen), lambda: findings(chosen, recompute), recompute)
     if scene is not None and scene.package is not None:
         yield from of_the_model(scene.package)
-
-
-def _computed(chosen: Mapping[str, str]) -> Iterator[Finding]:
-    """The findings one by one, each locked against derivations in other threads."""
-    from ...derive.checks import symbolic_checks
-    from ...derive.laws import LAWS
-
-    checks = iter(symbolic_checks({slot: LAWS[slot][name] for slot, name in chosen.items() if name in LAWS[slot]}))
-    while True:
-        with DERIVING:
-            check = next(checks, None)
-        if check is None:
-            return
-        yield Finding("Symbolic", check.name, check.statement, check.figure, "", check.ok)
 
 
 def of_the_model(package: Package) -> Iterator[Finding]:
@@ -100,9 +87,9 @@ def kept_verdicts(key: str, compute: Callable[[], Iterable[Finding]], recompute:
     if content is not None:
         yield from (replace(Finding(**{**row, "about": tuple(row["about"])}), kept=True) for row in json.loads(content))
         return
-    findings = []
+    results = []
     for finding in compute():
-        findings.append(finding)
+        results.append(finding)
         yield finding
-    text = json.dumps([asdict(finding) for finding in findings])
+    text = json.dumps([asdict(finding) for finding in results])
     user_cache.fetch(name, text.encode)

@@ -27,6 +27,7 @@ class Finding:
         where: the place of the worst case (Stokes number, angle, engine, event).
         about: further lines (a table, intervals), shown verbatim.
         kept: True if it was computed by an earlier run, from the same equations.
+        shipped: True if it was proved when the package was built, from the same equations.
     """
 
     group: str
@@ -38,6 +39,7 @@ class Finding:
     where: str = ""
     about: tuple[str, ...] = ()
     kept: bool = False
+    shipped: bool = False
 
     @property
     def line(self) -> str:
@@ -102,11 +104,14 @@ class Report(Recorded):
 
     @property
     def summary(self) -> str:
-        """The last line: number of passed checks, names of failed ones, and how many are from an earlier run."""
+        """The last line: number of passed checks, names of failed ones, and how many are not of this run."""
         names = "; ".join(f"{finding.name} ({finding.group})" for finding in self.failed)
-        count = sum(finding.kept for finding in self.findings)
-        earlier = f" ({count} verdicts kept from an earlier run on the same equations)" if count else ""
-        return f"{self._counted}{': ' if names else ''}{names}{earlier}"
+        shipped = sum(finding.shipped for finding in self.findings)
+        earlier = sum(finding.kept and not finding.shipped for finding in self.findings)
+        counts = {"proved when this version was built": shipped, "kept from an earlier run": earlier}
+        texts = [f"{count} verdicts {source}" for source, count in counts.items() if count]
+        other = f" ({', '.join(texts)}, on the same equations; --recompute proves them here)" if texts else ""
+        return f"{self._counted}{': ' if names else ''}{names}{other}"
 
     @property
     def _counted(self) -> str:

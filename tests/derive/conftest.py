@@ -10,7 +10,8 @@ from types import ModuleType
 from typing import Any
 
 import pytest
-from wetdoublet.derive.checks import Check, symbolic_checks
+from wetdoublet.derive.checks.base import Check
+from wetdoublet.derive.checks.symbolic import symbolic_checks
 from wetdoublet.derive.equations.certificates.table import CERTIFICATES
 from wetdoublet.derive.equations.model import Model, derive
 from wetdoublet.derive.laws import LAWS

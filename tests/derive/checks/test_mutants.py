@@ -6,8 +6,8 @@ from typing import Any
 
 import pytest
 import sympy as sp
-from wetdoublet.derive.checks import Check
 from wetdoublet.derive.checks.admission import certificate
+from wetdoublet.derive.checks.base import Check
 from wetdoublet.derive.checks.certificate import least_energy, least_energy_is_a_minimum
 from wetdoublet.derive.checks.conservation import energy, inertia_is_rigid_rotation, strings_are_conservative
 from wetdoublet.derive.checks.dimensions import (

@@ -1,14 +1,22 @@
 """Symbolic verdicts are made once for the same equations, and again where anything that they depend on is another."""
 
 import ast
+import json
+import os
+import shutil
+import subprocess
 import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
+import wetdoublet
 from wetdoublet import derive
+from wetdoublet.solvers.host.emitted import DERIVE
+from wetdoublet.solvers.verify.build import needed
 from wetdoublet.solvers.verify.identities import kept_verdicts, symbolic_key
 from wetdoublet.solvers.verify.report import Finding, Report
+from wetdoublet.solvers.verify.verdicts import PROVED, findings, proved, shipped, sources
 
 Verdicts = Callable[..., list[Finding]]
 FINDINGS = [
@@ -39,7 +47,8 @@ def test_a_second_run_makes_none_and_says_so(verdicts: Verdicts) -> None:
     first, second = verdicts("a"), verdicts("a")
     assert verdicts.made == first == FINDINGS  # type: ignore[attr-defined]  # the function keeps a count
     assert [(one.name, one.ok, one.about) for one in second] == [(one.name, one.ok, one.about) for one in FINDINGS]
-    assert str(Report(tuple(second))).endswith("(2 verdicts kept from an earlier run on the same equations)")
+    last = "(2 verdicts kept from an earlier run, on the same equations; --recompute proves them here)"
+    assert " ".join(str(Report(tuple(second))).split()).endswith(last)
     assert "kept" not in str(Report(tuple(first)))
 
 
@@ -70,3 +79,84 @@ def test_the_derivation_depends_on_its_own_files_sympy_and_casadi_alone() -> Non
                 root = (node.module or "").partition(".")[0]
                 own = (node.module or "").startswith("wetdoublet.derive.")  # of a model file of the library
                 assert own or (node.level <= depth if node.level else root in outside), file
+
+
+def test_the_package_has_the_verdicts_of_its_own_derivation() -> None:
+    """None is missing or left over; `python -m wetdoublet.solvers.verify.build` proves what is missing."""
+    assert shipped().keys() == needed().keys()
+
+
+@pytest.mark.slow
+def test_the_verdicts_of_the_package_are_what_is_proved() -> None:
+    """Each is made again from the derivation as it is, in the same words."""
+    for key, proof in needed().items():
+        assert [list(row) for row in proved(proof)] == json.loads(PROVED.read_bytes())[key]
+
+
+def test_verdicts_of_the_package_say_so() -> None:
+    """Without sympy's work, all that the presets ask for; the report counts them, and `recompute` takes none."""
+    known = list(findings({}))
+    assert all(finding.shipped and not finding.kept for finding in known)
+    last = f"({len(known)} verdicts proved when this version was built, on the same equations; --recompute"
+    assert last in " ".join(str(Report(tuple(known))).split())
+    assert not next(findings({}, recompute=True)).shipped
+
+
+_LOADED = (
+    "import sys, wetdoublet.derive.checks.{}\nprint(*(m.__file__ for n, m in sys.modules.items() if '.derive' in n))"
+)
+
+
+@pytest.mark.parametrize("name", ["admission", "friction", "laws"])
+def test_what_a_proof_uses_has_all_that_python_loads_for_it(name: str) -> None:
+    """The files read from the text of imports hold those that a fresh interpreter has loaded for a check's module."""
+    done = subprocess.run([sys.executable, "-c", _LOADED.format(name)], capture_output=True, text=True, check=True)
+    files, outside = sources(DERIVE / "checks" / f"{name}.py")
+    assert {Path(file).resolve() for file in done.stdout.split()} <= files
+    assert outside == {"sympy"}
+
+
+_FINDINGS = """
+import json, sys
+from wetdoublet.solvers.verify import verdicts
+every = verdicts.proofs_of
+verdicts.proofs_of = lambda laws: (proof for proof in every(laws) if proof.function.__name__ == sys.argv[1])
+print(json.dumps([[finding.name, finding.ok, finding.shipped, finding.kept] for finding in verdicts.findings({})]))
+"""
+MUTANTS = {  # file, text, what is put there, the function that proves it, and the check that fails
+    "a law that a check names": (
+        "laws/constant.py", "cos(phi)", "cos(phi / 2)", "generalised_number", "generalised centrifugal number",
+    ),
+    "a law that a check is asked about": (
+        "laws/film.py", "stopping=_taken(normal_force())", "stopping=2 * _taken(normal_force())",
+        "head_on_closed_form", "head-on closed form: finite",
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", MUTANTS)
+def test_a_changed_term_is_proved_anew_and_fails(name: str, tmp_path: Path) -> None:
+    """Neither the verdicts of the package nor those kept by earlier runs, right or wrong, are taken for it."""
+    path, old, new, function, failing = MUTANTS[name]
+    package = tmp_path / "wetdoublet"
+    for room in ("derive", "generated", "solvers"):
+        ignored = shutil.ignore_patterns("__pycache__", "*.so", "built")
+        shutil.copytree(DERIVE.with_name(room), package / room, ignore=ignored)
+    for file in filter(Path.is_file, Path(wetdoublet.__path__[0]).glob("*.py")):
+        shutil.copyfile(file, package / file.name)
+    environment = os.environ | {"PYTHONPATH": str(tmp_path), "WETDOUBLET_CACHE": str(tmp_path / "cache")}
+
+    def found() -> list[list[object]]:
+        command = [sys.executable, "-c", _FINDINGS, function]
+        done = subprocess.run(command, env=environment, cwd=tmp_path, capture_output=True, text=True, check=True)
+        return json.loads(done.stdout)  # type: ignore[no-any-return]
+
+    of_package = package / "solvers" / "verify" / PROVED.name
+    of_package.rename(tmp_path / PROVED.name)
+    assert [failing, True, False, False] in found()  # proved, and kept
+    (tmp_path / PROVED.name).rename(of_package)
+    text = (package / "derive" / path).read_text(encoding="utf-8")
+    assert old in text
+    (package / "derive" / path).write_text(text.replace(old, new), encoding="utf-8")
+    assert [failing, False, False, False] in found()
+    assert [failing, False, False, True] in found()
