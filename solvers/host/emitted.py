@@ -153,6 +153,13 @@ def derivation() -> str:
     digest = hashlib.sha256()
     for name in ("wetdoublet", "sympy", "casadi"):
         digest.update(f"{name} {version(name)}\n".encode())
+    digest.update(sources_of_derivation().encode())
+    return digest.hexdigest()
+
+
+def sources_of_derivation() -> str:
+    """Digest of the derivation's sources."""
+    digest = hashlib.sha256()
     for path in sorted(DERIVE.rglob("*.py")):
         digest.update(path.relative_to(DERIVE).as_posix().encode() + b"\0" + path.read_bytes() + b"\0")
     return digest.hexdigest()
