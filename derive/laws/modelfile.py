@@ -19,9 +19,10 @@ def declared(path: Path, text: str | None = None) -> tuple[str, Declarations]:
         ModelFileError: the file cannot be read or run, or declares nothing; names the line.
     """
     source = _text(path) if text is None else text
-    for name in files() if ".laws" in source else ():  # what it imports declares nothing of its own
+    imports = ".laws" in source or "from ." in source
+    for name in files() if imports else ():  # what it imports declares nothing of its own
         getattr(laws, name)
-    namespace = {"__name__": "wetdoublet_model", "__file__": str(path)}
+    namespace = {"__name__": "wetdoublet_model", "__package__": __package__, "__file__": str(path)}
     with collecting(LAWS) as result:
         try:
             exec(compile(source, str(path), "exec", dont_inherit=True), namespace)  # the warnings are the user's own

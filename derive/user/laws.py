@@ -73,6 +73,8 @@ def law(
         raise ModelFileError(f"law {slot}", name, "a name of your own", "is a law of the library")
     if (slot, name) in model.laws:
         raise ModelFileError(f"law {slot}", name, "each name once", "is declared twice")
+    if slot == "attraction" and not model.library and any(other == slot for other, _ in model.laws):
+        raise ModelFileError(f"law {slot}", name, "one law in a file", "is a second one, which no entry chooses")
     by_name = {place.function: place for place in places().values() if place.slot == slot}
     for foreign in functions.keys() - by_name.keys():
         raise ModelFileError(label, foreign, "the functions " + ", ".join(by_name), "is no function of this slot")

@@ -12,8 +12,6 @@ _NAMES = "|".join(sorted((re.escape(name) for laws in LAWS.values() for name in 
 
 
 def copied(*files: str) -> str:
-    """Text of a model file with the laws of some files, NAME as NAME-copy; relative imports are absolute."""
+    """Text of a model file with the laws of some files, NAME as NAME-copy."""
     text = "\n".join((FOLDER / f"{file}.py").read_text() for file in files)
-    text = re.sub(r"^from \.\.", "from wetdoublet.derive.", text, flags=re.MULTILINE)
-    text = re.sub(r"^from \.", "from wetdoublet.derive.laws.", text, flags=re.MULTILINE)
     return re.sub(rf'^(law\(\s*"\w+", |_\w+\()"({_NAMES})",', r'\1"\2-copy",', text, flags=re.MULTILINE)

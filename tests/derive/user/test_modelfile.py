@@ -192,6 +192,7 @@ def test_template_says_what_it_is_without_stress():
     [
         ("law('brige', 'mine', force=1)", "line 2: law: 'brige' is not a slot"),
         ("law('bridge', 'mikami', force=1)", "is a law of the library"),
+        ("for name in ('near', 'far'): law('attraction', name, force=1/gap**2)", "'far' is a second one"),
         ("law('bridge', 'mine', pull=1)", "accepted: the functions force"),
         ("law('bridge', 'mine')", "law bridge mine.force"),
         ("law('film', 'mine', resistance=1/gap, suction=0.5/gap)", "law film mine.suction"),
