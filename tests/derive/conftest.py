@@ -10,14 +10,11 @@ from types import ModuleType
 from typing import Any
 
 import pytest
-from wetdoublet.derive.checks.base import Check
-from wetdoublet.derive.checks.symbolic import symbolic_checks
 from wetdoublet.derive.equations.certificates.table import CERTIFICATES
 from wetdoublet.derive.equations.model import Model, derive
-from wetdoublet.derive.laws import LAWS
 from wetdoublet.derive.physics.structure import FREE, Structure, structures
-
-from ..helpers.shared import made_once
+from wetdoublet.solvers.verify.report import Finding
+from wetdoublet.solvers.verify.verdicts import findings
 
 _ROOT = derive.__module__.rsplit(".", 2)[0]
 # What is remembered of forces and models; mechanics, laws and scaling are functions of their arguments alone.
@@ -31,18 +28,9 @@ def models() -> dict[str, Model]:
 
 
 @pytest.fixture(scope="session")
-def checked(tmp_path_factory: pytest.TempPathFactory) -> dict[str, tuple[Check, ...]]:
-    """Every check with all laws of the library, and with one chosen in a slot; most depend on no law."""
-    made = {"all": None, "film shear": {"shear": LAWS["shear"]["film"]}}
-    return made_once(
-        tmp_path_factory, "checks", lambda: {name: tuple(symbolic_checks(laws)) for name, laws in made.items()}
-    )
-
-
-@pytest.fixture(scope="session")
-def healthy(checked: dict[str, tuple[Check, ...]]) -> dict[str, Check]:
-    """Every check of the library's derivation, by name."""
-    return {check.name: check for check in checked["all"]}
+def healthy() -> dict[str, Finding]:
+    """Every check of the library's derivation, by name: the package's verdicts, which a test of theirs proves again."""
+    return {finding.name: finding for finding in findings({})}
 
 
 def _modules() -> list[ModuleType]:

@@ -37,6 +37,7 @@ from wetdoublet.derive.physics.mechanics import F_c, F_n, F_t, S_t, doublet_iner
 from wetdoublet.derive.physics.scaling import group_definitions
 from wetdoublet.derive.physics.structure import Structure
 from wetdoublet.derive.vocabulary import quantities as q
+from wetdoublet.solvers.verify.report import Finding
 
 pytestmark = [pytest.mark.slow, pytest.mark.usefixtures("few_structures")]
 
@@ -45,7 +46,7 @@ MIDGAP, IMMERSED, FILM = LAWS["arm"]["midgap"], LAWS["shear"]["immersed"], LAWS[
 STRINGS = LAWS["strings"]["small-angle"]
 Mutate = Callable[[Any, Any], None]
 Mutation = Callable[[Mutate], None]
-Healthy = dict[str, Check]
+Healthy = dict[str, Finding]
 
 
 def flat(checks: Any) -> list[Check]:
