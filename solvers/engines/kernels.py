@@ -126,13 +126,14 @@ def needed(scene: Scene, tolerances: Sequence[float], derivatives: bool) -> Iter
     """Use, obliquity and variant of each kernel; some uses share one."""
     for rtol in tolerances:
         for oblique in (True, False):
-            yield "collide", oblique, variant(scene, oblique, rtol, ledger=True)
+            yield "collide", oblique, variant(scene, oblique, rtol, ledger=True, small=True)
             yield "collide with its trajectory", oblique, variant(scene, oblique, rtol, ledger=True, trajectory=True)
-            yield "collide without ledger", oblique, variant(scene, oblique, rtol)
+            yield "collide without ledger", oblique, variant(scene, oblique, rtol, small=True)
             yield "collide_many", oblique, variant(scene, oblique, rtol, rotation=False)
-            yield "map", oblique, variant(scene, oblique, rtol)
+            for small in (True, False):
+                yield "map", oblique, variant(scene, oblique, rtol, small=small)
             yield "boundary", oblique, variant(scene, oblique, RTOL, trajectory=True, fold=False)
             if derivatives:
                 for rotation in (False, True):
-                    yield "sensitivities", oblique, variant_of(scene, oblique, order_for(rtol), rotation)
+                    yield "sensitivities", oblique, variant_of(scene, oblique, order_for(rtol), rotation, small=True)
                 yield "gradients_many", oblique, variant_of(scene, oblique, order_backward(rtol), False, True)

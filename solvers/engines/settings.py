@@ -10,6 +10,7 @@ RTOL = 1e-9  # default
 # ComputationError says where the collision stands, or a status of the exported law that it is undecided.
 KERNEL_STEPS, KERNEL_STEPS_IN_SPACE = 1_000_000, 300_000
 ROSENBROCK_STEPS, ROSENBROCK_STEPS_IN_SPACE = 15_000, 5_000  # most of one phase at the default tolerance
+SMALL = 10_000  # a map of up to this many collisions takes less time than the compiler, for a user's model
 FEW = 100  # up to this many collisions, a second core does not pay
 TOLERANCE = Field(
     "rtol", "a relative tolerance", "1e-9", Range("from 1e-13 to 1e-3", 1e-13, 1e-3, low_open=False, high_open=False)

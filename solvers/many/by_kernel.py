@@ -78,7 +78,7 @@ def impacts_of(request: Impacts) -> tuple[call.Impacts, np.ndarray]:
         speed = request.speed if request.speed is not None else np.asarray(request.stokes) / unit
         sound &= _usual(speed, _MOST)
         sound &= _within_film(scene, {**(values or scene.material), "speed": speed})
-    impacts = call.Impacts(scene, speed, request.angle, values)
+    impacts = call.Impacts(scene, speed, request.angle, values, request.small)
     return impacts if sound.all() else impacts.subset(np.flatnonzero(sound)), sound
 
 

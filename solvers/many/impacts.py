@@ -42,6 +42,7 @@ class Impacts:
         columns: dotted name of an entry -> its dimensions, and its checked values along these: SI, or names of choices.
         held: which quantity of the scene's impact all collisions share, in words.
         beside: further coordinates, of DataArrays among the arguments.
+        small: the whole request, of which these may be a part, has few collisions (`Variant`).
     """
 
     scene: Scene
@@ -53,6 +54,7 @@ class Impacts:
     of: tuple[str, ...] = ()
     held: str = ""
     beside: xarray.Dataset | None = None
+    small: bool = False
 
     @classmethod
     def listed(cls, scene: Scene, columns: Mapping[str, np.ndarray], rtol: float) -> Impacts:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..engines.settings import RTOL, check_engine, check_rtol
+from ..engines.settings import RTOL, SMALL, check_engine, check_rtol
 from ..errors import InputError
 from ..formatting.labelled import Column
 from ..host import files
@@ -142,7 +142,7 @@ def regime_map(
     dims = tuple(name.partition(".")[2] if name in MEETING else name for name in axes)
     columns = {name: ((dim,), axis) for dim, (name, axis) in zip(dims, axes.items(), strict=True)}
     shape = tuple(axis.size for axis in axes.values())
-    grid = Grid(loaded, columns, dims, shape, rtol, engine, names, held)
+    grid = Grid(loaded, columns, dims, shape, rtol, engine, names, held, small=math.prod(shape) <= SMALL)
     grid.check()
     if file is not None:
         return into_store(grid, file, client, progress)

@@ -141,7 +141,7 @@ def course(answer: np.void, log: np.ndarray, words: Sequence[str], speed: float)
 
 def courses_of(scene: Scene, n: Problem, factors: np.ndarray) -> list[Course]:
     """What happens in a scene's collision at other speeds."""
-    impacts = Impacts(scene, n.speed * factors, np.full(factors.size, n.angle))
+    impacts = Impacts(scene, n.speed * factors, np.full(factors.size, n.angle), small=True)
     ran, words = run_recorded(impacts, n.oblique, FINE, ledger=True), words_of(scene)
     speeds = ran.answers["shown"][:, 0].tolist()
     rows = zip(ran.answers, ran.events, speeds, strict=True)

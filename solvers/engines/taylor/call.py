@@ -36,17 +36,19 @@ class Impacts:
     Arguments:
         speed, angle: normal speeds (m/s), angles (rad); in space no angle is read.
         others: columns of quantities by their names in the vocabulary, in place of the scene's.
+        small: they are of a request of few collisions, as of `Variant`.
     """
 
     scene: Scene
     speed: np.ndarray
     angle: np.ndarray
     others: Mapping[str, np.ndarray] = field(default_factory=dict)
+    small: bool = False
 
     @classmethod
     def single(cls, problem: Problem) -> Impacts:
         """One collision."""
-        return cls(problem.scene, np.array([problem.speed]), np.array([problem.angle]))
+        return cls(problem.scene, np.array([problem.speed]), np.array([problem.angle]), small=True)
 
     @property
     def size(self) -> int:
@@ -78,7 +80,7 @@ class Impacts:
 
     def subset(self, which: np.ndarray | slice) -> Impacts:
         others = {name: values[which] for name, values in self.others.items()}
-        return Impacts(self.scene, self.speed[which], self.angle[which], others)
+        return Impacts(self.scene, self.speed[which], self.angle[which], others, self.small)
 
     def problem(self, k: int) -> Problem:
         """Collision k as the scene has it, without columns."""
@@ -94,13 +96,15 @@ def variant(
     trajectory: bool = False,
     fold: bool = True,
     space: bool = False,
+    small: bool = False,
 ) -> Variant:
-    """The kernel of a scene's collisions at a tolerance; arguments as of `run_recorded` and `select_model`."""
+    """The kernel of a scene's collisions at a tolerance; arguments as of `run_recorded`, `select_model`, `Variant`."""
     own_rupture = scene.bridge is not None and scene.bridge.rupture == "own"
     choice = select_model(scene, oblique, ledger, fold, space)
     if scene.package is not None:
         scene.package.check_terms(choice.structure)
-    return Variant(choice, order_for(rtol), rotation and not space, own_rupture, ledger=ledger, trajectory=trajectory)
+    rotation = rotation and not space
+    return Variant(choice, order_for(rtol), rotation, own_rupture, ledger=ledger, trajectory=trajectory, small=small)
 
 
 def run_kernel(
@@ -125,7 +129,8 @@ def run_kernel(
     answers = np.zeros(impacts.size, ANSWER_IN_SPACE if space else ANSWER)
     steps = budget or (KERNEL_STEPS_IN_SPACE if space else KERNEL_STEPS)
     for oblique, which in impacts.by_kind():
-        wanted = variant(scene, oblique, rtol, rotation or ledger, ledger, fold=not impacts.others, space=space)
+        options = {"fold": not impacts.others, "space": space, "small": impacts.small}
+        wanted = variant(scene, oblique, rtol, rotation or ledger, ledger, **options)
         library, terms_of = kernel(wanted), OWN_LEDGER if books_own(wanted.choice) else LEDGER
 
         def chunk(first: int, library: Any = library, which: np.ndarray = which, terms_of: Any = terms_of) -> None:

@@ -64,7 +64,7 @@ def run_recorded(
             again.
         until: time (x0/v0) to which a single collision is followed, a stick beyond its proof.
     """
-    wanted = variant(impacts.scene, oblique, rtol, True, ledger, trajectory, fold)
+    wanted = variant(impacts.scene, oblique, rtol, True, ledger, trajectory, fold, small=impacts.small)
     wanted = wanted if until is None else replace(wanted, limit=True, lanes=1)
     library = kernel(wanted)
     size, keep = impacts.size, keep and trajectory

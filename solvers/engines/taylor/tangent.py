@@ -89,7 +89,7 @@ def run_tangent(
     """
     order = order or (order_backward if backward else order_for)(min(rtol, LOOSEST))
     scene = impacts.scene
-    wanted = variant_of(scene, oblique, order, rotation, backward, fold)
+    wanted = variant_of(scene, oblique, order, rotation, backward, fold, impacts.small)
     library = kernel(wanted) if kernel_supports(scene, (oblique,), gradients=True) else None
     if library is None:
         return None
@@ -114,10 +114,16 @@ def run_tangent(
 
 
 def variant_of(
-    scene: Scene, oblique: bool, order: int, rotation: bool, backward: bool = False, fold: bool = True
+    scene: Scene,
+    oblique: bool,
+    order: int,
+    rotation: bool,
+    backward: bool = False,
+    fold: bool = True,
+    small: bool = False,
 ) -> Variant:
     """The variant of the kernel that differentiates a scene's collisions."""
-    plain = variant(scene, oblique, LOOSEST, rotation, fold=fold)
+    plain = variant(scene, oblique, LOOSEST, rotation, fold=fold, small=small)
     return replace(plain, order=order, gradients=True, backward=backward)
 
 
