@@ -1,7 +1,7 @@
 """Symbolic identities of the derivation, as findings; computed again only if something they depend on has changed.
 
-Those of a scene are kept in the user's cache as a whole, which needs no sympy; where anything has changed they are
-taken one by one (`verdicts`). The name of an entry is a digest of everything they depend on: the derivation's sources,
+Those of a scene are kept in the user's cache as a whole, which needs no sympy; otherwise they are those of the package
+or are proved (`verdicts`). The name of an entry is a digest of everything they depend on: the derivation's sources,
 the versions of sympy, Python and the libraries below, and the selected laws. The cache verifies an entry's content, so
 a damaged one is computed again.
 """
