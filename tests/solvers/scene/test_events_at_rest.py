@@ -266,3 +266,23 @@ def test_an_angle_that_turns_for_ever_ends_alike_with_the_ledger_and_without(tmp
     assert found.steps < 2e4
     np.testing.assert_allclose(many.steps, found.steps, rtol=0.01)
     np.testing.assert_allclose(many.until, found.until, rtol=1e-3)
+
+
+@pytest.mark.parametrize("wall", [False, True])
+def test_what_a_film_has_stopped_waits_for_the_time_of_an_event(wall: bool, tmp_path: Path):
+    """Head-on, or beside a wall, nothing moves a doublet that the film alone has stopped: a kick comes when due."""
+    kick = 'event("kick", guard={}, jump={{u: u + v0/4}}, releases=m*v0**2)'
+    for name, guard in {"due": "kicked - t", "never": "kicked + t"}.items():
+        (tmp_path / f"{name}.py").write_text(
+            '"""x"""\nfrom wetdoublet.derive.user import *\n'
+            'kicked = quantity("kicked", unit="s", default="0.01 s", meaning="time")\n' + kick.format(guard)
+        )
+    plain = Scene.load("granulation-dry-bridge").with_entries({"liquid.glass_transition_pressure": "1e6 GPa"})
+    plain = plain.with_entries({"partner.wall": True}) if wall else plain
+    angle = 0.5 if wall else 0.0
+    due, never = (plain.with_model(tmp_path / f"{name}.py") for name in ("due", "never"))
+    for engine in ENGINES:
+        found = collide(due, stokes=0.1, angle=angle, engine=engine)
+        assert [event.kind for event in found.events] == ["turned", "kick"]
+        assert (found.outcome, found.events[-1].time) == ("stick", pytest.approx(0.01, rel=1e-9))
+    assert collide_many(never, stokes=[0.1] * 3, angle=angle).outcome.values.tolist() == [0, 0, 0]

@@ -201,6 +201,13 @@ static first_event event_of_step(queue *q, expansion *e, const lanes *l, const f
     if (bits(l->alive & l->resting))
         find_events_at_rest(&e->r, l, h, &first);
 #endif
+#if OWN_EVENTS
+    mask floats = floating(l, &e->s) & (first.event == splat_mask(AT_TURNING));
+    if (bits(floats)) {
+        first.time = choose(floats, splat(NO_ROOT), first.time);
+        find_own_events(&e->s, l, f, h, &first);
+    }
+#endif /* OWN_EVENTS */
     return first;
 }
 
@@ -296,7 +303,8 @@ static void run(queue *q)
         act_on(q, &l, &f, due, happens);
         if (bits(due))
             continue;
-        if (bits(l.alive & l.resting) && ended_at_rest(q, &l, &f, has_rested_long(&l)))
+        mask rested = l.alive & has_rested_long(&l);
+        if (bits(rested) && ended_at_rest(q, &l, &f, rested))
             continue;
 #endif /* OWN_EVENTS */
         expand_states(&e, &l, &f);

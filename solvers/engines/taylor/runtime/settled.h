@@ -8,18 +8,20 @@
 #include "state.h"
 
 #if TURNS || OWN_EVENTS
-/* Ends as sticks those of these lanes that rest and are pressed together. Returns whether there were any.
- * The sticks are not certified: the sign of the force is taken without an error.
+/* Ends as sticks those of these lanes, which do not move along the line of centres, that are pressed together at rest or
+ * without a force. Returns whether there were any. The sticks are not certified: the force is taken without an error.
  */
 static int ended_at_rest(queue *q, lanes *l, fixed *f, mask still)
 {
-    still &= l->alive & l->resting & provable(q, l->closing);
+    still &= l->alive & provable(q, l->closing);
 #if WITH_LIMIT
     if (q->contact && q->contact->stuck)
         return 0;
 #endif
-    if (bits(still))
-        still &= inward_force(&f->c, l->y) > 0.0;
+    if (bits(still)) {
+        vec inward = inward_force(&f->c, l->y);
+        still &= (inward == 0.0) | (l->resting & (inward > 0.0));
+    }
     EACH_OF(lane, bits(still))
         sticks_for_good(q, l, f, lane, 0);
     return bits(still) != 0;
@@ -39,7 +41,7 @@ static mask has_rested_long(const lanes *l)
 #if defined(ANGLE_STATE)
     rested |= vec_abs(l->y[ANGLE_STATE]) > FARTHEST_TURN;
 #endif
-    return l->resting & rested;
+    return rested & (l->y[NORMAL_VELOCITY] == 0.0);
 }
 
 static mask is_constant(const vec *a)
@@ -56,6 +58,12 @@ static mask has_decayed(const vec *a)
 {
     mask decays = ((a[1] < 0.0) & (a[2] > 0.0)) | ((a[1] > 0.0) & (a[2] < 0.0));
     return decays & (a[1]*a[1] <= 2.0*SETTLED*vec_abs(a[2])*(vec_abs(a[0]) + LEAST_SIZE));
+}
+
+/* Lanes that float: a film has stopped them where no other force acts along the line of centres. They do not turn again. */
+static mask floating(const lanes *l, const series *s)
+{
+    return l->alive & NOT(l->resting) & (l->y[NORMAL_VELOCITY] == 0.0) & is_constant(s->normal_velocity);
 }
 
 /* Makes the series constant, and those of clocks and integrals linear, in lanes that rest beside events to come and have
