@@ -134,7 +134,7 @@ def read_film(source: Any, particles: Any, solids: float, lengths: Units) -> Fil
             cells = [None if k != k else by_name[place[0]].cells[int(k)] for k in both[f"row{place[1]}"]]
             shared[place] = replace(by_name[place[0]], name=place, cells=cells)
         lines = [lines[k] for k in rows]
-        depth = [by_name["z"].cells[k] for part in (first, second) for k in part.row] if "z" in by_name else []
+        depth = [by_name["z"].cells[k] for body in (first, second) for k in body.row] if "z" in by_name else []
     else:
         four = [word for body in pair for word in bodies[body[0]]]
         deep = [re.sub(r"^x(?=_?\d+$)|x$", "z", word) for word in four[::2]]

@@ -39,13 +39,13 @@ def findings(laws: Mapping[str, str], recompute: bool = False) -> Iterator[Findi
         laws: of the scene; see `laws_of`.
         recompute: prove them all here.
     """
-    known = {} if recompute else shipped()
+    verdicts = {} if recompute else shipped()
     remaining = proofs_of(laws)
     while True:
         with DERIVING:
             if (proof := next(remaining, None)) is None:
                 return
-            of_package = known.get(proof.digest)
+            of_package = verdicts.get(proof.digest)
             rows = of_package or proved(proof)
         for title, statement, figure, ok in rows:
             yield Finding("Symbolic", title, statement, figure, "", ok, shipped=of_package is not None)
