@@ -18,10 +18,11 @@ from ..engines.settings import RTOL
 from ..errors import InputError
 from ..scene.scene import Scene
 from ..scene.schema import SPINS
+from .directions import directions, narrow_rows
 from .free_entries import NOISE
 from .measurements import SCATTER, Measurements, rows_of
 from .rare_outcomes import RARE, beyond_reach
-from .scatter import REACH, Resolution, ScatterLines, SegmentMap, Segments, in_deviations, nearest_normals, segment_map
+from .scatter import REACH, Resolution, ScatterLines, SegmentMap, Segments, segment_map
 
 NEGLIGIBLE = 1e-12  # probability of the scatter below which a segment is left out
 _PASSED = 1e-3  # weight of a line, and probability of an outcome on it, that do not count where lines are compared
@@ -33,7 +34,6 @@ deviations) contradicts the model; from there its log-likelihood falls with the 
 
 _BEYOND = 6.0  # standard deviations of noise and angle beyond which a restitution is impossible
 _NAMED = 8  # rows in a message
-_ROOM, _NARROW = 1.3, 0.6  # widening of an integrand, and its width (deviations of the scatter) below which it counts
 _FINEST = 32  # most by which the points of a segment are multiplied
 _SIDES = -0.02, 0.02  # relative steps of the differences by the scatter
 _USUAL = Resolution().lines * Resolution().nodes
@@ -67,22 +67,6 @@ class Evaluation:
         return float(self.rows.sum())
 
 
-@dataclass(frozen=True)
-class _Narrow:
-    """Rows whose integrand is much narrower across the lines than the scatter.
-
-    Attributes:
-        centre, width: of the integrands of all rows.
-        row: those rows, and of them the results' `mean` and `spread` over the scatter.
-    """
-
-    centre: np.ndarray
-    width: np.ndarray
-    row: np.ndarray
-    mean: dict[str, np.ndarray]
-    spread: dict[str, np.ndarray]
-
-
 class Likelihood:
     """The log-likelihood of measurements as a function of the free entries' values.
 
@@ -112,32 +96,12 @@ class Likelihood:
             self.constant[seen] -= np.log(sd[seen] * np.sqrt(2 * np.pi))
 
     def aim(self, values: np.ndarray) -> None:
-        """Turn the lines of each row towards its nearest change of outcome, or along a result's gradient.
-
-        The gradient is that of the first measured result that changes over the scatter by more than its noise.
+        """Turn the lines of each row across its changes of outcome and the bands that results leave.
 
         Raises:
             InputError: these values make the scene of a row impossible.
         """
-        experiment, data = self.experiment_at(values), self.noisier(values)
-        if not ((data.speed_sd > 0) & (data.angle_sd > 0)).any():
-            return
-        distance, normal = nearest_normals(experiment, data)
-        nearest = np.argmin(distance, axis=1)
-        across = normal[np.arange(data.size), nearest]
-        near = np.isfinite(distance.min(axis=1))
-        self.direction[near] = np.arctan2(across[near, 1], across[near, 0])
-        for k, name in enumerate(self.measured):
-            row = np.flatnonzero(data.separated & np.isfinite(data.observed[name][0]))
-            lines = ScatterLines.through(data, self.direction, 1)
-            at = lines.at(row, np.zeros(row.size))
-            at_point = experiment.results(self.measured, row, *at)
-            by = in_deviations(data, row, *at, at_point.speed[k], at_point.angle[k])
-            steep = np.hypot(at_point.speed[k] * data.speed_sd[row], at_point.angle[k] * data.angle_sd[row])
-            turned = (steep > data.observed[name][1][row]) & by.any(axis=1) & (at_point.outcome > 0)
-            self.direction[row[turned]] = np.arctan2(by[turned, 1], by[turned, 0])
-            if turned.any():
-                break
+        self.direction = directions(self.experiment_at(values), self.noisier(values), self.measured)
 
     def refine(self, values: np.ndarray, tolerance: float) -> None:
         """Choose each row's factor of lines: the last of `FINER` that still changes its log-likelihood, else 1.
@@ -213,7 +177,7 @@ class Likelihood:
         data, size = self.data.noisier(noise), self.size
         if factors is None:
             factors = self.line_factors if resolution.lines > 1 else np.ones(size, int)
-        narrow = self._narrow(experiment, data)
+        narrow = narrow_rows(experiment, data, self.measured, self.direction)
         lines = ScatterLines.through(
             data, self.direction, resolution.lines * factors, REACH, narrow.centre, narrow.width
         )
@@ -263,34 +227,6 @@ class Likelihood:
             limited + self.constant, scores * factor[:, None], rows + self.constant, np.minimum(probability, 1.0),
             undecided, mean, spread,
         )  # fmt: skip
-
-    def _narrow(self, experiment: Experiment, data: Measurements) -> "_Narrow":
-        """Where across the lines what was measured leaves much less than the scatter, to first order."""
-        row = np.flatnonzero(data.separated) if len(self.measured) > 1 else np.zeros(0, int)
-        centre, width = np.zeros(data.size), np.ones(data.size)
-        if not row.size:
-            none = dict.fromkeys(self.measured, np.zeros(0))
-            return _Narrow(centre, width, row, none, none)
-        at = ScatterLines.through(data, self.direction, 1).at(row, np.zeros(row.size))
-        at_point = experiment.results(self.measured, row, *at)
-        precision, pull = np.tile(np.eye(2), (row.size, 1, 1)), np.zeros((row.size, 2))
-        spread = {}
-        for k, name in enumerate(self.measured):
-            values, sd = (column[row] for column in data.observed[name])
-            by = in_deviations(data, row, *at, at_point.speed[k], at_point.angle[k])
-            spread[name] = np.linalg.norm(by, axis=1)
-            mask = np.isfinite(values - at_point.value[k])
-            steep = np.where(mask, 1.0, 0.0)[:, None] * np.nan_to_num(by) / sd[:, None]
-            precision += steep[:, :, None] * steep[:, None]
-            pull += steep * np.where(mask, (values - np.nan_to_num(at_point.value[k])) / sd, 0.0)[:, None]
-        across = np.column_stack([-np.sin(self.direction[row]), np.cos(self.direction[row])])
-        covariance = np.linalg.inv(precision)
-        size = _ROOM * np.sqrt(np.einsum("ni,nij,nj->n", across, covariance, across))
-        less = np.flatnonzero((size < _NARROW) & (at_point.outcome > 0))
-        mean = np.einsum("ni,nij,nj->n", across, covariance, pull)
-        centre[row[less]], width[row[less]] = np.clip(mean, -REACH, REACH)[less], size[less]
-        values_there = {name: at_point.value[k][less] for k, name in enumerate(self.measured)}
-        return _Narrow(centre, width, row[less], values_there, {name: column[less] for name, column in spread.items()})
 
     def _resolved(
         self, row: np.ndarray, noise: Mapping[str, float], mapping: SegmentMap, value: np.ndarray

@@ -103,6 +103,20 @@ def test_precise_results_leave_the_impact_that_has_them(sd: float):
     np.testing.assert_array_less(np.abs(likelihood(value).plain - expected), left**2 + 0.05)
 
 
+def test_lines_cross_a_change_where_a_result_is_steep_along_it():
+    """The likelihood is that of many lines along the speeds, as the change of outcome depends on the speed alone."""
+    scene, value = Scene.load("granulation"), np.array([2.4258])
+    speed = np.array([0.088]) / scene.stokes_per_speed
+    data = Measurements(
+        speed, np.radians([60.32]), 0.0305 * speed, np.radians([1.189]), np.array([2], np.int8),
+        {"restitution": (np.array([0.8943]), np.array([0.0361]))},
+    )  # fmt: skip
+    likelihood = Likelihood(scene, ("liquid.viscosity",), data)
+    many = likelihood(value, Resolution(lines=31, nodes=16)).plain[0]  # along the speeds, before lines are turned
+    likelihood.aim(value)
+    assert likelihood(value).plain[0] == pytest.approx(many, abs=0.02)
+
+
 @pytest.mark.slow
 def test_finer_integrals_change_little():
     """The integrals over the scatter agree with ones that are twice as fine."""
