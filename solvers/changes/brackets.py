@@ -73,13 +73,14 @@ def locate(
     width: float | Callable[[Brackets], np.ndarray],
     unknown: int | None = None,
     most: int | None = None,
+    at_once: int = 0,
 ) -> Changes:
     """The changes along lines that are sampled at ascending `places` (lines, samples); other arguments as `enclose`."""
     line = np.repeat(np.arange(len(places)), places.shape[1])
     label = labels(line, places.ravel())
     indices = np.flatnonzero(np.ones(label.size, bool) if unknown is None else label != unknown)
     brackets = Brackets.between(line[indices], places.ravel()[indices], label[indices])
-    closed = enclose(labels, brackets, width, unknown=unknown, most=most)
+    closed = enclose(labels, brackets, width, at_once=at_once, unknown=unknown, most=most)
     first = label.reshape(places.shape)[:, 0].copy()
     rows, earliest = np.unique(line[indices], return_index=True)
     first[rows] = label[indices[earliest]]

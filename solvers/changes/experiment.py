@@ -107,6 +107,12 @@ class Results:
     speed: np.ndarray
     angle: np.ndarray
 
+    @classmethod
+    def empty(cls, shape: tuple[int, ...], entries: int) -> Results:
+        """No result yet, derivatives 0; the shape is (results, impacts)."""
+        zeros = np.zeros((*shape, entries)), np.zeros(shape), np.zeros(shape)
+        return cls(np.zeros(shape[1], np.int8), np.full(shape, np.nan), *zeros)
+
 
 @dataclass(frozen=True)
 class Experiment:
@@ -200,11 +206,7 @@ class Experiment:
             budget: steps of a trajectory, where longer ones may be left out.
         """
         impacts = self.impacts(row, speed, angle)
-        shape = len(names), row.size
-        results = Results(
-            np.zeros(row.size, np.int8), np.full(shape, np.nan), np.zeros((*shape, len(self.rows.names))),
-            np.zeros(shape), np.zeros(shape),
-        )  # fmt: skip
+        results = Results.empty((len(names), row.size), len(self.rows.names))
         for oblique, which in impacts.by_kind():
             self._fill(results, names, row[which], impacts.subset(which), which, oblique, forward, budget)
         mirrored = np.where(angle < 0, -1.0, 1.0)

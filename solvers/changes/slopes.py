@@ -26,7 +26,7 @@ _FAR = 2e-6  # distance from a saddle at which times are taken
 _SHIFT, _STEP_OF_ENTRY = 0.1, 2e-3  # steps of an impact, and relative ones of an entry, over that distance
 _EXACT, _ROUGH = 1e-5, 1e-4  # relative step of an entry with which a change is located again
 _REACH = (5.0, 100.0, 2000.0)  # half widths of the intervals in which it is sought in turn, over that step
-_ENCLOSED = 1e-6  # width to which it is enclosed, over the same
+_ENCLOSED, _ENCLOSED_ROUGHLY = 1e-6, 1e-4  # widths to which it is enclosed, over the same
 
 
 @dataclass(frozen=True)
@@ -225,6 +225,7 @@ def places_again(
         same = (label(rest, low) == before[rest]) & (label(rest, high) == after[rest])
         which = rest[same]
         wide = Brackets(which, low[same], high[same], np.ones(which.size, bool), np.zeros(which.size, bool))
-        places[which] = enclose(lambda which, at: label(which, at) == before[which], wide, _ENCLOSED * step).place
+        width = step * (_ENCLOSED_ROUGHLY if step >= _ROUGH else _ENCLOSED)
+        places[which] = enclose(lambda which, at: label(which, at) == before[which], wide, width).place
         rest = rest[~same]
     return places

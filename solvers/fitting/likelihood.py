@@ -20,14 +20,14 @@ from ..scene.scene import Scene
 from ..scene.schema import SPINS
 from .directions import directions, narrow_rows
 from .free_entries import NOISE
+from .interpolation import SegmentMap, segment_map
 from .measurements import SCATTER, Measurements, rows_of
 from .rare_outcomes import RARE, beyond_reach
-from .scatter import REACH, Resolution, ScatterLines, SegmentMap, Segments, segment_map
+from .scatter import REACH, Resolution, ScatterLines, Segments
 
 NEGLIGIBLE = 1e-12  # probability of the scatter below which a segment is left out
-_PASSED = 1e-3  # weight of a line, and probability of an outcome on it, that do not count where lines are compared
-FINER = (3, 7)
-"""Factors of the number of lines of rows that need more. Odd: the middle line goes through the nominal impact."""
+COUNTS = (1, 3, 9, 21)
+"""Numbers of lines that a row may have. Odd: the middle line goes through the nominal impact."""
 KNEE, TAIL = 12.0, 4.0
 """A row that lies more than this many units of log-likelihood below the most likely observation (4.9 standard
 deviations) contradicts the model; from there its log-likelihood falls with the logarithm of the distance."""
@@ -36,7 +36,9 @@ _BEYOND = 6.0  # standard deviations of noise and angle beyond which a restituti
 _NAMED = 8  # rows in a message
 _FINEST = 32  # most by which the points of a segment are multiplied
 _SIDES = -0.02, 0.02  # relative steps of the differences by the scatter
-_USUAL = Resolution().lines * Resolution().nodes
+_LINES = Resolution().lines
+_USUAL = _LINES * Resolution().nodes
+_CHANGE = 0.2  # part of a tolerance from which more lines are taken
 _FIXED, _EXACT = 0.3, 3.0  # cost of an evaluation that does not depend on its nodes; factor of exact derivatives
 _Terms = tuple[np.ndarray, np.ndarray, np.ndarray]  # rows, logarithms of positive terms, derivatives of these
 
@@ -88,7 +90,7 @@ class Likelihood:
         self.measured = tuple(name for name, (values, _) in data.observed.items() if np.isfinite(values).any())
         self.experiments = rows_of(scene, names, data, rtol)
         self.direction = np.zeros(data.size)  # of the lines of each row
-        self.line_factors = np.ones(data.size, int)  # by which the number of lines of each row is multiplied
+        self.counts = np.full(data.size, _LINES)  # of lines of each row at the usual resolution
         self.constant = np.zeros(data.size)  # of the densities' normalisation
         for name in self.measured:
             values, sd = data.observed[name]
@@ -103,36 +105,29 @@ class Likelihood:
         """
         self.direction = directions(self.experiment_at(values), self.noisier(values), self.measured)
 
-    def refine(self, values: np.ndarray, tolerance: float) -> None:
-        """Choose each row's factor of lines: the last of `FINER` that still changes its log-likelihood, else 1.
+    def refine(self, values: np.ndarray, tolerance: float, at_least: bool = False) -> None:
+        """Choose each row's number of lines: the last of `COUNTS` that changes its log-likelihood.
 
-        A change counts if it is larger than `tolerance`. Rows whose lines have unlike outcomes have the largest factor:
-        as the free entries move a place where three outcomes meet, or the end of a boundary along the lines, across a
-        line, their log-likelihood has a kink.
+        The next number is tried where one changes it by more than `tolerance`; a fifth of that counts as a change.
+
+        Arguments:
+            at_least: no number becomes smaller than it was, so that there are enough lines for other values too; none
+                changes if these values make the scene impossible.
         """
-        experiment, size, noise = self.experiment_at(values), self.size, self._factors(values)
-        self.line_factors = np.ones(size, int)
-        now, undecided = self.evaluate(experiment, Resolution(), noise).rows, np.ones(size, bool)
-        for factor in FINER:
-            fine = self.evaluate(experiment, Resolution(), noise, np.where(undecided, factor, 0)).rows
-            undecided &= np.abs(fine - now) > tolerance
-            self.line_factors[undecided], now = factor, fine
-            if not undecided.any():
-                break
-        self.line_factors[self._beside_meeting(experiment, self.data.noisier(noise))] = FINER[-1]
-
-    def _beside_meeting(self, experiment: Experiment, data: Measurements) -> np.ndarray:
-        """Mask of the rows whose lines do not all have the same outcomes."""
-        lines = ScatterLines.through(data, self.direction, Resolution().lines * FINER[0])
-        segments = Segments.between(lines, lines.changes(experiment, Resolution(within=1e-3)))
-        segments = segments.subset((segments.mass() > _PASSED) & (segments.share > _PASSED))
-        seen = np.zeros((lines.row.size, 4), bool)  # undecided ones in the last column
-        seen[segments.line, segments.outcome] = True
-        count, sampled = np.zeros((self.size, 4), int), np.unique(segments.line)
-        np.add.at(count, lines.row[sampled], seen[sampled])
-        lines_of_row = np.bincount(lines.row[sampled], minlength=self.size)[:, None]
-        unlike: np.ndarray = np.any((count > 0) & (count < lines_of_row), axis=1)
-        return unlike
+        experiment, noise = self._experiment(values) if at_least else self.experiment_at(values), self._factors(values)
+        if experiment is None:
+            return
+        counts, undecided, now = np.ones(self.size, int), np.ones(self.size, bool), np.zeros(0)
+        for count in COUNTS:
+            fine = self.evaluate(experiment, Resolution().values, noise, np.where(undecided, count, 0)).rows
+            if now.size:
+                change = np.where(undecided, np.abs(fine - now), 0.0)
+                counts[change > _CHANGE * tolerance] = count
+                undecided = change > tolerance
+                if not undecided.any():
+                    break
+            now = fine
+        self.counts = np.maximum(counts, self.counts) if at_least else counts
 
     def experiment_at(self, values: np.ndarray) -> Experiment:
         """The experiment with these values of the free entries; InputError if they make a row's scene impossible."""
@@ -166,21 +161,20 @@ class Likelihood:
 
     def evaluate(
         self, experiment: Experiment, resolution: Resolution, noise: Mapping[str, float],
-        factors: np.ndarray | None = None,
+        counts: np.ndarray | None = None,
     ) -> Evaluation:  # fmt: skip
         """The log-likelihoods of all rows in an experiment, without derivatives by the scatter in speed and angle.
 
         Arguments:
             noise: factors of standard deviations.
-            factors: (rows,), in place of the `line_factors` that `refine` chose; 0 leaves a row out.
+            counts: (rows,), of lines, in place of those that `refine` chose; 0 leaves a row out.
         """
         data, size = self.data.noisier(noise), self.size
-        if factors is None:
-            factors = self.line_factors if resolution.lines > 1 else np.ones(size, int)
+        if counts is None:
+            proportion = resolution.lines / _LINES if resolution.lines > 1 else 0.0
+            counts = np.maximum(np.ceil(self.counts * proportion).astype(int), 1)
         narrow = narrow_rows(experiment, data, self.measured, self.direction)
-        lines = ScatterLines.through(
-            data, self.direction, resolution.lines * factors, REACH, narrow.centre, narrow.width
-        )
+        lines = ScatterLines.through(data, self.direction, counts, REACH, narrow.centre, narrow.width)
         changes = lines.changes(experiment, resolution)
         segments = Segments.between(lines, changes)
         unknown = segments.subset(segments.outcome < 0)
@@ -189,13 +183,13 @@ class Likelihood:
         mass = segments.mass()
         probability = np.bincount(segments.row, segments.share * mass, size)
         dense = data.separated[segments.row]
-        counts = mass > np.where(dense, NEGLIGIBLE, 0.0)
-        ends = segments.moving_ends(experiment, lines, changes, counts, resolution.approximate)
+        weighs = mass > np.where(dense, NEGLIGIBLE, 0.0)
+        ends = segments.moving_ends(experiment, lines, changes, weighs, resolution)
         by_free = segments.mass_slopes(ends)
         moments = {name: np.zeros((3, size)) for name in self.measured}
-        plain = ~dense & counts
+        plain = ~dense & weighs
         terms: list[_Terms] = [(segments.row[plain], np.log((segments.weight * mass)[plain]), by_free[plain])]
-        which = np.flatnonzero(dense & counts)
+        which = np.flatnonzero(dense & weighs)
         dense_part = segments.subset(which)
         results = dense_part.results(experiment, lines, ends[:, which], self.measured, resolution)
         for indices, mapping, value, slope in results:
@@ -203,7 +197,7 @@ class Likelihood:
                 at_ends, of = ends[:, which[indices[some]]], dense_part.subset(indices[some])
                 terms.append(self._integrals(of, noise, at_ends, finer, value[:, some], slope[:, some], moments))
         rows, scores = _sums(terms, size, len(self.names))
-        rare = np.flatnonzero((probability < RARE) & (factors > 0))
+        rare = np.flatnonzero((probability < RARE) & (counts > 0))
         if rare.size:
             moves = np.zeros((size, by_free.shape[1]))  # of the logarithm of the probability
             np.add.at(moves, segments.row, (segments.share * mass)[:, None] * by_free)
@@ -214,7 +208,7 @@ class Likelihood:
             )
             missing = log > rows[rare]
             rows[rare[missing]], scores[rare[missing]] = log[missing], _widened(slope[missing], len(self.names))
-        relative = float(factors.mean()) * resolution.lines * resolution.nodes / _USUAL
+        relative = float(counts.mean()) * resolution.nodes / _USUAL
         self.tell((_FIXED + (1 - _FIXED) * relative) * (1.0 if resolution.approximate else _EXACT))
         limited, factor = limit(rows)
         mean, spread = {}, {}

@@ -32,8 +32,8 @@ IMPOSSIBLE = 1e3  # loss of log-likelihood where the scene is impossible
 _TOLERANCE = 1e-3  # of the log-likelihood
 _ROUNDS = 3  # of turning the lines and refining rows
 _FAR_OFF = 1.5  # standard errors that a maximum may be from where the lines were turned
-ROUGH = Resolution(1, 6, 96, 11)
-_DIRECT = 0.02  # error of a row's log-likelihood beyond which it gets more lines
+ROUGH = Resolution(1, 6, 96, 11, within=1e-4)
+DIRECT = 5e-3  # error of a row's log-likelihood beyond which it gets more lines
 _LEAST = 1e-9  # residual below which a row has no derivatives
 
 
@@ -198,7 +198,7 @@ def optimise(
     best, *others = sorted(finished, key=lambda optimum: -optimum.value)
     if best is not finished[-1]:
         likelihood.aim(free.values(best.inner))  # its lines were last turned for another maximum
-        likelihood.refine(free.values(best.inner), _DIRECT)
+        likelihood.refine(free.values(best.inner), DIRECT)
     objective = Objective(likelihood, free, Resolution())
     return replace(best, others=tuple(optimum for optimum in others if _apart(objective, optimum, best)))
 
@@ -207,7 +207,7 @@ def maximum_with_aiming(likelihood: Likelihood | Joint, free: FreeEntries, inner
     """The maximum nearest to a point, with `aim` and `refine` of the likelihood repeated there."""
     for _ in range(_ROUNDS):
         likelihood.aim(free.values(inner))
-        likelihood.refine(free.values(inner), _DIRECT)
+        likelihood.refine(free.values(inner), DIRECT)
         objective = Objective(likelihood, free, Resolution())
         before, inner = inner, refined_maximum(objective, inner)
         move = inner - before
@@ -278,7 +278,7 @@ def _screened(
     low = np.where(free.logarithmic, np.maximum(free.low, scene - neighbourhood), free.low)
     high = np.where(free.logarithmic, np.minimum(free.high, scene + neighbourhood), free.high)
     points = qmc.scale(qmc.Sobol(free.size, seed=seed).random(starts), low, high) if starts else np.zeros((0, 1))
-    coarse = Objective(likelihood, free, COARSE)
+    coarse = Objective(likelihood, free, COARSE.values)
     return [scene, *sorted(points, key=lambda point: -coarse.value(point))[: _FOLLOWED - 1]]
 
 

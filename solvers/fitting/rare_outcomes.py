@@ -14,7 +14,7 @@ from ..changes.brackets import Changes, locate
 from ..changes.experiment import Experiment
 from ..changes.slopes import Lines, outcomes_along, slopes
 from .measurements import Measurements
-from .scatter import REACH, Resolution, ScatterLines
+from .scatter import AT_ONCE, REACH, Resolution, ScatterLines
 
 RARE = 1e-4
 """Probability within REACH below which the observed outcome is looked for beyond."""
@@ -65,7 +65,7 @@ def _from_nearest_change(
     of_part = columns["row"]
     lines = replace(fan[0], **columns | {"row": rows[of_part]})
     places = np.clip(np.concatenate([-_PLACES[::-1], _PLACES]), lines.low[:, None], lines.high[:, None])
-    changes = locate(outcomes_along(experiment, lines), places, resolution.within)
+    changes = locate(outcomes_along(experiment, lines), places, resolution.within, at_once=AT_ONCE)
     least = np.where(np.arange(of_part.size) < rows.size, -ndtri(RARE), REACH)  # no likelier than by the integral
     which = _nearest(changes, least, of_part, subset.allowed)
     line, y, at = changes.line[which], changes.place[which], of_part[changes.line[which]]
@@ -75,7 +75,9 @@ def _from_nearest_change(
         return log, slope
     sign, distance = np.where(y < 0, -1.0, 1.0), np.maximum(np.abs(y), least[line])
     log[at] = log_ndtr(-distance)
-    moves = np.nan_to_num(slopes(experiment, lines, changes.subset(which), resolution.approximate))
+    moves = np.zeros((at.size, slope.shape[1]))
+    if resolution.slopes:
+        moves = np.nan_to_num(slopes(experiment, lines, changes.subset(which), resolution.approximate))
     hazard = np.exp(-(distance**2) / 2 - np.log(2 * np.pi) / 2 - log[at])
     slope[at] = -(np.where(distance > least[line], hazard, 0.0) * sign)[:, None] * moves
     misfit, by_free = _misfit(experiment, data, measured, lines, line, y + _BESIDE * sign, moves)

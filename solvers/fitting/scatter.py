@@ -1,32 +1,32 @@
-"""Integrals over the scatter of single impacts: lines through it, their segments between changes, and interpolation.
+"""Integrals over the scatter of single impacts: lines through it, and their segments between changes of outcome.
 
-In units of the standard deviations the scatter of an impact in speed and angle is the same in all directions. A line
-goes the way in which the results change fastest; across it a few Gauss-Hermite nodes are enough. Between two changes of
-outcome along a line the results are smooth, and are interpolated by Chebyshev polynomials in a variable in which a
-square root at a change is smooth too.
+In units of the standard deviations the scatter of an impact in speed and angle is the same in all directions. Lines
+cross the changes (`directions`); across the lines a few Gauss-Hermite nodes are enough. Between two changes of outcome
+along a line the results are smooth, and are interpolated.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
 from functools import lru_cache
 
 import numpy as np
 from scipy.special import ndtr
 
 from ..changes.brackets import Brackets, Changes, locate
-from ..changes.experiment import Experiment
+from ..changes.experiment import Experiment, Results
 from ..changes.slopes import Lines, normals, outcomes_along, slopes
 from ..engines.settings import KERNEL_STEPS
+from .interpolation import SegmentMap, extension, segment_map
 from .measurements import Measurements
 
 REACH = 5.0  # standard deviations to either side within which an integral is taken
 _LOOSER = 30.0  # most by which that grows with the distance from the centre: rare outcomes lie there
+AT_ONCE = 200  # samples of a round that take little longer than one
 _SLOWEST = 1e-3  # least speed of a scattered impact, over the nominal one
 _STEEPEST = np.radians(89.4)
 _OUTCOMES = 3
-Function = Callable[[np.ndarray], np.ndarray]
 _SHORT = 1000  # steps of a trajectory with derivatives, beyond which others' on the same segment stand for them
 _DEGREE = 4  # of the polynomial by which they do
 
@@ -43,6 +43,7 @@ class Resolution:
         approximate: derivatives beside slow saddles are approximate: of changes to 1e-4, of results those that their
             neighbours suggest.
         within: error of a probability from the place of a change.
+        slopes: derivatives by the free entries are computed, else 0.
     """
 
     lines: int = 3
@@ -51,13 +52,20 @@ class Resolution:
     grid: int = 15
     approximate: bool = True
     within: float = 1e-5
+    slopes: bool = True
+
+    @property
+    def values(self) -> Resolution:
+        """The same without derivatives."""
+        return replace(self, slopes=False)
 
     def doubled(self) -> Resolution:
-        """The same, twice as fine and with exact derivatives."""
-        return Resolution(2 * self.lines + 1, 2 * self.nodes, 2 * self.points, 2 * self.grid, False, self.within / 100)
+        """The same, twice as fine."""
+        sizes = {name: 2 * getattr(self, name) for name in ("nodes", "points", "grid")}
+        return replace(self, lines=2 * self.lines + 1, **sizes, within=self.within / 100)
 
 
-COARSE = Resolution(1, 4, 64, 11)
+COARSE = Resolution(1, 4, 64, 11, within=1e-3)
 EXACT = Resolution(approximate=False, within=1e-10)
 
 
@@ -127,7 +135,7 @@ class ScatterLines(Lines):
             return allowed
 
         places = self.low[:, None] + (self.high - self.low)[:, None] * np.linspace(0, 1, resolution.grid)
-        return locate(outcomes_along(experiment, self), places, width)
+        return locate(outcomes_along(experiment, self), places, width, at_once=AT_ONCE)
 
 
 def nearest_normals(experiment: Experiment, data: Measurements) -> tuple[np.ndarray, np.ndarray]:
@@ -226,19 +234,18 @@ class Segments:
         return by_free
 
     def moving_ends(
-        self, experiment: Experiment, lines: Lines, changes: Changes, which: np.ndarray, approximate: bool
+        self, experiment: Experiment, lines: Lines, changes: Changes, which: np.ndarray, resolution: Resolution
     ) -> np.ndarray:
         """Derivatives of the ends by the free entries, (2, segments, free entries).
 
         Arguments:
             which: mask of the segments whose ends are needed.
-            approximate: as of `normals`.
         """
         needed = np.unique(np.concatenate([self.first[which], self.last[which]]))
         needed = needed[needed >= 0]
         by_free = np.zeros((changes.size + 1, len(experiment.rows.names)))  # the last for ends that stay
-        if needed.size:
-            by_free[needed] = np.nan_to_num(slopes(experiment, lines, changes.subset(needed), approximate))
+        if needed.size and resolution.slopes:
+            by_free[needed] = np.nan_to_num(slopes(experiment, lines, changes.subset(needed), resolution.approximate))
         moving: np.ndarray = by_free[np.stack([self.first, self.last])]
         return moving
 
@@ -260,13 +267,7 @@ class Segments:
         y = np.concatenate([places.ravel() for places in at])
         line = np.concatenate([np.repeat(self.line[w], mapping.at_nodes.size) for w, mapping in maps])
         row, impacts = lines.row[line], lines.at(line, y)
-        budget = _SHORT if resolution.approximate else KERNEL_STEPS
-        at_nodes = experiment.results(names, row, *impacts, budget=budget)
-        failures = np.flatnonzero(at_nodes.outcome < 0)
-        if failures.size:
-            at_nodes.value[:, failures] = experiment.plain(
-                names, row[failures], impacts[0][failures], impacts[1][failures]
-            )
+        at_nodes = _at_nodes(experiment, names, row, impacts, resolution)
         by_speed, by_angle = lines.slopes(line, y)
         by_y = at_nodes.speed * by_speed + at_nodes.angle * by_angle
         first = 0
@@ -280,64 +281,21 @@ class Segments:
             )
             mask = at_nodes.outcome[span].reshape(shape[1:]) >= 0
             for k in np.flatnonzero(~mask.all(axis=1) & mask.any(axis=1)).tolist():
-                slope[:, k] = np.einsum("mn,rnp->rmp", _extension(tuple(mask[k].tolist()), _DEGREE), slope[:, k])
+                slope[:, k] = np.einsum("mn,rnp->rmp", extension(tuple(mask[k].tolist()), _DEGREE), slope[:, k])
             yield which, mapping, at_nodes.value[:, span].reshape(shape), slope
 
 
-@dataclass(frozen=True)
-class SegmentMap:
-    """Place on a segment, from 0 to 1, as a function g of the variable in which results are interpolated.
-
-    Attributes:
-        kind: as of `Segments`.
-        at_nodes: g at the nodes of the interpolation.
-        at_points, rate, weight: g, g' and weights at the points of the quadrature.
-        interpolate: (points, nodes), from values at the nodes to values at the points.
-    """
-
-    kind: int
-    at_nodes: np.ndarray
-    at_points: np.ndarray
-    rate: np.ndarray
-    weight: np.ndarray
-    interpolate: np.ndarray
-
-
-_MAPS: tuple[tuple[Function, Function], ...] = (  # g with a square at an end that is a change, and its derivative
-    (lambda t: t, np.ones_like),
-    (lambda t: t**2, lambda t: 2 * t),
-    (lambda t: t * (2 - t), lambda t: 2 - 2 * t),
-    (lambda t: t**2 * (3 - 2 * t), lambda t: 6 * t * (1 - t)),
-)
-
-
-def _chebyshev_nodes(count: int) -> np.ndarray:
-    nodes: np.ndarray = (1 - np.cos(np.pi * (np.arange(count) + 0.5) / count)) / 2
-    return nodes
-
-
-@lru_cache(maxsize=64)
-def segment_map(kind: int, nodes: int, points: int) -> SegmentMap:
-    """The map of a segment whose lower end (1), upper end (2) or both (3) are changes."""
-    t, s = _chebyshev_nodes(nodes), _chebyshev_nodes(points)
-    angle, order = np.pi * (np.arange(points) + 0.5) / points, np.arange(1, points // 2 + 1)  # Fejer's first rule
-    weight = 1 - 2 * (np.cos(2 * np.outer(angle, order)) / (4 * order**2 - 1)).sum(axis=1)
-    g, rate = _MAPS[kind]
-    chebyshev = np.polynomial.chebyshev.chebvander
-    matrix = chebyshev(2 * s - 1, nodes - 1) @ np.linalg.inv(chebyshev(2 * t - 1, nodes - 1))
-    return SegmentMap(kind, g(t), g(s), rate(s), weight / points, matrix)
-
-
-@lru_cache(maxsize=256)
-def _extension(mask: tuple[bool, ...], degree: int) -> np.ndarray:
-    """From values at some of the nodes to values at all of them, by a polynomial of this degree at most.
-
-    Arguments:
-        mask: which of the nodes have a value.
-    """
-    nodes, places = len(mask), np.flatnonzero(mask)
-    basis = np.polynomial.chebyshev.chebvander(2 * _chebyshev_nodes(nodes) - 1, min(degree, places.size - 1))
-    matrix = np.zeros((nodes, nodes))
-    matrix[:, places] = basis @ np.linalg.pinv(basis[places])
-    matrix[places] = np.eye(nodes)[places]
-    return matrix
+def _at_nodes(
+    experiment: Experiment, names: tuple[str, ...], row: np.ndarray, impacts: tuple[np.ndarray, np.ndarray],
+    resolution: Resolution,
+) -> Results:  # fmt: skip
+    """Results of impacts; those whose derivatives take too long, or are not asked for, have values alone."""
+    if not resolution.slopes:
+        values = experiment.plain(names, row, *impacts)
+        return replace(Results.empty(values.shape, len(experiment.rows.names)), value=values)
+    budget = _SHORT if resolution.approximate else KERNEL_STEPS
+    at_nodes = experiment.results(names, row, *impacts, budget=budget)
+    failures = np.flatnonzero(at_nodes.outcome < 0)
+    if failures.size:
+        at_nodes.value[:, failures] = experiment.plain(names, row[failures], impacts[0][failures], impacts[1][failures])
+    return at_nodes

@@ -73,7 +73,7 @@ def _integrated(
     segments = Segments.between(lines, changes)
     segments = segments.subset(segments.outcome >= 0)
     mass = segments.mass()
-    ends = segments.moving_ends(experiment, lines, changes, mass > NEGLIGIBLE, resolution.approximate)
+    ends = segments.moving_ends(experiment, lines, changes, mass > NEGLIGIBLE, resolution)
     share = segments.weight * mass
     probability = np.zeros((size, len(OUTCOMES)))
     slopes = np.zeros((*probability.shape, entries))
