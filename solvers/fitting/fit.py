@@ -16,13 +16,14 @@ from ..host.arguments import check_function
 from ..host.progress import Estimated, Progress
 from ..model.validity import warn
 from ..scene.scene import Scene
+from .ends import End
 from .examine import examine
 from .free_entries import IDENTIFIED, NOT_AT_ALL, FreeEntries, Prior, combinations
 from .joint import Joint, Part, problem, worded
 from .likelihood import KNEE, Evaluation
 from .measurements import UNKNOWN, Measurements
 from .optimise import Objective, Optimum, maximum_with_aiming, optimise, whitening
-from .profiles import End, intervals, judged
+from .profiles import intervals, judged
 from .result import CONTRADICTED, Estimate, Fit, RowDiagnostics
 from .scatter import Resolution
 
@@ -192,7 +193,7 @@ def _result(parts: tuple[Part, ...], likelihood: Joint, free: FreeEntries, best:
         estimates[name] = Estimate(float(values[k]), low, high, verdicts[k])
     covariance = white @ white.T
     spread = np.sqrt(np.diag(covariance))
-    finer = likelihood(values, Resolution().doubled())
+    finer = likelihood(values, Resolution().doubled().values)
     error = np.nan if finer is None else finer.value - evaluation.value
     others = tuple((free.named(other.inner), other.value) for other in best.others)
     remarks = [*data.remarks, *_remarks(parts, data, rows, evaluation.undecided, error, others)]

@@ -1,30 +1,23 @@
 """Intervals of the free entries from the profile of the likelihood, and the verdicts on them.
 
 The profile at a value of an entry is the largest likelihood over all values of the other entries. The 95 % interval
-ends where the logarithm of the profile is `Objective.drop` below its maximum; where the
-profile is that high at several places, the farthest counts.
+ends where the logarithm of the profile is `Objective.drop` below its maximum; where the profile is that high at
+several places, the farthest counts.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
-from scipy.optimize import LinearConstraint, minimize
 
 from ..errors import ComputationError
+from .ends import BETTER, NARROW, WITHIN, End, MoreLikely, end_by_newton, predicted
 from .free_entries import COMBINED, IDENTIFIED, NOT_AT_ALL, ONE_SIDE, FreeEntries
 from .joint import Joint
-from .optimise import IMPOSSIBLE, ROUGH, Objective, Optimum, maximum_with_aiming, rough_maximum, whitening
+from .optimise import DIRECT, ROUGH, Objective, Optimum, maximum_with_aiming, rough_maximum, whitening
 from .scatter import COARSE, Resolution
 
-_WITHIN = 0.01  # relative error of the root of twice the drop at an end
-_SLACK = 3e-3  # change of the distance from the estimate, in standard errors, that ends the search for an end
-_UNLIKELY = 3.0  # part of the drop beyond which a predicted end is no start
 _FLAT = 0.1  # a profile is flat if at its last slope this part of the distance from the maximum is still to go
-_BETTER = 0.05  # of the drop, by which a point must be more likely to replace the maximum
 _STEPS = 25
-_DIRECT = 8  # iterations of SLSQP after which the profile is followed: it takes some four unless a ridge is curved
-_NARROW = 1e-6  # width of a bracket in which the profile jumps, relative to the distance of the bound
 _FARTHER = 4.0  # largest factor from one step outwards to the next
 _FIRST = 0.6  # first step, as a part of what the information matrix predicts; a profile point far outside is costly
 _AT_BOUND = 1e-3  # distance from a bound, relative to the range of the search, at which an estimate lies on it
@@ -34,22 +27,6 @@ _CHECKS = 3  # times that an end is moved by a start from elsewhere
 _OUTSIDE = 0.02  # part of the interval's half width by which a likely point must lie outside to move its end
 _RESTARTS = 3  # times that a more likely point, met on a profile, replaces the maximum
 _ROUNDS = 5  # in which ends are moved beyond likely points
-
-
-@dataclass(frozen=True)
-class End:
-    """An end of an interval.
-
-    Attributes:
-        inner: in the variables of the search, all entries; where `open`, the farthest point that was evaluated.
-        open: the likelihood does not fall by `Objective.drop` before the bound of the search, or where the scene is
-            impossible.
-        wall: no scene was found beyond; with other values of the other entries there may be one.
-    """
-
-    inner: np.ndarray
-    open: bool
-    wall: bool = False
 
 
 def intervals(likelihood: Joint, free: FreeEntries, best: Optimum) -> tuple[Optimum, list[list[End]]]:
@@ -62,32 +39,28 @@ def intervals(likelihood: Joint, free: FreeEntries, best: Optimum) -> tuple[Opti
     """
     for _ in range(_RESTARTS):
         try:
+            _refine_at_ends(likelihood, free, best.inner)
             return best, _ends(Objective(likelihood, free, Resolution()), best.inner)
-        except _MoreLikely as point:
+        except MoreLikely as point:
             again = maximum_with_aiming(likelihood, free, point.inner)
             best = Optimum(again.inner, again.value, best.others)
     advice = "give priors, free fewer entries, or start from other values"
     raise ComputationError("the likelihood has no maximum that its profiles agree on", advice=advice)
 
 
-class _EndOfSearch(Exception):
-    """A point at which a search ends."""
+def _refine_at_ends(likelihood: Joint, free: FreeEntries, best: np.ndarray) -> None:
+    """Give the rows as many lines as they need at the estimate and where its information matrix has the ends.
 
-    def __init__(self, inner: np.ndarray) -> None:
-        super().__init__()
-        self.inner = inner
-
-
-class _Reached(_EndOfSearch):
-    """The end of an interval."""
-
-
-class _MoreLikely(_EndOfSearch):
-    """A point that is more likely than the maximum."""
+    Between the ends a change of outcome may move into the scatter of a row that has none at the estimate.
+    """
+    objective = Objective(likelihood, free, Resolution())
+    for k in range(free.size):
+        for sign in (-1.0, 1.0):
+            likelihood.refine(free.values(predicted(objective, best, k, sign)), DIRECT, at_least=True)
 
 
 def _ends(objective: Objective, best: np.ndarray) -> list[list[End]]:
-    """The ends of all intervals; _MoreLikely if the maximum is none."""
+    """The ends of all intervals; MoreLikely if the maximum is none."""
     entries = range(objective.free.size)
     ends = [[_end(objective, best, k, sign) for sign in (-1.0, 1.0)] for k in entries]
     for k in entries:
@@ -117,66 +90,7 @@ def _end(objective: Objective, best: np.ndarray, k: int, sign: float, after: np.
     bound = free.low[k] if sign < 0 else free.high[k]
     if abs(bound - best[k]) < _AT_BOUND * (free.high[k] - free.low[k]):
         return End(best, True)
-    return _farthest(objective, best, k, sign, after) or _followed(objective, best, k, sign, after)
-
-
-def _farthest(objective: Objective, best: np.ndarray, k: int, sign: float, after: np.ndarray | None) -> End | None:
-    """The likely point with the largest or smallest value of entry k, by SLSQP; None if the search does not end there.
-
-    The variables have the unit information matrix of the estimate; the search starts where that matrix has the end, or
-    from `after`.
-    """
-    free, least, goal = objective.free, objective.value(best) - objective.drop, np.sqrt(2 * objective.drop)
-    white, span = whitening(objective, best), free.high - free.low
-    along = sign * white[k] / float(np.linalg.norm(white[k]))
-
-    def point(z: np.ndarray) -> np.ndarray:
-        at: np.ndarray = np.clip(best + white @ z, free.low, free.high)
-        return at
-
-    def spare(z: np.ndarray) -> float:
-        """The log-likelihood above that of the end."""
-        value = objective.value(point(z))
-        if value > least + (1 + _BETTER) * objective.drop:
-            raise _MoreLikely(point(z))
-        return value - least if np.isfinite(value) else -IMPOSSIBLE
-
-    def slope(z: np.ndarray) -> np.ndarray:
-        possible = np.isfinite(objective.value(point(z)))
-        return white.T @ objective.gradient(point(z)) if possible else np.zeros(z.size)
-
-    def is_end(at: np.ndarray) -> bool:
-        """True if a Newton step of the other entries, but those held by a bound, cannot make up for what is lost."""
-        slopes, margin = objective.gradient(at), _NARROW * span
-        pressed = ((at <= free.low + margin) & (slopes < 0)) | ((at >= free.high - margin) & (slopes > 0))
-        others = np.flatnonzero(~pressed & (np.arange(at.size) != k))
-        matrix = (objective.information(at) + free.vague)[np.ix_(others, others)]
-        gain = slopes[others] @ np.linalg.solve(matrix, slopes[others]) / 2
-        return bool(gain < _WITHIN * goal**2 and sign * slopes[k] < 0)
-
-    def stop(z: np.ndarray) -> None:
-        if abs(spare(z)) < _WITHIN * goal**2 and is_end(point(z)):
-            raise _Reached(point(z))
-
-    start = goal * along if after is None else np.linalg.solve(white, after - best)
-    while spare(start) < -_UNLIKELY * objective.drop:
-        start = start / 2
-    box = LinearConstraint(white / span[:, None], (free.low - best) / span, (free.high - best) / span)
-    try:
-        optimum = minimize(
-            lambda z: -float(along @ z), start, jac=lambda _z: -along, method="SLSQP", callback=stop,
-            constraints=[{"type": "ineq", "fun": spare, "jac": slope}, box],
-            options={"maxiter": _DIRECT, "ftol": _SLACK},
-        )  # fmt: skip
-        end = point(optimum.x)
-    except _Reached as reached:
-        end = reached.inner
-    bound, over = free.low[k] if sign < 0 else free.high[k], objective.value(end) - least
-    if after is not None and sign * (end[k] - after[k]) < 0:
-        return None
-    if abs(end[k] - bound) < _NARROW * span[k] and over > -_WITHIN * goal**2:
-        return End(end, True)
-    return End(end, False) if abs(over) < _WITHIN * goal**2 and is_end(end) else None
+    return end_by_newton(objective, best, k, sign, after) or _followed(objective, best, k, sign, after)
 
 
 def _followed(objective: Objective, best: np.ndarray, k: int, sign: float, after: np.ndarray | None) -> End:
@@ -211,14 +125,14 @@ def _followed(objective: Objective, best: np.ndarray, k: int, sign: float, after
         start = next((guess for guess in starts if np.isfinite(objective.value(guess))), starts[0])
         point = profile_point(objective, start, k, value)
         height = objective.value(point)
-        if height > top + _BETTER * objective.drop:
-            raise _MoreLikely(point)
+        if height > top + BETTER * objective.drop:
+            raise MoreLikely(point)
         possible = bool(np.isfinite(height))
         root = np.sqrt(2 * max(top - height, 0.0)) if possible else np.inf
-        if root < goal * (1 + 2 * _WITHIN) and step == most:
+        if root < goal * (1 + 2 * WITHIN) and step == most:
             return End(point, True)
         flat = False  # a profile that flattens just below the goal may never reach it
-        if abs(root - goal) < _WITHIN * goal:
+        if abs(root - goal) < WITHIN * goal:
             flat = outside[0] == np.inf and (goal - root) * (step - inside[0]) > _FLAT * step * (root - inside[1])
             if not flat:
                 return End(point, False)
@@ -230,7 +144,7 @@ def _followed(objective: Objective, best: np.ndarray, k: int, sign: float, after
             tangent, at = (point - best) / step, point
         wall = not np.isfinite(outside[1]) and np.isfinite(outside[0])
         step = step * _FARTHER if flat else _next(inside, outside, goal, tried % 3 == 2)
-        if outside[0] - inside[0] < (_AT_WALL * outside[0] if wall else _NARROW * most):
+        if outside[0] - inside[0] < (_AT_WALL * outside[0] if wall else NARROW * most):
             return End(at, wall, wall=wall)
     return End(at, not np.isfinite(outside[0]))
 
@@ -249,7 +163,7 @@ def _likely_outside(objective: Objective, best: np.ndarray, k: int, end: End, si
     """The farthest point evaluated so far that is likely enough to lie within the interval and is outside of it."""
     if end.open and not end.wall:
         return None
-    least = objective.value(best) - objective.drop * (1 + 2 * _WITHIN)  # first, as it may be evaluated anew
+    least = objective.value(best) - objective.drop * (1 + 2 * WITHIN)  # first, as it may be evaluated anew
     points = np.array(objective.points)[np.array(objective.heights) > least]
     excess = sign * (points[:, k] - end.inner[k])
     farthest = int(np.argmax(excess))
@@ -265,7 +179,9 @@ def _from_elsewhere(objective: Objective, best: np.ndarray, k: int, end: End, ot
         others: likely points, such as the ends of other intervals.
     """
     free, top = objective.free, objective.value(best)
-    coarse, rough = (Objective(objective.likelihood, free, resolution) for resolution in (COARSE, ROUGH))
+    if free.size == 1:
+        return end
+    coarse, rough = (Objective(objective.likelihood, free, resolution) for resolution in (COARSE.values, ROUGH))
     for _ in range(_CHECKS):
         if (end.open and not end.wall) or end.inner[k] == best[k]:
             break
@@ -277,19 +193,32 @@ def _from_elsewhere(objective: Objective, best: np.ndarray, k: int, end: End, ot
             if way * (value - best[k]) > 0:
                 starts.append(np.clip(best + (point - best) * (value - best[k]) / way, free.low, free.high))
         guess = _with(np.clip(free.start, free.low, free.high), k, value)
-        followed = [start for start in (max(starts, key=coarse.value), guess) if coarse.value(start) > top - _HOPELESS]
+        likeliest = max(starts, key=coarse.value), guess
+        followed = [
+            start
+            for start in likeliest
+            if coarse.value(start) > top - _HOPELESS and not _leads_to(coarse, rough, start, end.inner)
+        ]
         if not followed:
             break
         point = max((profile_point(rough, start, k, value) for start in followed), key=objective.value)
-        if objective.value(point) > top + _BETTER * objective.drop:
-            raise _MoreLikely(point)
-        if not objective.value(point) > top - objective.drop * (1 - _BETTER):
+        if objective.value(point) > top + BETTER * objective.drop:
+            raise MoreLikely(point)
+        if not objective.value(point) > top - objective.drop * (1 - BETTER):
             break
         farther = _end(objective, best, k, sign, point)
         if abs(farther.inner[k] - best[k]) <= abs(value - best[k]):
             break
         end = farther
     return end
+
+
+def _leads_to(coarse: Objective, rough: Objective, start: np.ndarray, end: np.ndarray) -> bool:
+    """Whether from a start the likelihood rises towards a more likely end, and lies above the chord halfway."""
+    height, top, middle = (coarse.value(point) for point in (start, end, (start + end) / 2))
+    if height > top or middle < (height + top) / 2:
+        return False
+    return np.isfinite(rough.value(start)) and float(rough.gradient(start) @ (end - start)) >= 0
 
 
 def profile_point(objective: Objective, start: np.ndarray, k: int, value: float) -> np.ndarray:
