@@ -14,6 +14,7 @@ WITHIN = 0.01  # relative error of the root of twice the drop at an end
 BETTER = 0.05  # of the drop, by which a point must be more likely to replace the maximum
 NARROW = 1e-6  # distance from a bound, relative to that of the estimate or of the other bound, that does not count
 _NEAR = 0.03  # the same, from which the last step goes
+_LAST = 0.1  # most that the last step goes on, relative to the distance from the estimate: a profile may flatten out
 _CURVED = 0.1  # least change of a gradient along a step, over the expected one, that corrects second derivatives
 _STEPS = 8
 _UNLIKELY = 3.0  # part of the drop beyond which a predicted end is no start
@@ -91,8 +92,9 @@ def end_by_newton(objective: Objective, best: np.ndarray, k: int, sign: float, a
         step, to = (goal - root) * root / -slope, at.copy()
         to[k] += sign * step
         to[others] += shift + follow * sign * step
-        within = bool(((to >= free.low) & (to <= free.high)).all())
-        if within and abs(goal - root) < _NEAR * goal and gain < WITHIN * goal**2:
+        possible = bool(((to >= free.low) & (to <= free.high)).all())
+        near = abs(goal - root) < _NEAR * goal and gain < WITHIN * goal**2
+        if possible and near and abs(step) < _LAST * abs(at[k] - best[k]):
             return None if after is not None and sign * (to[k] - after[k]) < 0 else End(to, False)
     return None
 
@@ -100,7 +102,7 @@ def end_by_newton(objective: Objective, best: np.ndarray, k: int, sign: float, a
 def _corrected(matrix: np.ndarray, step: np.ndarray, change: np.ndarray) -> np.ndarray:
     """The matrix that turns a step into the change of the gradient, nearest to another one (BFGS)."""
     across = matrix @ step
-    if float(change @ step) < _CURVED * float(across @ step):
+    if not float(change @ step) > _CURVED * float(across @ step):
         return matrix
     corrected: np.ndarray = (
         matrix + np.outer(change, change) / (change @ step) - np.outer(across, across) / (across @ step)
