@@ -94,9 +94,9 @@ def end_again(objective: Objective, top: float, best: np.ndarray, k: int, start:
     others, at = np.flatnonzero(np.arange(best.size) != k), start.copy()
 
     def root(value: float) -> float:
-        """Square root of twice what the profile has lost; `at` follows."""
-        at[k] = value
-        for _ in range(6 if others.size else 0):
+        """Square root of twice what the profile has lost, from the line through the fit's end on."""
+        at[:] = best + (value - best[k]) / (start[k] - best[k]) * (start - best)
+        for _ in range(12 if others.size else 0):
             slope = objective.gradient(at)[others]
             step = np.linalg.solve((objective.information(at) + objective.free.vague)[np.ix_(others, others)], slope)
             if slope @ step / 2 < _CLOSE:
@@ -183,7 +183,7 @@ def main() -> None:
         for changing, preset, name, error, spent in ends(seeds):
             errors[changing].append(abs(error))
             say(f"{preset:24} {name:28} {'changes' if changing else 'none':8} {100 * error:8.3f} %  {spent:6.2f} s")
-        for changing, sizes in errors.items():
+        for changing, sizes in ((key, values) for key, values in errors.items() if values):
             say(
                 f"changes of outcome {changing}: {len(sizes)} ends, largest {100 * max(sizes):.2f} %, "
                 f"median {100 * np.median(sizes):.2f} %, {np.sum(np.array(sizes) > 0.01)} above 1 %"
