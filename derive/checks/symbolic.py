@@ -42,12 +42,6 @@ def _identity(argument: object) -> str:
     return law_digest(argument) if isinstance(argument, Law) else str(argument)
 
 
-def symbolic_checks(laws: Mapping[str, Law] | None = None) -> Iterator[Check]:
-    """Every check, computed lazily; arguments as of `proofs`."""
-    for proof in proofs(laws):
-        yield from proof.checks()
-
-
 def proofs(laws: Mapping[str, Law] | None = None) -> Iterator[Proof]:
     """The proofs of every check.
 
