@@ -158,9 +158,11 @@ def _stuck(collision: Outcome) -> str:
     before = [event.kind for event in collision.events if event.time <= (collision.decided or 0.0)]
     if not collision.certified and len(before) > _MANY and before[-1] == KINDS[EventKind.FELL_BACK]:
         return "decided, not proved: rebound after rebound, none higher than the one before"
+    film_alone = scene.bridge is None and scene.pendulum is None and scene.attraction is None
     if not collision.certified:
-        return f"decided{when}, not proved: energy below the barrier"
-    if scene.bridge is None and scene.pendulum is None and scene.attraction is None:
+        why = "the film has stopped it" if film_alone else "energy below the barrier"
+        return f"decided{when}, not proved: {why}"
+    if film_alone:
         return f"proved{when}: the film stops it"
     if scene.pendulum is not None and collision.angle > 0:
         return f"proved{when}: the strings hold it for good (certificate)"

@@ -27,10 +27,10 @@ SMALL_FLAGS = ("-Og", *_COMMON)
 RUNTIME = Path(__file__).resolve().parent / "runtime"
 _LINE = re.compile(r'#(?<![^\n]#)(?:pragma once\n|include "([^"]+)"\n)')  # a search for "#" is faster than for lines
 _ONCE = "#pragma once"
-# What only kernels of models with declared events or terms contain is taken out of the others' text and digest.
-_OWN_EVENTS, _OWN_TERMS, _KINKS = (
+# What only kernels of some models contain is taken out of the others' text and digest.
+_OWN_EVENTS, _OWN_TERMS, _KINKS, _NO_MOMENTUM = (
     re.compile(rf"#if {name}\n.*?^#endif /\* {name} \*/\n", re.MULTILINE | re.DOTALL)
-    for name in ("OWN_EVENTS", "OWN_TERMS", "KINKS")
+    for name in ("OWN_EVENTS", "OWN_TERMS", "KINKS", "!FILM_MOMENTUM && !OWN_EVENTS")
 )
 _GUARDS = re.compile(r"^#define (\w+)_kinks\(s\) (.*)$", re.MULTILINE)
 _STRUCT, _MEMBER = re.compile(r"typedef struct \{([^}]*)\} series;"), re.compile(r"\b(\w+)_series (\w+);")
@@ -169,7 +169,7 @@ def included(text: str) -> list[str]:
 
 
 def resolved(source: str, texts: Mapping[str, str]) -> str:
-    r"""A C text with each included file inserted once, at its first #include.
+    r"""A C text with each included file inserted once, at its first #include, without what only other films need.
 
     Includes must be unconditional: a file that a variant does not need contains the condition itself.
 
@@ -190,4 +190,5 @@ def resolved(source: str, texts: Mapping[str, str]) -> str:
         text = texts[name] if name in texts else (RUNTIME / name).read_text()
         return _LINE.sub(put, text)
 
-    return _LINE.sub(put, source)
+    whole = _LINE.sub(put, source)
+    return whole if "#define FILM_MOMENTUM 0" in whole else _NO_MOMENTUM.sub("", whole)

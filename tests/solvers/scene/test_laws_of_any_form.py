@@ -1,5 +1,6 @@
 """Laws of one's own of any form: exponents, arms, power laws and kinks, by every engine, with their derivatives."""
 
+import math
 from pathlib import Path
 from random import Random
 
@@ -134,3 +135,20 @@ def test_a_kink_of_the_pressure_is_no_glass_transition(tmp_path: Path):
             found = collide(own, stokes=stokes, angle=angle, rtol=1e-11, engine=engine, ledger=False)
             assert (found.outcome, found.engine) == (expected.outcome, engine)
             assert found.restitution == pytest.approx(expected.restitution, rel=1e-8)
+
+
+@pytest.mark.parametrize(
+    "resistance",
+    ["Piecewise((6*pi*mu*a**2*u/x*(1 - x/x0)**2, u < 0), (0, True))", "6*pi*mu*a**2*u/x*(1 - x/x0)**2*(1 + (u/v0)**2)"],
+    ids=["while closing", "faster, more"],
+)
+def test_a_film_alone_stops_head_on_what_its_momentum_does_not_prove(resistance: str, tmp_path: Path):
+    """Where nothing else acts, what a film that depends on the speed has stopped is a stick: where, by quadrature."""
+    own = scene(tmp_path, f'law("film", "mine", resistance={resistance})', "granulation-dry-bridge")
+    found = collide(own, stokes=0.02, angle=0, trajectory=True)
+    assert (found.outcome, found.certified) == ("stick", False)
+    assert found.steps < 200
+    assert "decided, not proved: the film has stopped it" in str(found)
+    taken = 0.02 * (1.0 if "Piecewise" in resistance else math.pi / 4)  # St int dw/(1 + w^2), as the film takes it
+    gap = float(found.trajectory.gap[-1]) / dict(own.si)["liquid.film_thickness"]
+    assert -math.log(gap) - 2 * (1 - gap) + (1 - gap**2) / 2 == pytest.approx(taken, rel=1e-6)
