@@ -18,6 +18,7 @@ from .references import LIAN, RAGER, SERAYSSOL
 DISTANCE = sp.Symbol("distance", positive=True)  # r/a, named in emitted code
 COMMON = (LIAN,)  # publication of the rupture distance, unless a law has its own
 ELASTIC = (RAGER, SERAYSSOL)  # publications of the elastic length
+_MANY = 7  # roots and functions, beyond which sympy's polynomials in them are not factored
 
 
 def rupture_distance() -> sp.Expr:
@@ -216,6 +217,20 @@ def cancelled(label: str, by_term: sp.Expr, whole: sp.Expr) -> sp.Expr:
     if remainder := dimensional(result):
         raise ScalingError(f"{label}: {', '.join(remainder)} did not cancel from {result}")
     return result
+
+
+def as_product(expression: sp.Expr) -> sp.Expr:
+    """An expression in factors, in common ones of its terms only where full ones take sympy too long.
+
+    That time grows exponentially with the number of roots and functions: 0.3 s for seven, 6 s for twelve.
+    """
+    parts = expression.atoms(sp.Pow, sp.Function)
+    irrational = {part.base if isinstance(part, sp.Pow) else part for part in parts if not _is_whole_power(part)}
+    return sp.factor(expression) if len(irrational) <= _MANY else sp.factor_terms(expression)
+
+
+def _is_whole_power(part: sp.Basic) -> bool:
+    return isinstance(part, sp.Pow) and bool(part.exp.is_Integer)
 
 
 def _substituted(expression: sp.Expr, rules: dict[sp.Symbol, sp.Expr]) -> sp.Expr:

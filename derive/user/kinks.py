@@ -14,7 +14,7 @@ from sympy.core.relational import Relational
 from sympy.logic.boolalg import BooleanFunction
 
 from ..physics.law import LawFunction, needed
-from ..physics.scaling import ScalingError
+from ..physics.scaling import ScalingError, as_product
 from ..vocabulary.quantities import normal_velocity
 
 WIDTH = sp.Rational(1, 10**10)
@@ -52,12 +52,12 @@ def freed(expression: sp.Expr) -> sp.Expr:
 
     def front(node: sp.Basic) -> sp.Basic:
         marks = sp.symbols(f"part:{len(node.args)}", cls=sp.Dummy, positive=True)
-        whole = sp.factor(sp.Add(*(mark * term for mark, term in zip(marks, node.args, strict=True))))
+        whole = as_product(sp.Add(*(mark * term for mark, term in zip(marks, node.args, strict=True))))
         factors = [factor for factor in sp.Mul.make_args(whole) if factor.is_positive and not factor.has(*marks)]
         return sp.Mul(*factors) * node.func(*(sp.expand(term / sp.Mul(*factors)) for term in node.args))
 
     def compared(node: Relational) -> sp.Basic:
-        factors = sp.Mul.make_args(sp.factor(node.lhs - node.rhs))
+        factors = sp.Mul.make_args(as_product(node.lhs - node.rhs))
         return node.func(sp.Mul(*(-1 if term.is_negative else term for term in factors if not term.is_positive)), 0)
 
     def powered(node: sp.Pow) -> sp.Basic:

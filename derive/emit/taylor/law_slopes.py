@@ -7,6 +7,7 @@ from functools import cache, lru_cache
 import sympy as sp
 
 from ...physics.law import Law, LawFunction, needed
+from ...physics.scaling import as_product
 from ...physics.slots import place_of
 from ..provenance import header, law_digest
 from .c_text import Text
@@ -93,7 +94,7 @@ def define_shortest(program: Program, symbol: sp.Symbol, expression: sp.Expr) ->
 @cache
 def factored(expression: sp.Expr) -> tuple[sp.Expr, ...]:
     """Alternative forms of a sum: the common factor of all terms extracted, or that of most terms."""
-    forms = [sp.factor(expression)]
+    forms = [as_product(expression)]
     if isinstance(expression, sp.Add):
         forms += [sp.collect(expression, symbol) for symbol in sorted(expression.free_symbols, key=str)]
     return tuple(forms)
@@ -113,7 +114,7 @@ def slope_program(
     rounds = any(
         value.is_Number for _, value in definitions
     )  # a kink's width: sympy factors such expressions for minutes
-    forms = {argument: (slope,) if rounds else (slope, sp.factor(slope)) for argument, slope in slopes.items()}
+    forms = {argument: (slope,) if rounds else (slope, as_product(slope)) for argument, slope in slopes.items()}
     results = {argument: shortest(program, form, _by(argument)) for argument, form in forms.items()}
     return value, result, program, results
 
