@@ -9,6 +9,7 @@ from pathlib import Path
 from time import perf_counter
 
 from ....generated.automaton import OUTCOMES
+from ...scene.held import impact_quantity, impact_value
 from ...scene.origin import Recorded
 from ...scene.scene import Scene
 from .build import NotProvable
@@ -16,6 +17,11 @@ from .call import BOX, OUTCOME, REASONS, SHARP, Enclosure, Range, enclose
 from .inputs import Inputs, Within
 
 _REFUSED = "not provable here: "
+_HELD = {
+    "stokes": "at St {:.10g}: the speed varies with the box",
+    "speed": "at a normal speed of {:.10g} m/s",
+    "relative_speed": "at a relative speed of {:.10g} m/s",
+}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -30,6 +36,7 @@ class Proof(Recorded):
         steps: of the enclosure.
         ranges: low and high of the quantities that the proof holds for, SI.
         box: low and high of the entries of the box, SI, as the scene gives them.
+        held: the Stokes number or speed (m/s) of the impact, where the box has no range of it.
         seconds: wall time of the proof.
 
     Example:
@@ -38,7 +45,7 @@ class Proof(Recorded):
         True
     """
 
-    _keys = "proved outcome restitution reason smallest_gap rebounds steps seconds inputs=ranges within=box"
+    _keys = "proved outcome restitution reason smallest_gap rebounds steps seconds inputs=ranges within=box held"
 
     outcome: str | None
     restitution: Range | None
@@ -56,6 +63,14 @@ class Proof(Recorded):
         """True if the outcome is proved, as is the proof itself."""
         return self.outcome is not None
 
+    @property
+    def held(self) -> Mapping[str, float]:
+        """The impact's Stokes number or speed (m/s), by dotted name; empty where the box has a range of it."""
+        quantity = impact_quantity(self.scene)
+        value = None if quantity is None else impact_value(self.scene, quantity)
+        name = f"impact.{quantity}"
+        return {name: value} if value is not None and name not in self.box else {}
+
     def __bool__(self) -> bool:
         return self.proved
 
@@ -68,6 +83,8 @@ class Proof(Recorded):
             lines += [f"restitution e_n between {low:.17g} and {high:.17g}"] if high > 0 else []
             lines += [f"{self.rebounds} rebounds, {self.steps} steps of the enclosure"]
         lines += [f"for every {name} between {low:.10g} and {high:.10g} (SI)" for name, (low, high) in self.box.items()]
+        if self.box:
+            lines += [_HELD[name.partition(".")[2]].format(value) for name, value in self.held.items()]
         return "\n".join(lines)
 
 

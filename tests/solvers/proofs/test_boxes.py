@@ -144,3 +144,16 @@ def test_restitutions_of_a_range_of_rupture_gaps_are_enclosed(entry: str) -> Non
     for value in np.linspace(*inputs.box[entry], 9).tolist():
         end = collide(inside(scene, {entry: value}), rtol=1e-11, ledger=False).restitution
         assert found.restitution[0] - 1e-7 <= end <= found.restitution[1] + 1e-7
+
+
+def test_what_a_box_holds_is_said():
+    """The Stokes number or the speed, as the scene gives it, unless the box has a range of it."""
+    within = {"liquid.viscosity": ("1.9 Pa s", "2.1 Pa s")}
+    stokes = prove("granulation", stokes=0.3, angle="20 deg", within=within)
+    speed = prove("granulation", speed="6 m/s", angle="20 deg", within=within)
+    assert (stokes.to_dict()["held"], speed.to_dict()["held"]) == ({"impact.stokes": 0.3}, {"impact.speed": 6.0})
+    assert "\nat St 0.3: the speed varies with the box" in str(stokes)
+    assert "\nat a normal speed of 6 m/s" in str(speed)
+    assert stokes.ranges["stokes"] == (0.3, 0.3) and "stokes" not in speed.ranges
+    assert prove("granulation", stokes=0.3, within=1e-4).held == {}
+    assert "\nat " not in str(prove("granulation", stokes=0.3))
