@@ -1,5 +1,6 @@
 """Checks of arguments of public functions that are no physical quantities: names, flags, whole numbers, mappings."""
 
+import json
 from collections.abc import Callable, Collection, Mapping, Sequence
 from numbers import Integral
 from typing import Any
@@ -15,6 +16,9 @@ def check_names(requested: object, choices: Sequence[str], label: str, none: str
     """
     accepted = ", ".join(choices)
     if isinstance(requested, str):
+        several = [name.strip() for name in requested.split(",")]
+        if len(several) > 1 and set(several) <= set(choices):  # as on the command line
+            raise InputError(label, requested, json.dumps(several), "is one text")
         requested = (requested,)
     if not isinstance(requested, Collection) or isinstance(requested, (bytes, bytearray)):
         raise InputError(label, requested, accepted, "is not a list of names")

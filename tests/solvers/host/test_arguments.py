@@ -204,3 +204,15 @@ def test_numbers_of_any_kind_are_numbers():
         assert Scene.load("granulation").with_impact(stokes=value).stokes == 2.0
     for value in (range(1, 3), [np.float64(1), "2"], np.array([1, 2]), np.array(["1", "2"]), xr.DataArray([1, 2])):
         assert checked_numbers("impact.stokes", value).tolist() == [1.0, 2.0]
+
+
+def test_names_in_one_text():
+    """A list as on the command line is answered by that of Python, where all its names are known."""
+    with pytest.raises(InputError, match=r'is one text; accepted: \["liquid.viscosity", "particles.roughness"\]$'):
+        public.fit(
+            "granulation",
+            {"speed": [6.0], "angle": [0.3], "restitution": [0.9]},
+            "liquid.viscosity, particles.roughness",
+        )
+    with pytest.raises(InputError, match="is not known"):
+        sensitivities("granulation", wrt="liquid.viscosity, particles.rouhgness")
