@@ -1,5 +1,7 @@
 """The command line `wetdoublet`: imports commands by name and reports every failure as one line and an exit status."""
 
+import errno
+import io
 import logging
 import os
 import sys
@@ -120,11 +122,22 @@ def _check_once(ctx: click.Context, args: list[str]) -> None:
             raise InputError(flag, str(values[str(option.name)]), f"{flag} once", "is given twice or more")
 
 
+class _Closed(io.TextIOBase):
+    """A standard output that the caller has closed (>&-): to write there is an error, as to a full disk."""
+
+    def write(self, text: str) -> int:
+        if text:
+            raise OSError(errno.EBADF, "is closed", "standard output")
+        return 0
+
+
 def _settle_streams() -> None:
-    """Redirect closed standard streams to the null device, and silence matplotlib's warnings on standard error."""
-    for name in ("stdout", "stderr"):
-        if getattr(sys, name) is None:  # closed by the caller (>&-)
-            setattr(sys, name, Path(os.devnull).open("w", encoding="utf-8"))  # noqa: SIM115 # open to the end
+    """Replace closed standard streams, and silence matplotlib's warnings on standard error."""
+    if sys.stdout is None:
+        os.open(os.devnull, os.O_WRONLY)  # takes the free number, so that no file that is opened gets it
+        sys.stdout = _Closed()
+    if sys.stderr is None:
+        sys.stderr = Path(os.devnull).open("w", encoding="utf-8")  # noqa: SIM115 # open to the end
     # matplotlib warns of a read-only home, though it then uses a temporary folder, and of slow fonts
     logging.getLogger("matplotlib").setLevel(logging.ERROR)
 

@@ -1,11 +1,13 @@
 """The command line: bad input is one line and exit 2, options are judged first, standard output stays clean."""
 
+import json
 import math
 import os
 import re
 import subprocess
 import sys
 import warnings
+from pathlib import Path
 from types import ModuleType, SimpleNamespace
 
 import pytest
@@ -231,12 +233,22 @@ def test_a_reader_that_leaves():
     assert (done.returncode, done.stderr) == (141, "")
 
 
-def test_closed_streams():
-    """A closed standard output or error is quiet, and the status is the same."""
-    for line, status in (("scenes >&-", 0), ("scenes >&- 2>&-", 0), ("collide granulation --stokes x >&- 2>&-", 2)):
-        command = f"{sys.executable} -m wetdoublet.solvers {line}"
-        done = subprocess.run(["sh", "-c", command], check=False, stderr=subprocess.PIPE, text=True)
-        assert (done.returncode, done.stderr) == (status, "")
+@pytest.mark.parametrize(
+    ("line", "status", "errors"),
+    [
+        ("scenes >&-", 1, "standard output: is closed; accepted: a file that can be written\n"),
+        ("scenes >&- 2>&-", 1, ""),
+        ("collide granulation --json -o FILE >&-", 0, ""),
+        ("collide granulation --stokes x >&- 2>&-", 2, ""),
+    ],
+)
+def test_closed_streams(line: str, status: int, errors: str, tmp_path: Path):
+    """What can't be written to a closed standard output fails; what goes to a file does not, nor to standard error."""
+    file = tmp_path / "one.json"
+    command = f"{sys.executable} -m wetdoublet.solvers {line.replace('FILE', str(file))}"
+    done = subprocess.run(["sh", "-c", command], check=False, stderr=subprocess.PIPE, text=True)
+    assert (done.returncode, done.stderr) == (status, errors)
+    assert not file.exists() or json.loads(file.read_text())["outcome"]
 
 
 @pytest.mark.slow
