@@ -17,7 +17,7 @@ from ...generated.automaton import STICK
 from ..errors import InputError
 from .flights import FLIGHT
 from .measurements import CORRELATION, OBSERVED
-from .straight import LEAST, REACH, Flight, Line, flight_of, line_through, near_contact, state_at, uneven
+from .straight import LEAST, REACH, Flight, Line, flight_of, line_through, near_contact, rests_from, state_at, uneven
 
 _SIGNED = ("tangential_restitution", "rotation")
 _NAMES = ("speed", "angle", *OBSERVED)  # at the scene's gaps
@@ -114,7 +114,7 @@ class _Measured:
         met = np.append(np.flatnonzero(distance[:nearest] <= max(film.touch, nearly) + clear), nearest)
         self.leaving = max(film.apart, nearly) + clear
         nearby = np.append(nearest, nearest + np.flatnonzero(distance[nearest:] <= self.leaving))
-        rest = _rests_from(time, distance, max(clear, _RESTING * film.solids))
+        rest = rests_from(time, distance, max(clear, _RESTING * film.solids))
         self.first, self.last, self.rests = int(min(met[0], rest)), int(nearby[-1]), rest < size
         frames = np.arange(size)
         self.before, self.after = frames < self.first, (frames > self.last) & (rest == size)
@@ -344,13 +344,3 @@ class _Measured:
             self.remarks.append("it turns by more than 90 deg between two frames, so that its turns cannot be counted")
             return (*unknown, "rotation", "turn")
         return unknown
-
-
-def _rests_from(time: np.ndarray, distance: np.ndarray, tolerance: float) -> int:
-    """Frame from which the distance no longer changes, and has not been smaller; the number of frames if it does."""
-    end = float(np.median(distance[-LEAST:]))
-    since = int(np.append(-1, np.flatnonzero(np.abs(distance - end) > tolerance))[-1]) + 1
-    if since == 0 or time.size - since < LEAST or (distance[:since] < end).any():
-        return time.size
-    would_go = (distance[0] - end) / (time[since] - time[0]) * (time[-1] - time[since])  # as fast as before
-    return since if would_go > 4 * tolerance else time.size

@@ -221,3 +221,13 @@ def state_at(course: np.ndarray, distance: float, side: int) -> tuple[float, flo
     normal = place / np.linalg.norm(place)
     sideways = normal[0] * velocity[1] - normal[1] * velocity[0]
     return math.atan2(place[1], place[0]), -float(normal @ velocity), float(sideways), time
+
+
+def rests_from(time: np.ndarray, distance: np.ndarray, tolerance: float) -> int:
+    """Frame from which the distance no longer changes, and has not been smaller; the number of frames if it does."""
+    end = float(np.median(distance[-LEAST:]))
+    since = int(np.append(-1, np.flatnonzero(np.abs(distance - end) > tolerance))[-1]) + 1
+    if since == 0 or time.size - since < LEAST or (distance[:since] < end).any():
+        return time.size
+    would_go = (distance[0] - end) / (time[since] - time[0]) * (time[-1] - time[since])  # as fast as before
+    return since if would_go > 4 * tolerance else time.size
