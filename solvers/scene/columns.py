@@ -3,9 +3,11 @@
 import csv
 import io
 import re
+from codecs import BOM_UTF16_BE, BOM_UTF16_LE
 from collections.abc import Mapping
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from itertools import zip_longest
 from pathlib import Path
 from typing import Any
 
@@ -14,10 +16,12 @@ import numpy as np
 from ..errors import InputError
 from ..host import bounded
 from .schema import MEETING
+from .units import COMMON, spelling
 
 _LARGEST = 20_000_000  # bytes of a file
 _MOST_ROWS = 100_000
 _HEADER = re.compile(r"\s*([^\[\]()]+?)\s*(?:[\[(]\s*([^\[\]()]*?)\s*[\])])?\s*")
+_PLAIN = ("-", "–")  # in place of a unit, as spreadsheets write it
 _UNNAMED = re.compile(r"|unnamed(: ?\d+)?|index|level_0|row|#", re.IGNORECASE)
 DECIMAL_COMMA = re.compile(r"\s*[-+]?\d*,\d+(?:[eE][-+]?\d+)?\s*")
 _DECIMAL_POINT = re.compile(r"\s*[-+]?\d*\.\d+(?!\d*[.,]).*")  # no date 12.03.2026, no thousands 1.798,7
@@ -110,6 +114,8 @@ def text_of(source: str | Path, label: str, accepted: str = _IMPACTS) -> str:
     """The text of a file; InputError if it cannot be read."""
     try:
         content = bounded.read(Path(source), _LARGEST)
+        if content.startswith((BOM_UTF16_LE, BOM_UTF16_BE)):  # "Unicode text" of Excel
+            return content.decode("utf-16")
         with suppress(UnicodeDecodeError):
             return content.decode("utf-8-sig")
         return content.decode("ascii" if b"\0" in content else "cp1252")  # ° and µ of Excel and Fiji on Windows
@@ -137,6 +143,9 @@ def columns_from_text(text: str, label: str, source: str, accepted: str = _IMPAC
     if len(rows) > _MOST_ROWS:
         raise InputError(label, str(source), f"at most {_MOST_ROWS} rows", f"has {len(rows)} rows")
     columns = [Column(*_header(name, f"{label} {source}"), []) for name in head]
+    if rows and all(column.unit is None for column in columns) and (units := _row_of_units(rows[0])):
+        columns = [replace(column, unit=unit) for column, unit in zip_longest(columns, units[: len(columns)])]
+        rows, lines = rows[1:], lines[1:]
     for k, (row, line) in enumerate(zip(rows, lines, strict=True), 1):
         cells = [cell.split("#")[0] if j == len(row) - 1 else cell for j, cell in enumerate(row)]
         if any(cell.strip() for cell in cells[len(head) :]):
@@ -152,6 +161,17 @@ def columns_from_text(text: str, label: str, source: str, accepted: str = _IMPAC
     return columns, lines
 
 
+def _row_of_units(row: list[str]) -> list[str | None]:
+    """The units of columns in a row below their names, as spreadsheets have them; none if it is data."""
+    cells = [cell.strip().strip("[]()") for cell in row]
+    units = [spelling(cell) in COMMON for cell in cells]
+    if not all(unit or cell in ("", "%", *_PLAIN) for unit, cell in zip(units, cells)):
+        return []
+    if not any(unit and cell != "s" for unit, cell in zip(units, cells)):  # short for a stick
+        return []
+    return [None if not cell else "" if cell in _PLAIN else cell for cell in cells]
+
+
 def row_name(row: int, line: int) -> str:
     """What names a row from 1 in messages, with its line in the file where that is another number."""
     return f"row {row} (line {line})" if row != line else f"row {row}"
@@ -163,5 +183,5 @@ def _header(text: str, label: str) -> tuple[str, str | None]:
     match = _HEADER.fullmatch(text)
     if match is None:
         raise InputError(label, text, "names of columns, with their unit in brackets", "is no name of a column")
-    name, unit = match[1].strip(), "" if match[2] in ("-", "–") else match[2]  # as spreadsheets write it
+    name, unit = match[1].strip(), "" if match[2] in _PLAIN else match[2]
     return name.removeprefix("impact.") if name in MEETING else name, unit

@@ -86,7 +86,7 @@ COMMON: dict[str, tuple[str, Decimal]] = {
 """Unit as spelt (after `spelling`) -> SI unit that names its dimension, exact factor."""
 
 _LETTERS = (("µ", "u"), ("μ", "u"), ("°", "deg"), ("⁻", "-"), ("¹", "^1"), ("²", "^2"), ("³", "^3"), ("**", "^"),
-            ("-^", "^-"))  # fmt: skip
+            ("-^", "^-"), ("\\u00B5", "u"))  # fmt: skip # the last as Tracker escapes it
 _JOINED = {"mPas": "mPa s", "Pas": "Pa s", "Ns/m^2": "N s/m^2", "mNs/m^2": "mN s/m^2"}
 _LONGEST = 200  # most characters of a number and of a unit
 _EXACT = Context(prec=_LONGEST + 100)  # the product of factor and text is then rounded only once, to a double
@@ -216,6 +216,7 @@ def spelling(unit: str) -> str:
     """Return the canonical spelling of a unit (`Pa·s`, `Pa*s` -> `Pa s`; `µm` -> `um`)."""
     for letter, ours in _LETTERS:
         unit = unit.replace(letter, ours)
+    unit = re.sub(r"\brev\b", "revolution", unit)  # which pint does not know
     unit = re.sub(r"\s*([/^])\s*", r"\1", unit)
     unit = re.sub(r"(?<=[A-Za-z])\.(?=[A-Za-z])", " ", unit)  # Pa.s
     unit = re.sub(r"(?<![\w^])([A-Za-z]+)(-?[1-9])(?!\w)", r"\1^\2", unit)  # cm3, m-3

@@ -176,3 +176,27 @@ def test_restitution_below_zero_is_noise():
     ):
         with pytest.raises(InputError, match=words):
             read_data(columns | changes, SCENE)
+
+
+TABLE = "speed,angle,restitution,outcome\n{}0.4,30,0.5,\n0.5,40,,stick\n"
+
+
+@pytest.mark.parametrize("row", ["m/s,deg,-,\n", "[m/s],[deg],[-],[-]\n", "m/s,°,,\n"])
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-16"])
+def test_units_in_a_row_below_the_names(row: str, encoding: str, tmp_path: Path):
+    """As rheometers and spreadsheets write them, in Unicode of either width: what the units in brackets say."""
+    file, usual = tmp_path / "rows.csv", tmp_path / "usual.csv"
+    file.write_text(TABLE.format(row), encoding=encoding)
+    usual.write_text(TABLE.format("").replace("speed,angle", "speed [m/s],angle [deg]"))
+    scene = Scene.load("granulation")
+    found, same = (read_data(path, scene) for path in (file, usual))
+    assert (found.speed == same.speed).all() and (found.angle == same.angle).all()
+    assert (found.outcome == same.outcome).all()
+    assert found.labels == ("row 1 (line 3)", "row 2 (line 4)")
+
+
+def test_a_first_row_without_numbers_is_no_row_of_units(tmp_path: Path):
+    """The cell "s" is short for a stick."""
+    file = tmp_path / "rows.csv"
+    file.write_text("restitution,outcome\n-,s\n0.5,bounce\n")
+    assert len(read_data(file, Scene.load("granulation-dry-bridge")).speed) == 2

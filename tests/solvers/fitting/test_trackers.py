@@ -227,7 +227,7 @@ def test_what_a_file_lacks_can_be_supplied_as_it_is_asked_for(tmp_path: Path, fi
 
 
 def test_text_of_windows(tmp_path: Path, film: Film) -> None:
-    """Fiji writes µ in the code page of Windows; a file that is no text is refused."""
+    """Fiji writes µ in the code page of Windows, Excel tables in UTF-16; a file that is no text is refused."""
     path = tmp_path / "film.csv"
     path.write_text(trackmate(film, "µm", 1e6 * PIXEL), encoding="cp1252")
     found = read(path)
@@ -235,7 +235,9 @@ def test_text_of_windows(tmp_path: Path, film: Film) -> None:
     assert any("positions in µm" in each for each in found.remarks)
     assert any("scale" in each and "is not used for the positions" in each for each in found.remarks)
     assert not any("is not used for the positions" in each for each in read(film).remarks)
-    for content in (bytes(range(256)), b"\xff\xfe" + "frame,x1,y1,x2,y2\n".encode("utf-16-le")):
+    path.write_text(trackmate(film, "µm", 1e6 * PIXEL), encoding="utf-16")
+    same(read(path), film, 1e-6)
+    for content in (bytes(range(256)), b"\xff\xfe" + bytes(range(255))):
         path.write_bytes(content)
         with pytest.raises(InputError, match="is not UTF-8 text"):
             read(path)

@@ -109,3 +109,10 @@ def test_junk_is_an_input_error(text):
         assert math.isfinite(read(text))
     except InputError as error:
         assert len(str(error).splitlines()) == 1
+
+
+def test_units_as_programs_write_them():
+    """A revolution is 2 pi, not a radian; Tracker escapes the letter of a micrometre."""
+    assert quantity("2 rev/s", "rad/s", "spin", "") == pytest.approx(4 * math.pi, rel=1e-15)
+    assert quantity("60 rev/min", "rad/s", "spin", "") == pytest.approx(2 * math.pi, rel=1e-15)
+    assert quantity(r"3 \u00B5m", "m", "radius", "") == 3e-6
