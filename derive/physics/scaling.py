@@ -224,13 +224,13 @@ def as_product(expression: sp.Expr) -> sp.Expr:
 
     That time grows exponentially with the number of roots and functions: 0.3 s for seven, 6 s for twelve.
     """
-    parts = expression.atoms(sp.Pow, sp.Function)
-    irrational = {part.base if isinstance(part, sp.Pow) else part for part in parts if not _is_whole_power(part)}
+    atoms = expression.atoms(sp.Pow, sp.Function)
+    irrational = {atom.base if isinstance(atom, sp.Pow) else atom for atom in atoms if not _is_whole_power(atom)}
     return sp.factor(expression) if len(irrational) <= _MANY else sp.factor_terms(expression)
 
 
-def _is_whole_power(part: sp.Basic) -> bool:
-    return isinstance(part, sp.Pow) and bool(part.exp.is_Integer)
+def _is_whole_power(atom: sp.Basic) -> bool:
+    return isinstance(atom, sp.Pow) and bool(atom.exp.is_Integer)
 
 
 def _substituted(expression: sp.Expr, rules: dict[sp.Symbol, sp.Expr]) -> sp.Expr:
