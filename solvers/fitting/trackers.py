@@ -161,11 +161,13 @@ def with_one_clock(film: Film, rate: float | None, times: Units) -> Film:
         InputError: the times cannot be true, and no rate is given.
     """
     columns, time, frame = dict(film.columns), film.columns.get("time"), film.columns.get("frame")
-    if time is None or (frame is None and time.unit is None):
+    if time is None or not time.cells or (frame is None and time.unit is None):
         return film
     written = np.array([_number(cell) for cell in time.cells])
     at = written * (times(time) if time.unit else 1.0)
-    steps = np.diff(ticks := np.unique(at[np.isfinite(at)]))
+    impact = np.array([_name(cell) for cell in columns["impact"].cells] if "impact" in columns else [""] * at.size)
+    films = [np.unique(at[(impact == name) & np.isfinite(at)]) for name in np.unique(impact)]
+    ticks, steps = np.concatenate(films), np.concatenate([np.diff(film) for film in films])
     problem, counts = "", None
     if frame is not None and np.array_equal(written, [_number(cell) for cell in frame.cells]):
         problem = "are the numbers of the frames"
@@ -180,7 +182,7 @@ def with_one_clock(film: Film, rate: float | None, times: Units) -> Film:
     if frame is None and counts is not None:
         frame = Column("frame", None, counts.tolist())
     step = float(np.median(steps)) if steps.size else 0.0
-    shared = at.size > ticks.size and "impact" not in columns  # times that several frames have are named later
+    shared = at.size > ticks.size  # times that several frames have are named later
     if frame is None and rate and step and not shared and not 1 / _OFF < step * rate < _OFF:
         problem = f"is not that of the times, which come at {1 / step:.4g} 1/s"
         raise InputError("rate", f"{rate:g} 1/s", "no rate beside times, or a column frame", problem)

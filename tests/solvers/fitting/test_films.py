@@ -75,6 +75,18 @@ def test_what_would_be_measured_wrong_is_refused(film: dict[str, np.ndarray]) ->
     assert read(flat).to_csv() == read(film).to_csv()
 
 
+def test_films_in_one_table_have_their_own_clocks(film: dict[str, np.ndarray]) -> None:
+    """One begins between two frames of the other: a rate beside the times is that of each, and not of both together."""
+    places = {name: np.tile(film[name], 2) for name in ("x1", "y1", "x2", "y2")}
+    times = np.concatenate([film["frame"] / RATE, (film["frame"] + 0.3) / RATE])
+    both = {"impact": np.repeat([1, 2], film["frame"].size), "time [s]": times} | places
+    found = read(both)
+    np.testing.assert_allclose(found.columns["speed"], read(film).columns["speed"][0], rtol=1e-9)
+    assert any("is not used" in remark for remark in found.remarks)
+    with pytest.raises(InputError, match="come at 1.5e.05 1/s"):
+        read(both, rate=30.0)
+
+
 def test_a_tracker_that_pushes_near_discs_apart_is_noticed() -> None:
     """Centres displaced as trackpy displaces them: sticks stay sticks, speeds stay right, and it is said.
 
