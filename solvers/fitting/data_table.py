@@ -60,7 +60,7 @@ _SPREAD_WORDS = re.compile(r"(.*?)_*(sd|std|err|error|sigma|uncertainty)")
 _MISSPELT = 0.75  # similarity to a known name from which an unknown column is refused and not left out
 _NOISE = 5.0  # standard deviations by which a measured restitution may lie below 0
 _NAMED = 8  # rows in a sentence
-_WIDEST = 1 / 3  # relative scatter of a speed
+_WIDEST, _WIDEST_ANGLE = 1 / 3, 0.5  # relative scatter of a speed, that of an angle in rad
 
 
 def read_data(source: Any, scene: Scene, label: str = "data") -> Measurements:
@@ -276,10 +276,12 @@ class _Table:
             self.remarks.append(f"Scatter of the {NAMES[of_speed]}, where it is not given: {100 * SPEED_SD:g} %.")
             speed_sd = np.where(np.isnan(speed_sd), SPEED_SD * speed, speed_sd)
         if "angle_sd" in self.by_name:
-            words = "a standard deviation from 0 to 0.5 rad"
-            angle_sd = self._numbers("angle_sd", "rad", lambda v: 0 <= v < 0.5, words)
-            if self.by_name["angle_sd"].unit == "%":
-                angle_sd = angle_sd * angle
+            words, column = f"a standard deviation from 0 to {_WIDEST_ANGLE:g} rad", self.by_name["angle_sd"]
+            if column.unit == "%":
+                angle_sd = angle * self._numbers("angle_sd", "rad", lambda v: v >= 0, words)
+                self._refuse(angle_sd >= _WIDEST_ANGLE, "angle_sd", column.cells, words, "of the angle is out of range")
+            else:
+                angle_sd = self._numbers("angle_sd", "rad", lambda v: 0 <= v < _WIDEST_ANGLE, words)
         if np.isnan(angle_sd).any():
             self.remarks.append(f"Scatter of the angle, where it is not given: {math.degrees(ANGLE_SD):.3g} deg.")
             angle_sd = np.where(np.isnan(angle_sd), ANGLE_SD, angle_sd)
@@ -347,6 +349,8 @@ class _Table:
             values = self._numbers(name, UNITS[name], (lambda v: v >= 0) if relative else math.isfinite, words)
             sd = np.full(self.size, np.nan)
             if error in self.by_name:
+                if self.by_name[name].unit == "%" and self.by_name[error].unit is None:
+                    raise InputError(self.header, error, f"{error} [%]", f"has no unit beside {name} in %")
                 sd = self._numbers(error, UNITS[name], lambda v: v > 0, "a standard deviation > 0")
                 if self.by_name[name].unit == self.by_name[error].unit == "%":
                     self.remarks.append(f"Standard deviations of {name} are taken for per cent as it is, not of it.")

@@ -53,6 +53,20 @@ def test_per_cent():
             read_data({**impacts, "restitution": [0.5, 0.6], f"{name} [%]": [5.0, 5.0]}, SCENE)
 
 
+def test_a_standard_deviation_in_per_cent_is_held_to_what_it_is_of():
+    """60 % of 10 deg is little, 45 % of 80 deg more than half a radian; beside per cent a plain number is refused."""
+    impacts = {"speed [m/s]": [2.0, 3.0], "restitution": [0.5, 0.6]}
+    found = read_data({**impacts, "angle [deg]": [10.0, 12.0], "angle_sd [%]": [60.0, 60.0]}, SCENE)
+    np.testing.assert_allclose(found.angle_sd, 0.6 * np.radians([10, 12]))
+    with pytest.raises(InputError, match="row 2, column angle_sd: 45.0 of the angle is out of range"):
+        read_data({**impacts, "angle [deg]": [10.0, 80.0], "angle_sd [%]": [45.0, 45.0]}, SCENE)
+    for sd in (2.0, 0.02):
+        with pytest.raises(InputError, match=r"has no unit beside restitution in %; accepted: .*\[%\]"):
+            read_data(
+                {"speed [m/s]": [2.0], "angle [deg]": [9.0], "restitution [%]": [50.0], "restitution_sd": [sd]}, SCENE
+            )
+
+
 def test_a_plain_angle_is_radians():
     """Degrees as plain numbers are told so; what is wrong in degrees as well is not."""
     for value, says in (
