@@ -1,5 +1,6 @@
 """Reading of a model file: run it, collect its declarations, derive its laws."""
 
+import re
 import traceback
 from pathlib import Path
 
@@ -9,6 +10,7 @@ from ..user.structures import UserModel, express
 from . import LAWS, files
 
 _LARGEST = 1_000_000  # bytes
+_IMPORTS = re.compile(r"(?<!wetdoublet\.derive\.user )\bimport")
 _ACCEPTED = "a model file (see `wetdoublet generate --template`)"
 
 
@@ -19,8 +21,7 @@ def declared(path: Path, text: str | None = None) -> tuple[str, Declarations]:
         ModelFileError: the file cannot be read or run, or declares nothing; names the line.
     """
     source = _text(path) if text is None else text
-    imports = ".laws" in source or "from ." in source
-    for name in files() if imports else ():  # what it imports declares nothing of its own
+    for name in files() if _IMPORTS.search(source) else ():  # imported later, they would declare laws of its own
         getattr(laws, name)
     namespace = {"__name__": "wetdoublet_model", "__package__": __package__, "__file__": str(path)}
     with collecting(LAWS) as result:

@@ -7,6 +7,7 @@ import sys
 from collections.abc import Callable
 from pathlib import Path
 
+import pytest
 from wetdoublet.derive.emit.casadi.modules import law_module, structure_module
 from wetdoublet.derive.emit.provenance import law_digest, model_digest
 from wetdoublet.derive.equations.model import Model, derive
@@ -67,10 +68,13 @@ law("bridge", "mine", force=2 * pi * a * sigma * normal_force() / (mu * a * u))
 """
 
 
-def test_a_model_file_may_import_laws_that_come_from_the_store(tmp_path: Path) -> None:
-    """They are imported by the model file alone then, and still are the library's: the model has its own law only."""
-    environment = os.environ | {"WETDOUBLET_CACHE": str(tmp_path / "cache")}
-    command = [sys.executable, "-c", _READ, _MODEL]
+@pytest.mark.parametrize("indirect", [False, True])
+def test_a_model_file_may_import_laws_that_come_from_the_store(indirect: bool, tmp_path: Path) -> None:
+    """Imported by the model file alone, or a module that it imports, they still are the library's: it has its own."""
+    environment = os.environ | {"WETDOUBLET_CACHE": str(tmp_path / "cache"), "PYTHONPATH": str(tmp_path)}
+    (tmp_path / "helper.py").write_text("from wetdoublet.derive.laws.film import normal_force\n")
+    model = _MODEL.replace("wetdoublet.derive.laws.film", "helper") if indirect else _MODEL
+    command = [sys.executable, "-c", _READ, model]
     first, second = (
         json.loads(subprocess.run(command, env=environment, capture_output=True, text=True, check=True).stdout)
         for _ in range(2)
