@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import re
 from functools import partial
 from itertools import groupby
 from pathlib import Path
@@ -26,8 +25,6 @@ from .signature import command, passed
 KINDS = ("c", "casadi", "latex")
 _MODELS = "library, a preset or scene file, a folder of `generate`, or MODEL.py"
 OWN = Path(__file__).resolve().parents[2] / "generated"  # not imported: may be stale or broken
-_READS = re.compile(rb"^\s*(import|from)\s(?!wetdoublet)|\b(open|exec|eval|__import__)\(", re.MULTILINE)
-"""What a model file has that may depend on other files."""
 _SHOWN = 5  # most extra files named in the message; the listing names all
 
 
@@ -265,8 +262,7 @@ def _model(source: Path, folder: Path | None, check: bool) -> None:
     from ..scene.user_model_derived import derived_package, origin_of
     from ..scene.user_model_source import key_of
 
-    content = source.read_bytes() if source.is_file() else b""
-    key = "" if _READS.search(content) else key_of(content, origin_of(source, folder))
+    key = key_of(source.read_bytes() if source.is_file() else b"", origin_of(source, folder))
     before = lookup(key) if key and not check else None
     if before is not None and not differing(folder, emitted := json.loads(before)):
         click.echo(f"nothing has changed: the {len(emitted)} files in {folder} are what {source} gives")

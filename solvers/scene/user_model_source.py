@@ -1,8 +1,11 @@
 """Opening of a user's model: an emitted folder, or a model file, derived on first use. A stale one is refused."""
 
+import ast
 import hashlib
 import json
 import os
+import re
+import sys
 from functools import lru_cache
 from pathlib import Path
 
@@ -11,9 +14,12 @@ from ..host import bounded
 from ..host.emitted import derivation, deriving, library_digest
 from .user_model import ACCEPTED, Package
 
+_OTHERS = re.compile(rb"\b(open|exec|eval|__import__|read_text|read_bytes)\(|\bimportlib\b")
+_STEADY = {"wetdoublet", "sympy", *sys.stdlib_module_names}
+
 
 def open_package(source: str | Path | Package, label: str = "--model") -> Package:
-    """The model of a folder written by `generate`, or of a model file (derived on first use, then cached).
+    """The model of a folder written by `generate`, or of a model file (derived on first use, then from the cache).
 
     Raises:
         InputError: no such model, or a stale one; names the command to run.
@@ -37,7 +43,7 @@ def liquid_package(law: str) -> Package:
 
 
 def _derived_once(key: str, function: str, source: Path | str) -> Package:
-    """The model that a function of `user_model_derived` gives, from the cache of the user if it is there."""
+    """The model that a function of `user_model_derived` gives, with a key from the cache of the user if it is there."""
     from ..host.user_cache import fetch
 
     def derived() -> bytes:
@@ -46,7 +52,7 @@ def _derived_once(key: str, function: str, source: Path | str) -> Package:
         with deriving():
             return json.dumps(dict(getattr(user_model_derived, function)(source))).encode()
 
-    files = json.loads(fetch(key, derived))
+    files = json.loads(fetch(key, derived) if key else derived())
     return Package(files["manifest.json"], Path(source), files)
 
 
@@ -98,6 +104,19 @@ def _of_folder(folder: Path, label: str) -> Package:
 
 
 def key_of(content: bytes, origin: str = "") -> str:
-    """Name of the cache's entry for the files that a model file of this content gives."""
+    """Name of the cache's entry for the files that a model file of this content gives; "" if others may change them."""
+    if _depends_on_others(content):
+        return ""
     parts = [content, derivation().encode(), library_digest().encode(), *([origin.encode()] if origin else [])]
     return f"model-{hashlib.sha256(bytes([0]).join(parts)).hexdigest()[:32]}.json"
+
+
+def _depends_on_others(content: bytes) -> bool:
+    """Whether a model file imports or opens files besides the package's, sympy's and Python's."""
+    try:
+        nodes = [*ast.walk(ast.parse(content))]
+    except (SyntaxError, ValueError):
+        return True
+    names = [alias.name for node in nodes if isinstance(node, ast.Import) for alias in node.names]
+    names += [node.module or "" for node in nodes if isinstance(node, ast.ImportFrom) and not node.level]
+    return bool(_OTHERS.search(content)) or any(name.partition(".")[0] not in _STEADY for name in names)

@@ -90,7 +90,7 @@ def test_generate_says_what_has_changed(mine: Path, tmp_path: Path):
     assert "events, lost\n  added    2 - normal_velocity\n" in done
     assert "group      as before\nevent      added    lost: watched always; cut off: a stick\n" in done
     assert "conserved  removed  angular momentum L" in done and f"written  {folder / 'laws/arm_surface.py'}\n" in done
-    (tmp_path / "mine.py").write_text("import math\n" + later)  # may read anything
+    (tmp_path / "mine.py").write_text("import numpy\n" + later)  # may read anything
     assert "\nlaw        removed  arm surface\nterm       as before\ngroup      as before\n" in run(*arguments).output
     assert not run(*arguments).output.startswith("nothing")
 

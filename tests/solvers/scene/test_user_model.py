@@ -2,6 +2,7 @@
 
 import json
 import pickle
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -87,6 +88,22 @@ def test_a_map_is_drawn_without_the_models_folder(mine: Path, tmp_path: Path):
     assert scene.package is not None
     with pytest.raises(InputError, match="only described here"):
         scene.package.text_of("scaling.py")
+
+
+@pytest.mark.parametrize("asked", ["from factors import FACTOR", "import math, factors\nFACTOR = factors.FACTOR"])
+def test_a_model_file_that_imports_others_follows_them(asked: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    """A module of its own that changes, though the file does not, changes the force."""
+    path = tmp_path / "mine.py"
+    path.write_text(f"from wetdoublet.derive.user import *\n{asked}\nlaw('bridge', 'mine', force=FACTOR*pi*a*sigma)\n")
+    monkeypatch.syspath_prepend(str(tmp_path))
+    monkeypatch.setattr(sys, "dont_write_bytecode", True)
+    texts = []
+    for factor in (2, 3):
+        (tmp_path / "factors.py").write_text(f"FACTOR = {factor}\n")
+        monkeypatch.delitem(sys.modules, "factors", raising=False)
+        package = Scene.load("granulation", model=path).package
+        texts.append(package.text_of(package.law_file("bridge", "mine")))
+    assert texts[0] != texts[1]
 
 
 def test_what_has_no_default_must_be_given(tmp_path: Path):
