@@ -168,11 +168,13 @@ def sources_of_derivation() -> str:
 @contextmanager
 def deriving() -> Iterator[None]:
     """The right to derive, one thread at a time, laws and structures from the user's cache where it has them."""
-    from ...derive.equations.store import opened
     from .user_cache import fetch
 
-    with DERIVING, opened(lambda name, make: fetch(f"derived-{derivation()[:32]}-{name}.pickle", make)):
-        yield
+    with DERIVING:  # its modules, too, are imported by one thread at a time
+        from ...derive.equations.store import opened
+
+        with opened(lambda name, make: fetch(f"derived-{derivation()[:32]}-{name}.pickle", make)):
+            yield
 
 
 def derived_once(name: str, function: str, *arguments: str | bool) -> str:

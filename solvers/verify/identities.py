@@ -42,9 +42,9 @@ def symbolic(scene: Scene | None = None, recompute: bool = False) -> Iterator[Fi
 
 def of_the_model(package: Package) -> Iterator[Finding]:
     """Findings of the checks of a user's model, from its model file."""
-    from ...derive.checks.user import model_checks
-
     with DERIVING:
+        from ...derive.checks.user import model_checks
+
         _, checks = model_checks(Path(f"{package.name}.py"), package.source, package.name)
     for check in checks:
         yield Finding(f"Model: {package.name}", check.name, check.statement, check.figure, "", check.ok)

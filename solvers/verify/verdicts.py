@@ -40,7 +40,8 @@ def findings(laws: Mapping[str, str], recompute: bool = False) -> Iterator[Findi
         recompute: prove them all here.
     """
     verdicts = {} if recompute else shipped()
-    remaining = proofs_of(laws)
+    with DERIVING:
+        remaining = proofs_of(laws)
     while True:
         with DERIVING:
             if (proof := next(remaining, None)) is None:

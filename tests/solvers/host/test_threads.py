@@ -2,6 +2,7 @@
 
 import contextlib
 import io
+import os
 import subprocess
 import sys
 import threading
@@ -44,6 +45,40 @@ def test_public_functions_from_several_threads():
     command = [sys.executable, "-X", "faulthandler", str(SCRIPT), "4", "0"]
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     assert (done.returncode, done.stderr) == (0, ""), done.stdout + done.stderr
+
+
+_IMPORTS = """
+import sys
+from pathlib import Path
+from types import SimpleNamespace
+from wetdoublet.solvers import Scene
+from wetdoublet.solvers.host.emitted import DERIVING
+from wetdoublet.solvers.verify.identities import of_the_model
+from wetdoublet.solvers.verify.verdicts import findings
+
+class Unlocked:
+    def find_spec(self, name, path=None, target=None):
+        if name.startswith("wetdoublet.derive") and not DERIVING._is_owned():
+            print(name)
+
+sys.meta_path.insert(0, Unlocked())
+path = Path(sys.argv[1])
+mine = SimpleNamespace(name="mine", source=path.read_text())
+"""
+
+
+@pytest.mark.parametrize(
+    "asked", ["Scene.load('granulation', model=path)", "next(findings({}))", "next(of_the_model(mine))"]
+)
+def test_the_derivation_is_imported_by_one_thread_at_a_time(asked: str, tmp_path: Path):
+    """Two that import its modules from different sides may each find one of the other's half made: an ImportError."""
+    (tmp_path / "mine.py").write_text(
+        "from wetdoublet.derive.user import *\nlaw('bridge', 'mine', force=2*pi*a*sigma)\n"
+    )
+    command = [sys.executable, "-c", _IMPORTS + asked, str(tmp_path / "mine.py")]
+    environment = os.environ | {"WETDOUBLET_CACHE": str(tmp_path / "cache")}
+    done = subprocess.run(command, capture_output=True, text=True, check=False, env=environment)
+    assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
 
 
 def test_a_model_is_a_threads_own():
