@@ -286,3 +286,18 @@ def test_what_a_film_has_stopped_waits_for_the_time_of_an_event(wall: bool, tmp_
         assert [event.kind for event in found.events] == ["turned", "kick"]
         assert (found.outcome, found.events[-1].time) == ("stick", pytest.approx(0.01, rel=1e-9))
     assert collide_many(never, stokes=[0.1] * 3, angle=angle).outcome.values.tolist() == [0, 0, 0]
+
+
+def test_an_event_comes_when_its_guard_is_first_zero_however_fast_that_swings(tmp_path: Path):
+    """Also in motion, and where the film has stopped the doublet: level + cos(rate t), at arccos(-level)/rate."""
+    (tmp_path / "swings.py").write_text(
+        '"""x"""\nfrom wetdoublet.derive.user import *\nlevel = quantity("level", default=0.5)\n'
+        'rate = quantity("rate", unit="1/s", default="100 1/s")\n'
+        'event("kick", guard=level + cos(rate*t), jump={u: u + v0/4}, releases=m*v0**2)\n'
+    )
+    plain = Scene.load("granulation-dry-bridge").with_entries({"liquid.glass_transition_pressure": "1e6 GPa"})
+    scene = plain.with_model(tmp_path / "swings.py")
+    for rate, level in ((1e2, 0.99), (1e3, 0.5), (1e4, 0.5), (1e6, 0.99), (1e8, 0.99)):
+        found = collide(scene.with_entries({"custom.rate": rate, "custom.level": level}), stokes=0.1, angle=0.0)
+        [kick] = [event.time for event in found.events if event.kind == "kick"]
+        assert kick == pytest.approx(math.acos(-level) / rate, rel=1e-6), (rate, level)

@@ -179,8 +179,7 @@ static vec length_of_step(queue *q, expansion *e, const lanes *l, const fixed *f
     if (bits(*creeps))
         damp(a, *creeps);
 #if OWN_EVENTS
-    if (bits(l->alive & l->resting))
-        h = guards_resolved(&e->s, l, f, h);
+    h = guards_resolved(&e->s, l, f, h);
 #endif /* OWN_EVENTS */
 #if FRICTION
     if (bits(*creeps & l->alive & l->resting))

@@ -154,14 +154,14 @@ OUTLINE void look(first_event *first, mask close, const vec *a, vec target, vec 
 }
 
 #if OWN_EVENTS
-/* The step, at rest no longer than the series of the guards are accurate: where nothing but the angle changes it has no end. */
+/* The step, no longer than the series of the guards are accurate, which may vary faster than the states. */
 OUTLINE vec guards_resolved(const series *s, const lanes *l, const fixed *f, vec h)
 {
     own_series own;
     for (int k = 0; k <= ORDER; k++)
         own_coefficients(&own, s, &f->c, k);
     for (int which = 0; which < OWN_EVENTS; which++) {
-        mask watched = l->alive & l->resting & own_watched(l->y, which, l->closing, l->resting, l->film);
+        mask watched = l->alive & own_watched(l->y, which, l->closing, l->resting, l->film);
         vec size = f->tolerance*(vec_abs(own.guard[which][0]) + 1e-3);
         for (int k = ORDER - 1; k <= ORDER; k++) {
             vec error = vec_max(vec_abs(own.guard[which][k])/size, splat(1e-300)); /* of a step of 1; not the inverse, as guards may be large */
