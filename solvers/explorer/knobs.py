@@ -9,6 +9,7 @@ from ..export.law.material import Number
 from ..scene.fields import Range
 from ..scene.scene import Scene
 from ..scene.schema import SPEEDS
+from ..scene.units import is_number
 
 _LABELS = {
     "particles.radius": "Diameter",
@@ -137,8 +138,8 @@ def _unit(scene: Scene, name: str, si: str) -> tuple[str, float]:
     given = dict(scene.given)
     for key in (name, *_ALIKE.get(name, ())):
         raw = given.get(key)
-        if isinstance(raw, str) and " " in raw and scene.fields[key].unit:
-            unit = raw.partition(" ")[2]
+        number, _, unit = raw.partition(" ") if isinstance(raw, str) else ("", "", "")
+        if unit and is_number(number) and scene.fields[key].unit:  # and no liquid by its name
             return unit, scene.fields[key].number(f"1 {unit}")
     return ("", 1.0) if si == "1" else _UNITS.get(si, (si, 1.0))
 

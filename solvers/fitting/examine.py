@@ -71,7 +71,8 @@ class Checkup(Recorded):
         if self.differing and self.agreement >= _POOR:
             more = " ..." if len(self.differing) > _NAMED else ""
             lines.append(f"Others do not: {', '.join(self.differing[:_NAMED])}{more}.")
-        lines += ["", *([f"{finding.kind}: {finding.text}" for finding in self.findings] or ["Nothing odd was found."])]
+        nothing = "Nothing else is odd." if self.differing else "Nothing odd was found."
+        lines += ["", *([f"{finding.kind}: {finding.text}" for finding in self.findings] or [nothing])]
         lines += ["", "Impacts that would differ visibly if an entry were half or twice as large (fractions: by 0.1)"]
         lines += aligned([[name, str(count)] for name, count in self.telling.items() if count] or [[""]])
         untold = ", ".join(name for name, count in self.telling.items() if not count)

@@ -7,6 +7,7 @@ oscillator, an exponential. The scene's numerical values are kept.
 import math
 from collections.abc import Callable, Iterator
 from functools import partial
+from typing import Any
 
 import numpy as np
 
@@ -18,7 +19,8 @@ from ..model.model import load, select_model
 from ..model.phases import Flow, Phase
 from ..scene.contact import contact_gap
 from ..scene.scene import Scene
-from ..scene.schema import SPINS
+from ..scene.scenefile import written
+from ..scene.schema import FIELDS, SPINS
 from .report import Finding, bounded, note
 from .sample import PLUGINS, RTOL, Collide, place, stokes_of
 
@@ -82,11 +84,21 @@ def film_loss(s: float) -> float:
 
 
 def _bare(scene: Scene) -> Scene:
-    """The scene without bridge, attraction, strings, spins, and without the quantities of a user's model."""
-    without = ("bridge", "attraction", "pendulum", "custom")
-    tables = {name: value for name, value in scene.to_dict().items() if name not in without}
+    """The scene without bridge, attraction, strings, spins, and without a user's model."""
+    tables = _of_the_library(scene, without=("bridge", "attraction", "pendulum"))
     tables["impact"] = {name: value for name, value in tables["impact"].items() if f"impact.{name}" not in SPINS}
     return Scene.from_dict(tables)
+
+
+def _of_the_library(scene: Scene, without: tuple[str, ...]) -> dict[str, Any]:
+    """The tables of a scene but for some, without a user's model: its quantities, and the default for its laws."""
+    tables: dict[str, Any] = {"name": scene.name} if scene.name else {}
+    for entry, value in scene.given:
+        table, _, key = entry.partition(".")
+        known = entry in FIELDS and (not FIELDS[entry].choices or value in FIELDS[entry].choices)
+        if known and table not in without:
+            tables.setdefault(table, {})[key] = written(entry, value)
+    return tables
 
 
 def film_alone(scene: Scene, engine: str, plain: Integrators = plain, collide: Collide = collide) -> tuple[float, str]:
@@ -204,8 +216,7 @@ def spin_relaxes(scene: Scene, engine: str, plain: Integrators = plain) -> tuple
 def swinging(scene: Scene, engine: str, plain: Integrators = plain) -> tuple[float, str]:
     """Error of r and beta of dry spheres on strings at small angles, over r0 and 1 rad, up to a third of a swing."""
     assert scene.pendulum is not None
-    tables = {name: value for name, value in scene.to_dict().items() if name not in ("bridge", "custom")}
-    dry = Scene.from_dict(tables).with_entries({"pendulum.law": "small-angle"})
+    dry = Scene.from_dict(_of_the_library(scene, without=("bridge",))).with_entries({"pendulum.law": "small-angle"})
     n = _oblique(dry)
     flow = Flow(select_model(dry, oblique=True, full=True), Phase(0, 0, 0))
     a, aspect = dry.particles.reduced_radius, n.groups["aspect"]

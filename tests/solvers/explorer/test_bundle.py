@@ -123,6 +123,15 @@ def test_a_scene_without_an_impact_is_refused():
         explore(Scene("", given))
 
 
+def test_a_liquid_by_its_name_has_a_knob_in_pascal_seconds():
+    """Its text has a space and no unit."""
+    pytest.importorskip("CoolProp")
+    scene = Scene.load("granulation").with_entries({"liquid.viscosity": "glycerol 85 %, 25 degC"})
+    law = source(scene)
+    knob = next(each for each in knobs(scene, law.entries, law.impact) if each["name"] == "liquid.viscosity")
+    assert knob["value"] * knob["factor"] == pytest.approx(scene.entries["liquid.viscosity"], rel=1e-15)
+
+
 @pytest.mark.parametrize("name", ["lactose-pvp", "pendulum"])
 def test_knobs_have_the_scenes_numbers_and_units(name: str):
     """What a knob sets is the scene's own number, within its slider; every number of the law but one has a knob."""

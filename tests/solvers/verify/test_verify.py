@@ -3,6 +3,7 @@
 import math
 from collections.abc import Callable
 from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -71,6 +72,18 @@ def test_the_budget_of_spinning_spheres() -> None:
     found = {finding.name: finding.ok for finding in region.argument(scene, at)}
     assert found["e_n^2 - 1: identity"] and found["e_n^2: ceiling"]
     assert [finding.ok for finding in closed.closed_forms(scene)] == [True, True, True]  # of what does not spin
+
+
+def test_closed_forms_of_a_scene_with_a_film_of_ones_own_are_of_the_librarys(tmp_path: Path) -> None:
+    """They are of the library's film, and of a bare scene: the quantities and laws of a model file are left out."""
+    (tmp_path / "mine.py").write_text(
+        "from wetdoublet.derive.user import *\nweak = quantity('weak', default=0.5, bounds='> 0')\n"
+        "law('film', 'thinning', resistance=6*pi*mu*a**2*u/x*(1 + Abs(u)/v0)**(-weak))\n"
+    )
+    scene = Scene.load("granulation").with_model(tmp_path / "mine.py")
+    assert ("model.film", "thinning") in scene.given
+    plain = Scene.load("granulation")
+    assert [f.figure for f in closed.closed_forms(scene)] == [f.figure for f in closed.closed_forms(plain)]
 
 
 @pytest.mark.slow
