@@ -1,17 +1,18 @@
 """Materials in a table, one scene a row."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
 from ..errors import InputError, did_you_mean
 from ..scene.columns import columns_of, file_label, row_name
 from ..scene.scene import Scene
-from ..scene.schema import FIELDS
+from ..scene.schema import FIELDS, MEETING
 
 _SD = "_sd"
 _BARE = {name.rpartition(".")[2]: name for name in reversed(FIELDS)}
+_OF_IMPACT = {name.removeprefix("impact."): name for name in MEETING}  # as tables of measurements have them
 _TABLE = "a CSV file whose first line names the columns, such as particles.diameter [um],liquid.viscosity [mPa s]"
 
 
@@ -45,6 +46,7 @@ def materials_of(source: Any, changes: Mapping[str, Any] | None = None) -> list[
         scene = Scene.load(source)
         return [Material(scene.name, scene.with_entries(changes) if changes else scene)]
     columns, lines = columns_of(source, "materials", _TABLE)
+    columns = [replace(column, name=_OF_IMPACT.get(column.name, column.name)) for column in columns]
     table = file_label(source, "materials")
     if not lines:
         raise InputError(table, None, "at least one row", "has no rows")

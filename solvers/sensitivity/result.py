@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
 _STICK_NOTES = (
     "a stick: its restitution is 0, and nothing else of it is defined, up to the boundary of sticking;",
-    "that boundary and its sensitivities: `wetdoublet boundary SCENE --wrt NAMES`, or .boundary() in Python",
+    "that boundary and its sensitivities: `wetdoublet boundary SCENE --angle A --wrt NAMES`, or .boundary() in Python",
 )
 _ABOUT = ("outcome", "method", "engine", "hold")
 _SHOWN = 5  # most quantities side by side

@@ -108,3 +108,14 @@ def test_a_table_of_materials(tmp_path: Path) -> None:
     assert [each["interval"] is None for each in rows] == [False, False, True, True]
     assert plot.stat().st_size > 10_000
     assert "coarse" in run("critical", tmp_path / "materials.csv").stdout
+
+
+def test_a_table_may_have_an_angle_for_each_row(tmp_path: Path) -> None:
+    """Each row is its scene at that angle."""
+    rows = "scene,impact.angle [deg],particles.dry_restitution\ngranulation,20,0.3\ngranulation,50,0.4\n"
+    (tmp_path / "materials.csv").write_text(rows)
+    found = json.loads(run("critical", str(tmp_path / "materials.csv"), "--json").stdout)
+    plain = Scene.load("granulation")
+    for row, (angle, e_dry) in zip(found["rows"], ((20, 0.3), (50, 0.4)), strict=True):
+        [alone] = critical(plain.with_entries({"particles.dry_restitution": e_dry}), angle=math.radians(angle)).rows
+        assert row["relative_speed"] == pytest.approx(alone.relative_speed, rel=1e-12)
