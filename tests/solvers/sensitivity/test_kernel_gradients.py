@@ -158,3 +158,20 @@ def test_first_touch_needs_no_measuring(distance: float, monkeypatch: pytest.Mon
     else:
         assert f"glass criterion met at initial contact at a relative distance of {distance:.2g}" in said
         assert np.isnan(found.gradient.values).all()
+
+
+def test_tangents_where_an_adjoint_sweep_fails() -> None:
+    """A collision of which CasADi cannot integrate the adjoint has derivatives, those of forward tangents."""
+    wall = {"partner.wall": True, "model.film": "constant-volume", "impact.spin": -178.0}
+    scene = Scene.load("granulation").with_entries(wall).with_impact(stokes=18.0, angle=0.0)
+    of, wrt = (
+        ["restitution", "energy.normal_lubrication"],
+        ["particles.dry_restitution", "liquid.viscosity", "bridge.volume"],
+    )
+    with pytest.raises(ComputationError, match="adjoint"):
+        sensitivities(scene, of=of, wrt=wrt, method="adjoint", engine="rosenbrock")
+    many, forward = gradients_many(scene, of=of, wrt=wrt), sensitivities(scene, of=of, wrt=wrt)
+    assert many.reason.item() == ""
+    for name in of:
+        found = many.gradient.sel(quantity=name).values[0]
+        assert found == pytest.approx(list(forward.gradient[name].values()), rel=1e-6)
