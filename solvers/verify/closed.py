@@ -95,8 +95,8 @@ def _of_the_library(scene: Scene, without: tuple[str, ...]) -> dict[str, Any]:
     tables: dict[str, Any] = {"name": scene.name} if scene.name else {}
     for entry, value in scene.given:
         table, _, key = entry.partition(".")
-        known = entry in FIELDS and (not FIELDS[entry].choices or value in FIELDS[entry].choices)
-        if known and table not in without:
+        common = entry in FIELDS and (not FIELDS[entry].choices or value in FIELDS[entry].choices)
+        if common and table not in without:
             tables.setdefault(table, {})[key] = written(entry, value)
     return tables
 
