@@ -36,7 +36,6 @@ class Proof(Recorded):
         steps: of the enclosure.
         ranges: low and high of the quantities that the proof holds for, SI.
         box: low and high of the entries of the box, SI, as the scene gives them.
-        held: the Stokes number or speed (m/s) of the impact, where the box has no range of it.
         seconds: wall time of the proof.
 
     Example:
