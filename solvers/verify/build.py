@@ -5,12 +5,17 @@
 To be run after a change of the derivation; a test says when.
 """
 
-import json
+from __future__ import annotations
 
-from ...derive.checks.symbolic import Proof
+import json
+from typing import TYPE_CHECKING
+
 from ..scene.scene import Scene
 from ..scene.scenefile import PRESETS
 from .verdicts import PROVED, laws_of, of_here, proofs_of, proved
+
+if TYPE_CHECKING:
+    from ...derive.checks.symbolic import Proof
 
 
 def needed() -> dict[str, Proof]:

@@ -98,7 +98,7 @@ def test_progress_never_falls_and_ends_at_the_total(compute):
 @pytest.mark.slow
 def test_an_interrupted_fit_says_what_is_most_likely_so_far():
     def interrupt(done: int, total: int) -> None:
-        if done > 0.9 * total:
+        if done > 0.6 * total:  # an estimate, which the last call jumps to
             raise KeyboardInterrupt
 
     angle = np.full(8, 0.2)
