@@ -29,7 +29,7 @@ _DEFINITION = re.compile(
 )
 _ENUMERATION = re.compile(r"\benum \{(.*?)\}", re.DOTALL)
 _ENUMERATOR = re.compile(r"(?:\A|,)\s*(\w+)")
-_DATA = re.compile(r"^static const [^;(]*;", re.MULTILINE)
+_DATA = re.compile(r"^static const (?:struct \{[^}]*\})?([^;(]*;)", re.MULTILINE)  # without a structure's members
 _VARIABLE = re.compile(r"\b(\w+)(?:\[[^\]]*\])*(?=\s*(?:=[^=]|;))")
 _TOKEN = re.compile(
     rf"{_NO_CODE}|(?P<structure>\bstruct[^;{{}}()]*\{{[^{{}}]*\}})|(?:\.|->)\s*\w+|\b[A-Za-z_]\w*", re.DOTALL
@@ -90,4 +90,4 @@ def _defined(code: str) -> Iterator[str]:
     for enumeration in _ENUMERATION.finditer(code):
         yield from _ENUMERATOR.findall(enumeration[1])
     for data in _DATA.finditer(code):
-        yield from _VARIABLE.findall(data[0])
+        yield from _VARIABLE.findall(data[1])

@@ -173,3 +173,15 @@ def test_exported_c_is_the_model(tmp_path: Path):
         for value in model.values("right_hand_side", np.array(state), groups, film, shear).values()
     ]
     np.testing.assert_allclose([float(word) for word in found], expected, rtol=1e-13)
+
+
+def test_each_kernel_of_a_law_has_its_own_table_of_declared_events(tmp_path: Path):
+    """Head-on and oblique kernels stand in one file: a name that both define would not compile."""
+    snap = 'event("snap", guard=limit - u/x, where="opening beyond the film", ends="separated")\n'
+    limit = 'limit = quantity("limit", unit="1/s", default="1e5 1/s")\n'
+    (tmp_path / "snap.py").write_text("from wetdoublet.derive.user import *\n" + limit + snap)
+    options = ("--model", str(tmp_path / "snap.py"), "--to", "c", "--out", str(tmp_path / "law"))
+    done = run("export", "granulation", *options)
+    assert done.exit_code == 0, done.output
+    tables = re.findall(r"^static const struct \{[^}]*\} (\w+)\[", (tmp_path / "law/granulation.c").read_text(), re.M)
+    assert len(tables) > 1 and len({*tables}) == len(tables)
