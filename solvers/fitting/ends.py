@@ -53,7 +53,10 @@ def predicted(objective: Objective, best: np.ndarray, k: int, sign: float) -> np
     return bounded
 
 
-def end_by_newton(objective: Objective, best: np.ndarray, k: int, sign: float, after: np.ndarray | None) -> End | None:
+def end_by_newton(
+    objective: Objective, best: np.ndarray, k: int, sign: float, after: np.ndarray | None,
+    near: np.ndarray | None = None,
+) -> End | None:  # fmt: skip
     """The likely point with the largest or smallest value of entry k, by Newton's method; None if it does not converge.
 
     The matrix of second derivatives is that of the estimate, corrected by what gradients change (BFGS). It says how
@@ -62,11 +65,13 @@ def end_by_newton(objective: Objective, best: np.ndarray, k: int, sign: float, a
 
     Arguments:
         after: a point from which to go on, within the interval or about at its end.
+        near: the first point, where there is no `after`, in place of the `predicted` one.
     """
     free, top, goal = objective.free, objective.value(best), float(np.sqrt(2 * objective.drop))
     matrix, at, slopes = objective.information(best) + free.vague, best, objective.gradient(best)
     margin, bound = NARROW * (free.high - free.low), free.low[k] if sign < 0 else free.high[k]
-    to = predicted(objective, best, k, sign) if after is None else after
+    first = near if after is None else after
+    to = predicted(objective, best, k, sign) if first is None else first
     for _ in range(_STEPS):
         to = np.clip(to, free.low, free.high)
         height = objective.value(to)

@@ -84,9 +84,10 @@ class Joint:
         for term, own in zip(self.parts, self.values(values), strict=True):
             term.aim(own)
 
-    def refine(self, values: np.ndarray, tolerance: float, at_least: bool = False) -> None:
-        for term, own in zip(self.parts, self.values(values), strict=True):
-            term.refine(own, tolerance, at_least)
+    def refine(self, values: np.ndarray, tolerance: float, at_least: bool = False) -> bool:
+        own = zip(self.parts, self.values(values), strict=True)
+        more = [term.refine(values_of, tolerance, at_least) for term, values_of in own]
+        return any(more)
 
     def __call__(self, values: np.ndarray, resolution: Resolution | None = None) -> Evaluation | None:
         """The log-likelihoods of all impacts; None where the values make a scene impossible."""

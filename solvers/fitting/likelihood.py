@@ -105,7 +105,7 @@ class Likelihood:
         """
         self.direction = directions(self.experiment_at(values), self.noisier(values), self.measured)
 
-    def refine(self, values: np.ndarray, tolerance: float, at_least: bool = False) -> None:
+    def refine(self, values: np.ndarray, tolerance: float, at_least: bool = False) -> bool:
         """Choose each row's number of lines: the last of `COUNTS` that changes its log-likelihood.
 
         The next number is tried where one changes it by more than `tolerance`; a fifth of that counts as a change.
@@ -113,10 +113,13 @@ class Likelihood:
         Arguments:
             at_least: no number becomes smaller than it was, so that there are enough lines for other values too; none
                 changes if these values make the scene impossible.
+
+        Returns:
+            Whether a row has more lines than before.
         """
         experiment, noise = self._experiment(values) if at_least else self.experiment_at(values), self._factors(values)
         if experiment is None:
-            return
+            return False
         counts, undecided, now = np.ones(self.size, int), np.ones(self.size, bool), np.zeros(0)
         for count in COUNTS:
             fine = self.evaluate(experiment, Resolution().values, noise, np.where(undecided, count, 0)).rows
@@ -127,7 +130,9 @@ class Likelihood:
                 if not undecided.any():
                     break
             now = fine
+        more = bool((counts > self.counts).any())
         self.counts = np.maximum(counts, self.counts) if at_least else counts
+        return more
 
     def experiment_at(self, values: np.ndarray) -> Experiment:
         """The experiment with these values of the free entries; InputError if they make a row's scene impossible."""

@@ -40,7 +40,8 @@ def intervals(likelihood: Joint, free: FreeEntries, best: Optimum) -> tuple[Opti
     for _ in range(_RESTARTS):
         try:
             _refine_at_ends(likelihood, free, best.inner)
-            return best, _ends(Objective(likelihood, free, Resolution()), best.inner)
+            ends = _ends(Objective(likelihood, free, Resolution()), best.inner)
+            return best, _with_lines_there(likelihood, free, best.inner, ends)
         except MoreLikely as point:
             again = maximum_with_aiming(likelihood, free, point.inner)
             best = Optimum(again.inner, again.value, best.others)
@@ -57,6 +58,21 @@ def _refine_at_ends(likelihood: Joint, free: FreeEntries, best: np.ndarray) -> N
     for k in range(free.size):
         for sign in (-1.0, 1.0):
             likelihood.refine(free.values(predicted(objective, best, k, sign)), DIRECT, at_least=True)
+
+
+def _with_lines_there(likelihood: Joint, free: FreeEntries, best: np.ndarray, ends: list[list[End]]) -> list[list[End]]:
+    """The ends, found again if rows need more lines there than where the information matrix had them."""
+    closed = [end.inner for both in ends for end in both if not end.open]
+    more = [likelihood.refine(free.values(inner), DIRECT, at_least=True) for inner in closed]
+    if not any(more):
+        return ends
+    objective = Objective(likelihood, free, Resolution())
+
+    def again(k: int, sign: float, end: End) -> End:
+        found = None if end.open else end_by_newton(objective, best, k, sign, None, end.inner)
+        return found or end
+
+    return [[again(k, sign, end) for sign, end in zip((-1.0, 1.0), both, strict=True)] for k, both in enumerate(ends)]
 
 
 def _ends(objective: Objective, best: np.ndarray) -> list[list[End]]:
