@@ -14,7 +14,6 @@ import os
 import subprocess
 import sys
 import tempfile
-import time
 from collections.abc import Callable
 from functools import partial
 from pathlib import Path
@@ -27,10 +26,11 @@ from wetdoublet.solvers.engines.taylor.build import kernel
 from wetdoublet.solvers.engines.taylor.call import Impacts, run_kernel, task
 from wetdoublet.solvers.engines.taylor.layout import ANSWER
 from wetdoublet.solvers.export.law.kernels import PLANE, kernels
+from wetdoublet.solvers.formatting.markdown import table
 from wetdoublet.solvers.host.environment import environment
 
 from ..helpers.exported_law import Law, written
-from .measured.digits import of_rows
+from .measured.timing import Call, Least
 
 FOLDER = Path(__file__).resolve().parents[2] / "docs" / "engineering" / "performance"
 PRESETS = ("granulation", "pendulum", "granulation-dry-bridge", "lactose-pvp")
@@ -57,13 +57,10 @@ def impacts(law: Law, scene: Scene, count: int, spinning: bool) -> np.ndarray:
 
 def best(calls: dict[str, Callable[[], object]], count: int) -> dict[str, float]:
     """Microseconds of each, taking turns."""
-    least = dict.fromkeys(calls, float("inf"))
-    for _ in range(ROUNDS):
-        for name, call in calls.items():
-            start = time.process_time()
-            call()
-            least[name] = min(least[name], time.process_time() - start)
-    return {name: seconds / count * 1e6 for name, seconds in least.items()}
+    ready = {name: Least(Call(call), count) for name, call in calls.items()}
+    for least in [*ready.values()] * ROUNDS:
+        least.run()
+    return {name: least.cpu * 1e6 for name, least in ready.items()}
 
 
 def same_kernel(scene: Scene, rows: np.ndarray) -> Callable[[], np.ndarray]:
@@ -84,11 +81,8 @@ def same_kernel(scene: Scene, rows: np.ndarray) -> Callable[[], np.ndarray]:
 
 def speed(scene: Scene, law: Law, loops: dict[str, ctypes.CDLL], spinning: bool) -> dict[str, float]:
     """Microseconds a collision, each way."""
-    rows, found, material = (
-        impacts(law, scene, TIMED, spinning),
-        np.zeros(TIMED, law.dtype("collision")),
-        law.material(),
-    )
+    rows, material = impacts(law, scene, TIMED, spinning), law.material()
+    found = np.zeros(TIMED, law.dtype("collision"))
     given = [ctypes.c_void_p(each.ctypes.data) for each in (material, rows)]
     calls: dict[str, Callable[[], object]] = {
         name: partial(loop.one_by_one, *given, ctypes.c_long(TIMED), ctypes.c_void_p(found.ctypes.data))
@@ -147,23 +141,17 @@ def measured(preset: str, folder: Path) -> dict[str, Any]:
 
 def section(record: dict[str, Any]) -> str:
     """The part of the page."""
-    columns = {
-        "single": "single call",
-        "single, in one lane": "with `-DLAW_LANES=1`",
-        "batch": "batch",
-        "kernel": "our kernel, same variant",
-        "for maps": "for maps",
-    }
+    columns = {"single": "single call", "single, in one lane": "with `-DLAW_LANES=1`", "batch": "batch",
+               "kernel": "our kernel, same variant", "for maps": "for maps"}  # fmt: skip
     speeds, other, beside = [], 0, 0
     for row in record["rows"]:
         for kind in ("plain", "spinning"):
             if kind in row:
-                name = row["preset"] + (", spinning" if kind == "spinning" else "")
-                cells = {title: row[kind].get(one, "-") for one, title in columns.items()}
-                speeds.append({"CPU us a collision": name, **cells})
-        plain, usual = row["without contraction"], row["as compiled"]
-        other += plain["outcomes"] + usual["outcomes"]
-        beside += plain["beside"] + usual["beside"]
+                cells = (f"{row[kind][way]:.2g}" if way in row[kind] else "-" for way in columns)
+                speeds.append([row["preset"] + ", spinning" * (kind == "spinning"), *cells])
+        for compiled in ("without contraction", "as compiled"):
+            other += row[compiled]["outcomes"]
+            beside += row[compiled]["beside"]
     said = (
         f"`python -m tests.benchmarks.law_in_c`: `export --to c` with the flags of its Makefile, rtol "
         f"{record['rtol']:g}; random impacts over three decades of the speed. The law has a spin for each sphere, "
@@ -175,7 +163,7 @@ def section(record: dict[str, Any]) -> str:
         f"outcome than by our kernel of the same variant; {beside} of these lie within {BESIDE:g} of a boundary in the "
         "speed."
     )
-    return "\n\n".join(["## The exported law", of_rows(speeds), said, agreed])
+    return "\n\n".join(["## The exported law", table(["CPU us a collision", *columns.values()], speeds), said, agreed])
 
 
 def main() -> None:

@@ -1,6 +1,7 @@
 """The benchmark measures what it says: peers solve the same problem, the record is complete. No time is asserted."""
 
 import json
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -8,13 +9,12 @@ import pytest
 from wetdoublet.solvers import Scene, collide
 
 from .measured import gradient_work, near
-from .measured.answers import Impact
-from .measured.cold import COMMANDS
 from .measured.gradient_task import Gradients
 from .measured.page import document
-from .measured.peers.engines import Engine, engines
+from .measured.peers.engines import engines
 from .measured.run import MORE, bench
-from .measured.tasks import TASKS, Task
+from .measured.tasks import TASKS, Impact, Task
+from .measured.timing import Engine
 
 OURS = ("cvodes", "rosenbrock", "taylor", "taylor, kernel alone")
 TINY = Task("granulation", 3, (0.02, 0.5), 85.0)
@@ -24,11 +24,10 @@ TINY = Task("granulation", 3, (0.02, 0.5), 85.0)
 def record() -> dict[str, Any]:
     """A benchmark of three collisions at two tolerances."""
     pytest.importorskip("scipy")
-    which = [each for each in engines() if each.name in (*OURS, "scipy LSODA")]
-    which.append(Engine("gone", missing="gone is not installed"))
-    cold = {name: [0.2, 0.1] for name in COMMANDS}
-    few: dict[str, Any] = {"repeats": 1, "sets": 2}  # nothing is timed, nothing compiled
-    return bench([TINY], (1e-5, 1e-7), cold=lambda: cold, which=which, more=(), fine=(1e-7, 1e-9), **few)
+    which = [replace(each, tolerances=(1e-7, 1e-9) if each.many else (1e-5, 1e-7)) for each in engines()
+             if each.name in (*OURS, "scipy LSODA")]  # fmt: skip
+    which.append(Engine("gone", lambda *_: None, missing="gone is not installed"))  # type: ignore[arg-type, return-value]
+    return bench([TINY], repeats=1, cold=dict, which=which, more=(), call=6)  # nothing is timed
 
 
 def test_impacts_are_the_same_in_every_run() -> None:
@@ -83,12 +82,7 @@ def test_compiled_peers_solve_the_same_problem(name: str, preset: str) -> None:
     drawn = ((0.6, 50.0), (0.05, 70.0), (2.0, 60.0), (0.02, 80.0), (1.369, 53.81))
     impacts = [Impact(st, np.radians(angle)) for st, angle in drawn]
     ours = [collide(scene, stokes=i.stokes, angle=i.angle, rtol=1e-11, engine="rosenbrock") for i in impacts]
-    if engine.many is not None:
-        found: list[Any] = engine.many(scene, impacts, 1e-9)()
-    else:
-        assert engine.one is not None
-        one = engine.one(scene, impacts, 1e-9)
-        found = [one(k) for k in range(len(impacts))]
+    found = engine.prepare((scene, impacts), 1, 1e-9)()
     assert [each.outcome for each in found] == [each.outcome for each in ours]
     assert [each.restitution for each in found] == pytest.approx([each.restitution for each in ours], abs=1e-6)
 
@@ -97,7 +91,6 @@ def test_compiled_peers_solve_the_same_problem(name: str, preset: str) -> None:
 def test_variational_equations_of_heyoka_are_our_derivatives(task: Task) -> None:
     """With a saltation of its own at each event it agrees with forward derivatives at 1e-12, through events."""
     pytest.importorskip("heyoka")
-    from .measured.gradient_task import Gradients
     from .measured.peers.heyoka_gradient import prepare
 
     asked = Gradients.of(task, 7)

@@ -1,10 +1,12 @@
 """Measure everything anew and write docs/engineering/performance.md: one command, on a quiet machine.
 
-    python -m tests.benchmarks.measured [FOLDER] [SCENES]
+    python -m tests.benchmarks.measured [FOLDER] [SCENES] [--only PART,...]
 
 FOLDER is docs/engineering/performance; SCENES (500) is what the stress test takes. Some ten minutes on two cores. With
-the usual folder the figures of README.md are written as well. What fails is named at the end, and the rest is measured
-all the same; the page is then made from the older record of that part.
+the usual folder the figures of README.md are written as well. Parts are bench (time against error beside peers,
+gradients, cost beside a separatrix, growth, cold start and first use), stress, law_in_c, and page, which measures
+nothing. What fails is named at the end, and the rest is measured all the same; the page is then made from the older
+record of that part.
 """
 
 import argparse
@@ -14,11 +16,30 @@ import sys
 import tempfile
 import time
 from pathlib import Path
+from typing import Any
 
-from .page.record import as_json
+from wetdoublet.solvers.host import files
+
+from .page.document import write
+from .page.plots import draw
+from .run import bench
 
 ROOT = Path(__file__).resolve().parents[3]
 USUAL = ROOT / "docs" / "engineering" / "performance"
+_WIDTH = 400  # characters of what is kept on one line
+
+
+def as_json(value: Any, indent: str = "") -> str:
+    """JSON with a row of a table on a line; lists and objects that are longer are broken."""
+    flat = json.dumps(value, allow_nan=False)
+    if not isinstance(value, dict | list) or len(flat) <= _WIDTH:
+        return flat
+    inner = indent + " "
+    if isinstance(value, list):
+        rows, (start, end) = [as_json(each, inner) for each in value], "[]"
+    else:
+        rows, (start, end) = [f"{json.dumps(key)}: {as_json(each, inner)}" for key, each in value.items()], "{}"
+    return f"{start}\n{inner}" + f",\n{inner}".join(rows) + f"\n{indent}{end}"
 
 
 def run(module: str, *arguments: str, check: bool = True) -> None:
@@ -26,9 +47,11 @@ def run(module: str, *arguments: str, check: bool = True) -> None:
     subprocess.run([sys.executable, "-m", module, *arguments], cwd=ROOT, check=check, stdout=subprocess.DEVNULL)
 
 
-def script(name: str, *arguments: str) -> None:
-    """One of the benchmarks."""
-    run(f"tests.benchmarks.{name}", *arguments)
+def peers(folder: Path) -> None:
+    """Everything beside peers, and its pictures."""
+    record = bench(tell=lambda what: print(what, file=sys.stderr))  # noqa: T201 -- a program
+    files.write(folder / "bench.json", as_json(record) + "\n")
+    draw(record, folder)
 
 
 def stress(folder: Path, scenes: str) -> None:
@@ -37,7 +60,7 @@ def stress(folder: Path, scenes: str) -> None:
         run("wetdoublet.solvers", "verify", "--stress", scenes, "--out", work, check=False)
         found = json.loads((Path(work) / "stress.json").read_text())
         del found["cases"]  # some megabytes
-        (folder / "stress.json").write_text(as_json(found) + "\n", encoding="utf-8")
+        files.write(folder / "stress.json", as_json(found) + "\n")
 
 
 def main() -> None:
@@ -45,20 +68,19 @@ def main() -> None:
     asked = argparse.ArgumentParser()
     asked.add_argument("folder", nargs="?", type=Path, default=USUAL)
     asked.add_argument("scenes", nargs="?", default="500")
+    asked.add_argument("--only", default="bench,stress,law_in_c,page")
     given = asked.parse_args()
-    folder, scenes = given.folder.resolve(), given.scenes
+    folder, failed = given.folder.resolve(), []
     folder.mkdir(parents=True, exist_ok=True)
     parts = {
-        "bench": lambda: script("measured.page.record", str(folder)),
-        "stress": lambda: stress(folder, scenes),
-        "law_in_c": lambda: script("law_in_c", str(folder)),
-    }
-    parts["page"] = lambda: script("measured.page.document", str(folder))
-    failed = []
-    for name, measure in parts.items():
+        "bench": lambda: peers(folder), "stress": lambda: stress(folder, given.scenes),
+        "law_in_c": lambda: run("tests.benchmarks.law_in_c", str(folder)),
+        "page": lambda: write(folder, front=folder == USUAL),
+    }  # fmt: skip
+    for name in given.only.split(","):
         start = time.perf_counter()
         try:
-            measure()
+            parts[name]()
         except (subprocess.CalledProcessError, OSError) as error:
             failed.append(f"{name}: {error}")
         sys.stdout.write(f"{name}: {time.perf_counter() - start:.0f} s\n")

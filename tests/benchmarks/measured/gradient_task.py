@@ -16,8 +16,7 @@ from wetdoublet.solvers.scene.scene import Scene
 from wetdoublet.solvers.sensitivity.parameters import Kind, kind_of, parameter_map, parameters_of, references
 from wetdoublet.solvers.sensitivity.sensitivities import sensitivities
 
-from .answers import Impact, dimensionless
-from .tasks import Task
+from .tasks import Impact, Task, columns, dimensionless
 
 COUNT = 12  # parameters
 SEPARATING = 25  # collisions
@@ -41,7 +40,7 @@ class Gradients:
         """The first `count` collisions that separate, drawn on until there are so many; the last of its parameters."""
         scene, kept = task.scene, list[Impact]()
         for impacts in task.drawn():
-            stokes, angle = (np.array([getattr(each, name) for each in impacts]) for name in ("stokes", "angle"))
+            stokes, angle = columns(impacts)
             outcome = collide_many(scene, stokes=stokes, angle=angle)["outcome"].values
             kept += [each for each, found in zip(impacts, outcome, strict=True) if found > 0 and each.angle > 0]
             if len(kept) >= count:

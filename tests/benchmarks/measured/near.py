@@ -1,8 +1,7 @@
 """What a collision costs near the separatrix between sticking and escaping, where a trajectory lingers at a saddle."""
 
 import math
-import time
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import product
 from typing import Any
@@ -11,9 +10,9 @@ from wetdoublet.solvers.errors import ComputationError
 from wetdoublet.solvers.formatting.markdown import table
 from wetdoublet.solvers.scene.scene import Scene
 
-from .answers import Answer, Impact
-from .peers.bulk import Bulk
-from .peers.engines import HEYOKA, Engine, engines
+from .peers.engines import HEYOKA, engines
+from .tasks import Answer, Impact
+from .timing import Call, Engine, Least, Tell
 
 Record = dict[str, Any]
 
@@ -49,7 +48,7 @@ def beside(distance: float) -> list[Side]:
     ]
 
 
-def near(tell: Callable[[str], None] = lambda _: None) -> list[Record]:
+def near(tell: Tell = lambda _: None) -> list[Record]:
     """CPU time (s) of a collision, failures and wrong outcomes, by tolerance, distance and engine."""
     scene = Scene.load(PRESET)
     listed = [each for each in engines() if each.name in ("taylor", HEYOKA) and not each.missing]
@@ -61,35 +60,29 @@ def near(tell: Callable[[str], None] = lambda _: None) -> list[Record]:
     return rows
 
 
-Timed = tuple[float, list[Answer | str]]
-
-
-def _in_bulk(engine: Engine, scene: Scene, sides: Sequence[Side], rtol: float) -> Timed:
-    """CPU time (s) of a collision, and what they came to."""
-    assert engine.many is not None
-    copies = {"taylor": COPIES, HEYOKA: FEW}.get(engine.name, 1)
-    impacts = [each.impact for each in sides] * copies
+def _in_bulk(engine: Engine, scene: Scene, sides: Sequence[Side], rtol: float) -> tuple[float, list[Answer | str]]:
+    """CPU time (s) of a collision, and what they came to; a first call builds."""
+    copies, impacts = COPIES if engine.name == "taylor" else FEW, [each.impact for each in sides]
     try:
-        bulk = _patient(scene, impacts, rtol) if engine.name == HEYOKA else engine.many(scene, impacts, rtol)
+        call = (_patient if engine.name == HEYOKA else engine.prepare)((scene, impacts), copies, rtol)
     except ComputationError as error:
-        said: list[Answer | str] = [str(error)] * len(sides)
-        bulk = Bulk(lambda: None, lambda _: said)
-    best = math.inf
-    result = bulk.run()  # builds
-    for _ in range(REPEATS if engine.fast else 1):
-        start = time.process_time()
-        result = bulk.run()
-        best = min(best, time.process_time() - start)
-    return best / (copies * len(sides)), bulk.read(result)[: len(sides)]
+        said = str(error)
+        call = Call(lambda: [said] * len(sides))
+    call.run()
+    least = Least(call, copies * len(sides))
+    for _ in range(REPEATS):
+        least.run()
+    return least.cpu, least.found[: len(sides)]
 
 
-def _patient(scene: Scene, impacts: Sequence[Impact], rtol: float) -> Bulk:
+def _patient(asked: tuple[Scene, Sequence[Impact]], copies: int, rtol: float) -> Call:
     """As heyoka elsewhere, with more steps, and watching for barriers inside the film."""
     from .peers.heyoka_engine import collisions
 
-    batch = collisions(scene, impacts, rtol, inside=True)
+    scene, impacts = asked
+    batch = collisions(scene, [*impacts] * copies, rtol, inside=True)
     batch.steps = PATIENCE
-    return Bulk(batch.run, lambda _: [Answer(each, math.nan) if each else "not decided" for each in batch.outcomes])
+    return Call(batch.run, lambda _: [Answer(each, math.nan) if each else "not decided" for each in batch.outcomes])
 
 
 def _row(
@@ -118,15 +111,13 @@ def near_text(rows: Sequence[Record]) -> str:
     """A table at the usual tolerance, of every third distance, and what all of them say."""
     parts = [NOTE]
     names = list(dict.fromkeys(row["engine"] for row in rows))
-    for rtol in [*dict.fromkeys(row["rtol"] for row in rows)][:1]:
-        cells = []
-        for distance in list(dict.fromkeys(row["distance"] for row in rows))[::3]:
-            here = {row["engine"]: row for row in rows if (row["rtol"], row["distance"]) == (rtol, distance)}
-            cells.append([f"{distance:.0e}", *(_cell(here[name]) for name in names)])
-        parts += [f"rtol {rtol:.0e}, CPU ms a collision:", table(["distance", *names], cells)]
+    usual, cells = [row for row in rows if row["rtol"] == rows[0]["rtol"]], []
+    for distance in list(dict.fromkeys(row["distance"] for row in usual))[::3]:
+        here = {row["engine"]: row for row in usual if row["distance"] == distance}
+        cells.append([f"{distance:.0e}", *(_cell(here[name]) for name in names)])
+    parts += [f"rtol {usual[0]['rtol']:.0e}, CPU ms a collision:", table(["distance", *names], cells)]
     failed = sum(row["failed"] for row in rows if row["engine"] == "taylor")
-    parts += [f"Failures of taylor: {failed or 'none'}."] if rows else []
-    return "\n\n".join(parts)
+    return "\n\n".join([*parts, f"Failures of taylor: {failed or 'none'}."])
 
 
 def _cell(row: Record) -> str:

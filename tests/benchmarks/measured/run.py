@@ -7,100 +7,55 @@ from typing import Any
 
 from wetdoublet.solvers.host.environment import environment, one_core
 
-from .cold import cold_start, first_use
 from .gradient_work import gradient_work
-from .growth import growth
 from .near import near
-from .peers.engines import Engine, engines
+from .peers.engines import engines
 from .peers.heyoka_callbacks import around
-from .reference import Reference, references
-from .tasks import SEED, TASKS, Task, place
-from .work import CALL, FINE, OFTEN, REPEATS, SETS, TOLERANCES, Point, Tell, work
+from .processes import cold_start, first_use, growth
+from .tasks import SEED, TASKS, Task
+from .timing import CALL, OFTEN, REPEATS, Engine, Tell
+from .work import Reference, reference, work
 
 Record = dict[str, Any]
 MORE = ("gradient_work", "near", "growth", "first_use")
 
 
 def bench(
-    tasks: Sequence[Task] = TASKS,
-    tolerances: Sequence[float] = TOLERANCES,
-    repeats: int = REPEATS,
-    cold: Callable[[], dict[str, list[float]]] = cold_start,
-    which: Sequence[Engine] | None = None,
-    more: Sequence[str] = MORE,
-    tell: Tell = lambda _: None,
-    fine: Sequence[float] = FINE,
-    sets: int = SETS,
-) -> Record:
-    """Run the benchmark.
+    tasks: Sequence[Task] = TASKS, repeats: int = REPEATS, cold: Callable[[], dict[str, list[float]]] = cold_start,
+    which: Sequence[Engine] | None = None, more: Sequence[str] = MORE, tell: Tell = lambda _: None, call: int = CALL,
+) -> Record:  # fmt: skip
+    """Run the benchmark, by default of all engines that are there.
 
     Arguments:
         cold: measures the cold start.
-        which: engines; by default all that are there.
         more: what else is measured, of MORE.
-        tell: is told what goes on.
-        fine: tolerances of engines that are fast.
-        sets: times the collisions are repeated within one call of an engine that takes many.
-
-    Returns:
-        A record that JSON can hold: environment, settings, engines, tasks (references, points), cold start.
+        call: collisions in one call of an engine that takes many, at least.
     """
     start = time.perf_counter()
     where = environment()  # the load before we add to it
-    all_engines = engines() if which is None else which
+    which = engines() if which is None else which
     tell("cold start")
-    started = cold()
+    started, found = cold(), list[Record]()
     others: dict[str, Any] = {name: [] for name in MORE}
-    alone: dict[str, Callable[[], Any]] = {
-        "gradient_work": lambda: gradient_work(tasks, repeats, tell),
-        "near": lambda: near(tell),
-    }
     with one_core():
-        found = []
         for task in tasks:
             tell(f"{task.preset}: reference values")
-            truths = references(task.scene, task.impacts())
-            points = work(task, truths, all_engines, tolerances, repeats, tell, fine, sets)
-            found.append(task_record(task, truths, points))
-        for name, measure in alone.items():
-            if name in more:
-                tell(name)
-                others[name] = measure()
-    for name, measure in (("growth", lambda: growth(tell)), ("first_use", first_use)):
-        if name in more:
-            tell(name)
-            others[name] = measure()
+            truths = [reference(task.scene, impact) for impact in task.impacts()]
+            points = work(task, truths, which, repeats, tell, call)
+            sample = {"preset": task.preset, "drawn": str(task), "collisions": _collisions(truths)}
+            found.append(sample | {"points": points})
+        if "gradient_work" in more:
+            others["gradient_work"] = gradient_work(tasks, repeats, tell)
+        if "near" in more:
+            others["near"] = near(tell)
+    others |= {each.__name__: each(tell=tell) for each in (growth, first_use) if each.__name__ in more}
+    around_callback = around() if find_spec("heyoka") else None
+    settings = {"seed": SEED, "repeats": repeats, "often": OFTEN, "call": call, "around_callback": around_callback}
+    listed = [{"name": each.name, "missing": each.missing} for each in which]
     return {
-        "environment": where,
-        "settings": {
-            "seed": SEED,
-            "tolerances": list(tolerances),
-            "repeats": repeats,
-            "fine": list(fine),
-            "often": OFTEN,
-            "sets": sets,
-            "call": CALL,
-            "around_callback": around() if find_spec("heyoka") else None,
-        },
-        "engines": [{"name": each.name, "missing": each.missing} for each in all_engines],
-        "tasks": found,
-        **others,
-        "cold_start": started,
+        "environment": where, "settings": settings, "engines": listed, "tasks": found, **others, "cold_start": started,
         "wall": time.perf_counter() - start,
-    }
-
-
-def task_record(task: Task, truths: Sequence[Reference], points: Sequence[Point]) -> Record:
-    """What tables and plots show of a task's collisions and points."""
-    return {
-        "preset": task.preset,
-        "drawn": str(task),
-        "collisions": _collisions(truths),
-        "points": [
-            {"engine": point.engine, "rtol": point.rtol, "summary": point.summary(), "said": point.said()}
-            for point in points
-        ],
-    }
+    }  # fmt: skip
 
 
 def _collisions(truths: Sequence[Reference]) -> Record:
@@ -126,5 +81,5 @@ def _collisions(truths: Sequence[Reference]) -> Record:
             for name in others
         },
         "own_error": max(closest, default=0.0),
-        "left_out": [f"{place(each.impact)} is left out: {each.problem}." for each in truths if each.problem],
+        "left_out": [f"{each.impact} is left out: {each.problem}." for each in truths if each.problem],
     }

@@ -1,20 +1,44 @@
 """The collisions that everything is measured on: drawn once, by a fixed seed."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from wetdoublet.solvers.model.dimensionless import Problem, nondimensionalise
 from wetdoublet.solvers.scene.scene import Scene
-
-from .answers import Impact
 
 SEED = 2012  # of numpy's default_rng, one generator a task: all Stokes numbers are drawn first, then all angles
 
 
-def place(impact: Impact) -> str:
-    """An impact in words."""
-    return f"St {impact.stokes:.4g} at {math.degrees(impact.angle):.4g} deg"
+@dataclass(frozen=True)
+class Impact:
+    """Stokes number and angle (rad)."""
+
+    stokes: float
+    angle: float
+
+    def __str__(self) -> str:
+        return f"St {self.stokes:.4g} at {math.degrees(self.angle):.4g} deg"
+
+
+@dataclass(frozen=True)
+class Answer:
+    """Result of a collision."""
+
+    outcome: str
+    restitution: float
+
+
+def columns(impacts: Sequence[Impact], copies: int = 1) -> tuple[np.ndarray, np.ndarray]:
+    """Stokes numbers and angles, repeated."""
+    stokes, angle = np.array([(each.stokes, each.angle) for each in impacts]).T
+    return np.tile(stokes, copies), np.tile(angle, copies)
+
+
+def dimensionless(scene: Scene, impact: Impact) -> Problem:
+    """Dimensionless groups of a scene's collision."""
+    return nondimensionalise(scene, scene.speed_of(impact.stokes), impact.angle)
 
 
 @dataclass(frozen=True)

@@ -4,7 +4,6 @@ from typing import Any, NamedTuple
 
 from wetdoublet.solvers.formatting.markdown import table
 
-from ..digits import us
 from ..gradient_work import HEYOKA as VARIATIONAL
 from ..gradient_work import HEYOKA_ALONE as VARIATIONAL_ALONE
 from ..peers.engines import HEYOKA, HEYOKA_ALONE, KERNEL
@@ -12,6 +11,11 @@ from ..peers.engines import HEYOKA, HEYOKA_ALONE, KERNEL
 Record = dict[str, Any]
 
 BOUND = 1e-8  # of the largest error, at which costs are compared
+
+
+def us(seconds: float) -> str:
+    """Microseconds with three digits."""
+    return f"{seconds * 1e6:.3g}" if seconds < 1e-3 else f"{seconds * 1e6:.0f}"
 
 
 class Cost(NamedTuple):

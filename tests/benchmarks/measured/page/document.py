@@ -1,13 +1,6 @@
-"""Write docs/engineering/performance.md from the records of a run; no figure in it is typed.
-
-    python -m tests.benchmarks.measured.page.document [FOLDER]
-
-FOLDER (docs/engineering/performance) holds bench.json and, if they were run, stress.json and law_in_c.json. With the
-usual folder also the figures on the front page, README.md, between its marks.
-"""
+"""Write docs/engineering/performance.md from the records of a run; no figure in it is typed."""
 
 import json
-import sys
 from pathlib import Path
 from typing import Any
 
@@ -23,26 +16,15 @@ BEGIN, END = "<!-- measured -->", "<!-- end of measured -->"
 
 def page(bench: Record, stress: Record | None, folder: str, law: Record | None = None) -> str:
     """The page."""
-    parts = [
-        "# Performance",
-        INTRODUCTION,
-        "## What was aimed at",
-        target_table(bench),
-        "## Beside heyoka, whose callbacks are Python's",
-        beside_heyoka.three_ways(bench),
-        beside_heyoka.note(bench),
-        "## Run time against achieved error",
-        f"![Work against error]({folder}/work.png)",
-        WORK,
-    ]
+    parts = ["# Performance", INTRODUCTION, "## What was aimed at", target_table(bench)]
+    parts += ["## Beside heyoka, whose callbacks are Python's", beside_heyoka.three_ways(bench)]
+    parts += [beside_heyoka.note(bench), "## Run time against achieved error"]
+    parts += [f"![Work against error]({folder}/work.png)", WORK]
     for task in bench["tasks"]:
         parts += [f"### {task['preset']}", tables.sample(task), tables.of_collisions_at_equal_error(task)]
         parts += [text for text in [tables.failures(task)] if text]
-    pictures = {"Near": "near.png", "Gradients to": "gradients.png", "From one": "growth.png"}
-    for part in tables.others(bench):
-        title, _, body = part.partition("\n\n")
-        drawn = [f"![{title[3:]}]({folder}/{name})" for start, name in pictures.items() if title[3:].startswith(start)]
-        parts += [title, *drawn, *([body] if body else [])]
+    for title, picture, body in tables.others(bench):
+        parts += [f"## {title}", f"![{title}]({folder}/{picture}.png)", *body]
     if law is not None:
         parts.append(exported_law(law))
     if stress is not None:
@@ -62,9 +44,8 @@ core, against the largest absolute error in e_n among those that separate.
 
 * **The same for all**: the emitted equations, the stop rule, the stick certificate with its margin.
 * **`cvodes`, `rosenbrock`** are `collide(ledger=False)` as a user calls it: the kernel's phases, replayed.
-* **Engines of many collisions** get the whole set twenty times in one call, `taylor` and heyoka so often that there
-  are 1000; compilation is not counted. `taylor` is `collide_many` of outcome and restitution, "kernel alone" leaves out
-  what that adds.
+* **Engines of many collisions** get the whole set so often in one call that there are some 1000; compilation is not
+  counted. `taylor` is `collide_many` of outcome and restitution, "kernel alone" leaves out what that adds.
 * **heyoka**: batches of 8 lanes with a queue and terminal events, `fast_math`, not in compact mode. The level of energy
   that proves a stick is computed beforehand, for nothing.
 * **scipy's** methods call CasADi functions; **diffrax** is Tsit5, jitted and vectorised, with its own events.
@@ -78,16 +59,12 @@ its conditioning; that is explained only where a change of outcome lies within 1
 moving it. Certified sticks are continued without their certificate; ledgers must close."""
 
 
-def main() -> None:
-    """Read, and write the page beside the folder."""
-    folder = Path(sys.argv[1] if len(sys.argv) > 1 else "docs/engineering/performance")
-    bench = json.loads((folder / "bench.json").read_text())
-    stress = folder / "stress.json"
-    found = json.loads(stress.read_text()) if stress.is_file() else None
-    law = folder / "law_in_c.json"
-    exported = json.loads(law.read_text()) if law.is_file() else None
-    folder.with_suffix(".md").write_text(page(bench, found, folder.name, exported), encoding="utf-8")
-    if folder.resolve() == README.parent / "docs" / "engineering" / "performance":
+def write(folder: Path, front: bool) -> None:
+    """The page from bench.json and, if they were run, stress.json and law_in_c.json; README.md between its marks."""
+    files = [folder / f"{name}.json" for name in ("bench", "stress", "law_in_c")]
+    bench, stress, law = (json.loads(file.read_text()) if file.is_file() else None for file in files)
+    folder.with_suffix(".md").write_text(page(bench, stress, folder.name, law), encoding="utf-8")
+    if front:
         README.write_text(fronted(README.read_text(encoding="utf-8"), bench), encoding="utf-8")
 
 
@@ -96,7 +73,3 @@ def fronted(text: str, bench: Record) -> str:
     before, _, rest = text.partition(BEGIN)
     _, _, after = rest.partition(END)
     return f"{before}{BEGIN}\n{headline(bench)}\n{END}{after}" if after else text
-
-
-if __name__ == "__main__":
-    main()

@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib import rc_context
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter, NullLocator
+from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator
 from wetdoublet.solvers.host.files import save
 
 Record = dict[str, Any]
@@ -36,74 +36,45 @@ _RC: Any = {"font.size": 8.5, "axes.labelsize": 9, "legend.fontsize": 8, "hatch.
 
 def draw(record: Record, folder: Path) -> list[Path]:
     """Draw the pictures; returns their files."""
+    pictures = {"tasks": ("work", work_error), "growth": ("growth", growth_curves), "near": ("near", near_curves),
+                "gradient_work": ("gradients", gradient_curves)}  # fmt: skip
     files = []
     with rc_context(_RC):
-        pictures = [("work.png", work_error)]
-        if record["growth"]:
-            pictures.append(("growth.png", growth_curves))
-        if record["near"]:
-            pictures.append(("near.png", near_curves))
-        if record["gradient_work"]:
-            pictures.append(("gradients.png", gradient_curves))
-        for name, make in pictures:
-            files.append(folder / name)
+        for name, make in (drawn for part, drawn in pictures.items() if record[part]):
+            files.append(folder / f"{name}.png")
             save(make(record), files[-1], dpi=200)
     return files
 
 
 def work_error(record: Record) -> Figure:
-    """Mean CPU time of a collision against the largest error in e_n; a point a tolerance."""
+    """Mean CPU time of a collision against the largest error in e_n; a point a tolerance.
+
+    From large errors on the left to small on the right; grey where the reference cannot tell them from its own.
+    """
     tasks = [task for task in record["tasks"] if task["points"]]
-    figure = Figure(figsize=(9.2, 4.9), layout="constrained")
-    panels: Sequence[Axes] = figure.subplots(1, len(tasks), sharex=True, sharey=True, squeeze=False)[0]
-    known: dict[str, float] = {}
+    figure, panels = _panels(len(tasks), (9.2, 4.9))
     for axes, task in zip(panels, tasks):
-        for name in dict.fromkeys(point["engine"] for point in task["points"]):
-            good, bad = _curve(task, name)
-            colour, marker, line = _STYLES.get(name, _OTHER)
-            style: Any = {"color": colour, "marker": marker, "markersize": 5.5}
-            axes.loglog(*good, linestyle=line, linewidth=1.3, label=name, **style)
-            if bad[0]:
-                axes.loglog(*bad, linestyle="", **(style | {"markerfacecolor": "white"}))
-        known[task["preset"]] = task["collisions"]["own_error"]
-        _frame(axes, task)
-    _limits(panels, list(known.values()))
-    _legend(figure, panels[0], "CPU time a collision (us)", 3)
-    return figure
-
-
-def _curve(task: Record, name: str) -> tuple[tuple[list[float], list[float]], tuple[list[float], list[float]]]:
-    """Errors and us of an engine: all points, and those with a wrong or missing outcome."""
-    every: tuple[list[float], list[float]] = ([], [])
-    bad: tuple[list[float], list[float]] = ([], [])
-    for point in task["points"]:
-        s = point["summary"]
-        if point["engine"] != name or not s["error_largest"]:
-            continue
-        for xs, ys in (every, bad) if s["wrong"] or s["failed"] else (every,):
-            xs.append(s["error_largest"])
-            ys.append(s["cpu_mean"] * 1e6)
-    return every, bad
-
-
-def _limits(panels: Sequence[Axes], known: Sequence[float]) -> None:
-    """From large errors on the left to small on the right; grey where the reference cannot tell them from its own."""
+        rows = [point["summary"] | {"engine": point["engine"]} for point in task["points"]]
+        rows = [row | {"cpu": row["cpu_mean"], "failed": row["wrong"] or row["failed"]} for row in rows]
+        _draw(axes, rows, "engine", "error_largest", 1e6)
+        _grid(axes)
+        axes.set_title(f"{task['preset']}: {task['collisions']['counted']} collisions", fontsize=9.5)
+        axes.set_xlabel("largest absolute error in $e_n$")
+    known = [task["collisions"]["own_error"] for task in tasks]
     drawn = [float(x) for axes in panels for line in axes.get_lines() for x in np.atleast_1d(line.get_xdata())]
-    least = min([*drawn, *(each for each in known if each)], default=1e-14) / 5
+    least = min([*drawn, *filter(None, known)], default=1e-14) / 5
     for axes, own in zip(panels, known):
         if own:
             axes.axvspan(least, own, color="#DDDDDD", linewidth=0, zorder=0, label="below the reference's own error")
     panels[0].set_xlim(max(drawn, default=1.0) * 5, least)
+    _legend(figure, panels[0], "CPU time a collision (us)", 3)
+    return figure
 
 
-def _frame(axes: Axes, task: Record) -> None:
-    axes.set_title(f"{task['preset']}: {task['collisions']['counted']} collisions", fontsize=9.5)
-    axes.set_xlabel("largest absolute error in $e_n$")
-    axes.grid(True, which="major", linewidth=0.4, color="#CCCCCC")
-    axes.xaxis.set_major_locator(LogLocator(base=100, numticks=20))
-    axes.xaxis.set_minor_formatter(NullFormatter())
-    axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
-    axes.tick_params(labelleft=True)
+def _panels(count: int, size: tuple[float, float]) -> tuple[Figure, Sequence[Axes]]:
+    """A figure of panels side by side with common axes."""
+    figure = Figure(figsize=size, layout="constrained")
+    return figure, figure.subplots(1, count, sharex=True, sharey=True, squeeze=False)[0]
 
 
 def growth_curves(record: Record) -> Figure:
@@ -122,10 +93,7 @@ def growth_curves(record: Record) -> Figure:
             panels[1].loglog(counts, [1e6 * each["wall"] / each["collisions"] for each in here], **style)
     for axes, label in zip(panels, ("wall time of the call (s)", "wall time a collision (us)")):
         axes.set(xlabel="collisions in one call", ylabel=label)
-        axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
-        axes.yaxis.set_major_locator(LogLocator(base=10, subs=(1.0, 2.0, 5.0), numticks=20))
-        axes.yaxis.set_minor_formatter(NullFormatter())
-        axes.grid(True, which="major", linewidth=0.4, color="#CCCCCC")
+        _grid(axes)
     figure.legend(loc="outside upper center", ncols=2, frameon=False)
     return figure
 
@@ -134,8 +102,7 @@ def near_curves(record: Record) -> Figure:
     """CPU time of a collision against its distance from the separatrix, a panel a tolerance."""
     rows = record["near"]
     rtols = list(dict.fromkeys(row["rtol"] for row in rows))
-    figure = Figure(figsize=(9.2, 3.9), layout="constrained")
-    panels: Sequence[Axes] = figure.subplots(1, len(rtols), sharex=True, sharey=True, squeeze=False)[0]
+    figure, panels = _panels(len(rtols), (9.2, 3.9))
     for axes, rtol in zip(panels, rtols, strict=True):
         _draw(axes, [row for row in rows if row["rtol"] == rtol], "engine", "distance", 1e3)
         _grid(axes)
@@ -150,14 +117,12 @@ def near_curves(record: Record) -> Figure:
 def gradient_curves(record: Record) -> Figure:
     """CPU time of a gradient against its largest error, a panel a task."""
     tasks = record["gradient_work"]
-    figure = Figure(figsize=(9.2, 4.3), layout="constrained")
-    panels: Sequence[Axes] = figure.subplots(1, len(tasks), sharex=True, sharey=True, squeeze=False)[0]
+    figure, panels = _panels(len(tasks), (9.2, 4.3))
     for axes, task in zip(panels, tasks, strict=True):
         _draw(axes, task["rows"], "method", "error_largest", 1e6)
         _grid(axes)
-        axes.set_title(
-            f"{task['preset']}: {task['collisions']} gradients, {len(task['parameters'])} parameters", fontsize=9.5
-        )
+        title = f"{task['preset']}: {task['collisions']} gradients, {len(task['parameters'])} parameters"
+        axes.set_title(title, fontsize=9.5)
         axes.set_xlabel("largest error, over the largest derivative")
     panels[0].invert_xaxis()
     _legend(figure, panels[0], "CPU time a gradient (us)", 3)

@@ -6,9 +6,8 @@ from typing import Any
 
 from wetdoublet.solvers.formatting.markdown import table
 
-from ..digits import us
 from ..near import near_text
-from .beside_heyoka import Cost, of_collisions, of_gradients
+from .beside_heyoka import Cost, of_collisions, of_gradients, us
 
 BOUNDS = (1e-4, 1e-6, 1e-8, 1e-10)  # of the largest error, in the table of costs at equal error
 
@@ -101,16 +100,11 @@ def _some(places: list[str]) -> str:
     return ", ".join(places) if len(places) < 4 else f"{places[0]} and {len(places) - 1} others"
 
 
-def others(record: Record) -> list[str]:
-    """What was measured besides: gradients, the separatrix, growth; nothing for what was not."""
-    parts: list[str] = []
-    if record["gradient_work"]:
-        parts += [
-            "## Gradients to twelve parameters, beside peers",
-            of_gradients_at_equal_error(record["gradient_work"]),
-        ]
-    if record["near"]:
-        parts += ["## Near the separatrix", near_text(record["near"])]
-    if record["growth"]:
-        parts += ["## From one collision to many"]
-    return parts
+def others(record: Record) -> list[tuple[str, str, list[str]]]:
+    """What was measured besides, with its picture: gradients, the separatrix, growth; nothing for what was not."""
+    gradients, beside = record["gradient_work"], record["near"]
+    parts = [("Gradients to twelve parameters, beside peers", "gradients", [of_gradients_at_equal_error(gradients)])]
+    parts += [("Near the separatrix", "near", [near_text(beside)] if beside else [])]
+    parts += [("From one collision to many", "growth", [])]
+    there = (gradients, beside, record["growth"])
+    return [part for part, rows in zip(parts, there, strict=True) if rows]

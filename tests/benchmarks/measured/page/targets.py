@@ -5,11 +5,10 @@ from typing import Any
 
 from wetdoublet.solvers.formatting.markdown import table
 
-from ..digits import us
 from ..gradient_work import HEYOKA as VARIATIONAL
 from ..gradient_work import HEYOKA_ALONE as VARIATIONAL_ALONE
 from ..peers.engines import HEYOKA, HEYOKA_ALONE
-from .beside_heyoka import BOUND, cheapest, of_collisions, of_gradients
+from .beside_heyoka import BOUND, cheapest, of_collisions, of_gradients, us
 
 Record = dict[str, Any]
 

@@ -21,7 +21,7 @@ from wetdoublet.solvers.model.model import Model, load
 from wetdoublet.solvers.model.phases import Flow, Phase
 from wetdoublet.solvers.scene.contact import contact_gap, contact_word
 
-from ..answers import Answer
+from ..tasks import Answer
 
 CERTIFIED = "certified"  # the event that proves a stick
 _SPANS = (1e4, 1e8, 1e16)  # x0/v0; a phase fails after their sum

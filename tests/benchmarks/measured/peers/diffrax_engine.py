@@ -10,17 +10,16 @@ from typing import Any
 import numpy as np
 from wetdoublet.solvers.scene.scene import Scene
 
-from ..answers import Answer, Impact, dimensionless
+from ..tasks import Answer, Impact, dimensionless
+from ..timing import Call
 from .automaton import CERTIFIED, automata
-from .bulk import Bulk
-from .heyoka_engine import starts
-from .translated import translated
+from .heyoka_engine import starts, translated
 
 _HORIZON, _STEPS, _PHASES = 1e10, 20_000, 12
 _RUNNING, SEPARATED, _STUCK, _FAILED = range(4)
 
 
-def collisions(scene: Scene, impacts: Sequence[Impact], rtol: float) -> Bulk:
+def collisions(scene: Scene, impacts: Sequence[Impact], rtol: float) -> Call:
     """All impacts in one call; compiled at the first. ComputationError for what it does not do."""
     import jax
 
@@ -46,7 +45,7 @@ def collisions(scene: Scene, impacts: Sequence[Impact], rtol: float) -> Bulk:
             for code, outcome, value in zip(ended, outcomes, e_n)
         ]
 
-    return Bulk(every, read)
+    return Call(every, read)
 
 
 def trajectory(choice: Any, names: tuple[str, ...], proved: str, rtol: float) -> Callable[..., Any]:

@@ -1,100 +1,89 @@
-"""What is measured: our engines, and the peers that are installed, behind one call a collision or one for all."""
+"""What is measured: our engines, and the peers that are installed, each behind one call for a set of collisions."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from functools import partial
 from importlib.util import find_spec
 from typing import Any
 
-import numpy as np
 from wetdoublet.generated.automaton import LOOSEST, OUTCOMES
 from wetdoublet.solvers.collision.collide import collide
 from wetdoublet.solvers.engines.settings import CASADI_ENGINES
+from wetdoublet.solvers.engines.taylor.call import Impacts, run_kernel
+from wetdoublet.solvers.errors import ComputationError
 from wetdoublet.solvers.host.compiler import compiler
 from wetdoublet.solvers.many.collide_many import collide_many
 from wetdoublet.solvers.scene.scene import Scene
 
-from ..answers import Answer, Impact, dimensionless
-from .bulk import Bulk, Collide, Partly
+from ..tasks import Answer, Impact, columns, dimensionless
+from ..timing import Call, Engine
 from .scipy_engine import ScipyAutomaton
 
+Asked = tuple[Scene, Sequence[Impact]]
 
-@dataclass(frozen=True)
-class Engine:
-    """An engine under test: it has `one` or `many`.
-
-    Arguments:
-        one: from scene, impacts and tolerance, the function that computes collision k; it raises ComputationError.
-        many: the same for all of them in one call.
-        builds: it builds integrators for every tolerance, so that a first pass has to be thrown away for each.
-        fast: it is asked at more tolerances, and more often.
-        missing: why it cannot be used here; empty if it can.
-    """
-
-    name: str
-    one: Callable[[Scene, Sequence[Impact], float], Collide] | None = None
-    many: Callable[[Scene, Sequence[Impact], float], Bulk] | None = None
-    builds: bool = True
-    fast: bool = False
-    missing: str = ""
-
-
+COARSE = (1e-5, 1e-7, 1e-9, 1e-11, 1e-13)
+FINE = tuple(10 ** (-0.5 * k) for k in range(12, 27))
 KERNEL, HEYOKA = "taylor, kernel alone", "heyoka, batch of 8"
 HEYOKA_ALONE = "heyoka, without callbacks"
 
 
 def engines() -> tuple[Engine, ...]:
     """All engines, those that are missing here included."""
-    scipy = _absent("scipy")
+    scipy, heyoka = _absent("scipy"), _absent("heyoka")
     absent = "" if compiler() else "no C compiler (cc, gcc, clang)"
     return (
-        *(Engine(name, one=partial(_one, name)) for name in CASADI_ENGINES),
-        Engine("taylor", many=_many, fast=True, missing=absent),
-        Engine(KERNEL, many=_kernel, fast=True, missing=absent),
-        Engine(HEYOKA, many=partial(_heyoka, False), fast=True, missing=_absent("heyoka")),
-        Engine(HEYOKA_ALONE, many=partial(_heyoka, True), fast=True, missing=_absent("heyoka")),
-        Engine("diffrax Tsit5", many=_diffrax, missing=_absent("diffrax")),
-        Engine("scipy LSODA", one=partial(_peer, "LSODA"), builds=False, missing=scipy),
-        Engine("scipy Radau", one=partial(_peer, "Radau"), builds=False, missing=scipy),
+        *(Engine(name, partial(_singly, partial(_own, name)), COARSE, many=False) for name in CASADI_ENGINES),
+        Engine("taylor", _many, FINE, missing=absent),
+        Engine(KERNEL, _kernel, FINE, missing=absent),
+        Engine(HEYOKA, partial(_heyoka, False), FINE, missing=heyoka),
+        Engine(HEYOKA_ALONE, partial(_heyoka, True), FINE, missing=heyoka),
+        Engine("diffrax Tsit5", _diffrax, COARSE, missing=_absent("diffrax")),
+        Engine("scipy LSODA", partial(_singly, partial(_peer, "LSODA")), COARSE, many=False, missing=scipy),
+        Engine("scipy Radau", partial(_singly, partial(_peer, "Radau")), COARSE, many=False, missing=scipy),
     )
 
 
-def _absent(module: str, package: str = "") -> str:
-    return "" if find_spec(module) else f"{package or module} is not installed (pip install wetdoublet[bench])"
+def _absent(module: str) -> str:
+    return "" if find_spec(module) else f"{module} is not installed (pip install wetdoublet[bench])"
 
 
-def _one(plugin: str, scene: Scene, impacts: Sequence[Impact], rtol: float) -> Collide:
+def _singly(one: Callable[[Scene, Impact, float], Answer], asked: Asked, _: int, rtol: float) -> Call:
+    """One collision after the other."""
+    scene, impacts = asked
+
+    def tried(impact: Impact) -> Answer | str:
+        try:
+            return one(scene, impact, rtol)
+        except ComputationError as error:
+            return str(error)
+
+    return Call(lambda: [tried(impact) for impact in impacts])
+
+
+def _own(plugin: str, scene: Scene, impact: Impact, rtol: float) -> Answer:
     """`collide`, as a user calls it."""
-
-    def one(k: int) -> Answer:
-        impact = impacts[k]
-        found = collide(scene, stokes=impact.stokes, angle=impact.angle, rtol=rtol, engine=plugin, ledger=False)
-        return Answer(found.outcome, found.restitution)
-
-    return one
+    found = collide(scene, stokes=impact.stokes, angle=impact.angle, rtol=rtol, engine=plugin, ledger=False)
+    return Answer(found.outcome, found.restitution)
 
 
-def _columns(impacts: Sequence[Impact]) -> tuple[np.ndarray, np.ndarray]:
-    """Stokes numbers and angles."""
-    return tuple(np.array([getattr(each, name) for each in impacts]) for name in ("stokes", "angle"))  # type: ignore[return-value]  # two
+def _peer(method: str, scene: Scene, impact: Impact, rtol: float) -> Answer:
+    """The same collision by a method of scipy."""
+    return ScipyAutomaton(dimensionless(scene, impact), rtol, method).run()
 
 
-def _many(scene: Scene, impacts: Sequence[Impact], rtol: float) -> Bulk:
+def _many(asked: Asked, copies: int, rtol: float) -> Call:
     """`collide_many` of outcome and restitution, as a user calls it."""
-    stokes, angle = _columns(impacts)
+    scene, (stokes, angle) = asked[0], columns(asked[1], copies)
 
     def read(data: Any) -> list[Answer | str]:
         found = zip(data["outcome"].values.tolist(), data["restitution"].values.tolist(), data["reason"].values)
         return [str(why) if outcome < 0 else Answer(OUTCOMES[outcome], e_n) for outcome, e_n, why in found]
 
-    return Bulk(lambda: collide_many(scene, stokes=stokes, angle=angle, rtol=rtol, engine="taylor"), read)
+    return Call(lambda: collide_many(scene, stokes=stokes, angle=angle, rtol=rtol, engine="taylor"), read)
 
 
-def _kernel(scene: Scene, impacts: Sequence[Impact], rtol: float) -> Bulk:
+def _kernel(asked: Asked, copies: int, rtol: float) -> Call:
     """The Taylor kernel without what `collide_many` adds: checks, labels."""
-    from wetdoublet.solvers.engines.taylor.call import Impacts, run_kernel
-
-    stokes, angle = _columns(impacts)
+    scene, (stokes, angle) = asked[0], columns(asked[1], copies)
     given = Impacts(scene, stokes / scene.stokes_per_speed, angle, {})
 
     def read(found: Any) -> list[Answer | str]:
@@ -104,10 +93,10 @@ def _kernel(scene: Scene, impacts: Sequence[Impact], rtol: float) -> Bulk:
             for status, outcome, e_n in rows
         ]
 
-    return Bulk(lambda: run_kernel(given, rtol), read)
+    return Call(lambda: run_kernel(given, rtol), read)
 
 
-def _heyoka(alone: bool, scene: Scene, impacts: Sequence[Impact], rtol: float) -> Bulk:
+def _heyoka(alone: bool, asked: Asked, copies: int, rtol: float) -> Call:
     """All collisions through one queue.
 
     Arguments:
@@ -117,7 +106,7 @@ def _heyoka(alone: bool, scene: Scene, impacts: Sequence[Impact], rtol: float) -
     from .heyoka_engine import collisions
 
     inside = Inside()  # looser than LOOSEST, its energy misses the level of a proof
-    batch = collisions(scene, impacts, min(rtol, LOOSEST), watch=inside if alone else None)
+    batch = collisions(asked[0], [*asked[1]] * copies, min(rtol, LOOSEST), watch=inside if alone else None)
 
     def run() -> None:
         inside.reset()
@@ -127,20 +116,11 @@ def _heyoka(alone: bool, scene: Scene, impacts: Sequence[Impact], rtol: float) -
         pairs = zip(batch.outcomes, batch.restitutions)
         return [Answer(outcome, e_n) if outcome else "not decided" for outcome, e_n in pairs]
 
-    return Bulk(Partly(run, inside.left_out) if alone else run, read)
+    return Call(run, read, inside.left_out) if alone else Call(run, read)
 
 
-def _diffrax(scene: Scene, impacts: Sequence[Impact], rtol: float) -> Bulk:
+def _diffrax(asked: Asked, copies: int, rtol: float) -> Call:
     """All collisions side by side."""
     from .diffrax_engine import collisions
 
-    return collisions(scene, impacts, rtol)
-
-
-def _peer(method: str, scene: Scene, impacts: Sequence[Impact], rtol: float) -> Collide:
-    """The same collision by a method of scipy."""
-
-    def one(k: int) -> Answer:
-        return ScipyAutomaton(dimensionless(scene, impacts[k]), rtol, method).run()
-
-    return one
+    return collisions(asked[0], [*asked[1]] * copies, rtol)

@@ -9,6 +9,8 @@ The level that proves a stick is an event of the energy; it is computed beforeha
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
+from importlib.util import find_spec, module_from_spec
+from types import ModuleType, SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -16,15 +18,38 @@ from wetdoublet.solvers.model.dimensionless import Problem
 from wetdoublet.solvers.model.key import ModelKey
 from wetdoublet.solvers.scene.scene import Scene
 
-from ..answers import Impact, dimensionless
+from ..tasks import Impact, dimensionless
 from .automaton import CERTIFIED, Automaton, automata
 from .heyoka_callbacks import Inside
-from .translated import translated
 
 HORIZON = 1e10  # x0/v0: a trajectory that has not ended by then has failed
 STEPS = 2000
 _NEVER = -1e4  # a level of energy that is not reached
 BATCH = 8
+_GENERATED = "wetdoublet.generated"
+_FUNCTIONS = ("exp", "log", "sqrt", "sin", "cos", "tan", "atan", "fmax", "fmin")
+
+
+def translated(choice: ModelKey, function: Callable[[str], Callable[..., Any]]) -> tuple[ModuleType, Any]:
+    """The structure module of a choice, and its laws as attributes by slot.
+
+    Arguments:
+        function: gives the elementary function of a name.
+    """
+    laws = {slot: _copy(f"laws.{slot}_{law.replace('-', '_')}", function) for slot, law in choice.laws}
+    return _copy(choice.structure, function), SimpleNamespace(**laws)
+
+
+def _copy(name: str, function: Callable[[str], Callable[..., Any]]) -> ModuleType:
+    spec = find_spec(f"{_GENERATED}.{name}")
+    assert spec is not None
+    assert spec.loader is not None
+    module = module_from_spec(spec)
+    spec.loader.exec_module(module)
+    for word in _FUNCTIONS:
+        if hasattr(module, word):
+            setattr(module, word, function(word))
+    return module
 
 
 def elementary(name: str) -> Callable[..., Any]:

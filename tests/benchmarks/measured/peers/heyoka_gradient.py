@@ -20,8 +20,7 @@ from wetdoublet.solvers.model.key import ModelKey
 
 from .automaton import Automaton, automata
 from .heyoka_callbacks import Inside
-from .heyoka_engine import Batch, Start, as_expression, elementary
-from .translated import translated
+from .heyoka_engine import Batch, Start, as_expression, elementary, translated
 
 _OWN_GROUP = {"glass": "glass_number", "elastic": "elastic_gap", "rough": "rough_gap"}
 _JUMP_ONLY = (*_OWN_GROUP.values(), "dry_restitution", "rupture_gap")

@@ -1,15 +1,25 @@
-"""How cost grows with the number of collisions: wall time, CPU time and memory, on one core and on two."""
+"""What whole processes take: a cold start, a first use, and how a call grows with the number of collisions."""
 
 import json
+import os
 import subprocess
 import sys
-from collections.abc import Callable
+import tempfile
+import time
+from collections.abc import Callable, Mapping
 from typing import Any
 
+from wetdoublet.solvers.host.compiler import compiler
 from wetdoublet.solvers.host.cores import usable_cores
 
-Record = dict[str, Any]
+from .timing import Tell
 
+Record = dict[str, Any]
+Process = Callable[[list[str], Mapping[str, str]], float]
+
+IMPORTS = "import wetdoublet.solvers.many, xarray"
+CALL = "from wetdoublet.solvers import collide_many; collide_many('{preset}', stokes=0.5, angle=1.0, engine='taylor')"
+PRESETS = ("granulation", "pendulum")
 SIZES = (1, 10, 100, 1_000, 10_000, 100_000, 1_000_000)
 PATIENCE = 10.0  # s: a size that would take longer, by the one before, is left out
 PROGRAM = """
@@ -40,7 +50,41 @@ print(json.dumps({"wall": time.perf_counter() - wall, "cpu": used() - cpu, "memo
 """
 
 
-def growth(tell: Callable[[str], None] = lambda _: None) -> list[Record]:
+def spent(arguments: list[str], environment: Mapping[str, str] | None = None) -> float:
+    """Wall time (s) of a whole process."""
+    start = time.perf_counter()
+    subprocess.run([sys.executable, *arguments], check=True, capture_output=True, env=environment)
+    return time.perf_counter() - start
+
+
+def cold_start(repeats: int = 5) -> dict[str, list[float]]:
+    """Wall times (s) of a process that imports casadi."""
+    return {"import casadi": [spent(["-c", "import casadi"]) for _ in range(repeats)]}
+
+
+def first_use(repeats: int = 5, process: Process = spent, tell: Tell = lambda _: None) -> list[Record]:
+    """Wall times (s) of whole processes that collide by the kernel, of each preset.
+
+    `process` runs one, by its arguments and environment. `first` finds an empty cache and compiles, `second` finds what
+    that left, `imports` only imports the same.
+    """
+    rows: list[Record] = []
+    if compiler() is None:
+        return rows
+    for preset in PRESETS:
+        tell(f"first use: {preset}")
+        taken: dict[str, list[float]] = {"first": [], "second": [], "imports": []}
+        for _ in range(repeats):
+            with tempfile.TemporaryDirectory() as folder:
+                where = os.environ | {"WETDOUBLET_CACHE": folder}
+                call = f"{IMPORTS}\n{CALL.format(preset=preset)}"
+                for name, program in (("first", call), ("second", call), ("imports", IMPORTS)):
+                    taken[name].append(process(["-c", program], where))
+        rows.append({"preset": preset, **taken})
+    return rows
+
+
+def growth(tell: Tell = lambda _: None) -> list[Record]:
     """A fresh process a size and number of cores; a first call of a hundred has built what is needed."""
     found: list[Record] = []
     available = usable_cores()
