@@ -10,8 +10,9 @@ from hypothesis import strategies as st
 from wetdoublet.generated.automaton import OUTCOMES
 from wetdoublet.solvers import Scene, collide_pair
 
+from ..helpers.mechanics import ZERO, Arrival, Vector, X, planar_arrival, plus
 from ..helpers.random_in_space import arrivals, differences, direction, quantities, request
-from ..helpers.scanned import ZERO, Arrival, Outcome, Scan, UndecidedError, Vector, X, planar_arrival, plus, scan_of
+from ..helpers.scanned import Outcome, Scan, UndecidedError, scan_of
 from ..helpers.two_bodies import bodies_of
 from .conditioning import Conditioned
 from .scenes import parts, scenes

@@ -5,7 +5,8 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from .scanned import PARTNER, SPIN, Arrival, N, Outcome, Vector, W, X, at, plus
+from .mechanics import PARTNER, SPIN, Arrival, N, Vector, W, X, at, plus
+from .scanned import Outcome
 from .two_bodies import Bodies
 
 FASTEST = 5.0  # surface speed of a spin, over the approach speed
