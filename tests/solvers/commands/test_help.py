@@ -1,9 +1,10 @@
-"""Help of commands: their docstrings, with meanings and defaults of the public functions."""
+"""Help of commands: their docstrings, with meanings and defaults of the public functions; what a shell completes."""
 
 import inspect
 import re
 
 import pytest
+from click.testing import CliRunner
 from wetdoublet.solvers import collision_averages, design, tracks
 from wetdoublet.solvers.commands.cli import COMMANDS, cli
 
@@ -39,3 +40,20 @@ def test_help_of_a_public_function(name, function, parameters):
         assert text[0].lower() + text[1:].rstrip(".") in described
         if default:
             assert default == f"{inspect.signature(function).parameters[parameter].default}]."
+
+
+@pytest.mark.parametrize(
+    ("line", "completed"),
+    [("col", {"collide"}), ("collide --sto", {"--stokes"}), ("collide gran", {"granulation", "granulation-dry-bridge"}),
+     ("collide granulation --engine ro", {"rosenbrock"}), ("collide granulation --plot ro", {"ro"}),
+     ("export granulation --to ca", {"casadi"}), ("reproduce fig4", {"fig4a", "fig4b"}),
+     ("collide granulation --set liquid.vis", {"liquid.viscosity="}),
+     ("sensitivity granulation --wrt impact.angle,liquid.vis", {"impact.angle,liquid.viscosity"})],
+)  # fmt: skip
+def test_a_shell_completes(line, completed):
+    """Commands, options, presets, choices and names of entries, by what click writes for bash; the rest is files."""
+    words = f"wetdoublet {line}"
+    env = {"_WETDOUBLET_COMPLETE": "bash_complete", "COMP_WORDS": words, "COMP_CWORD": str(words.count(" "))}
+    done = CliRunner().invoke(cli, [], env=env, prog_name="wetdoublet")
+    assert (done.exit_code, done.stderr) == (0, "")
+    assert completed <= {entry.partition(",")[2] for entry in done.stdout.split()}
