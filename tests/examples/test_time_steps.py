@@ -33,11 +33,11 @@ def example(tmp_path_factory: pytest.TempPathFactory) -> Any:
     sys.path.insert(0, str(FOLDER))
     try:
         import cradle
-        from law import Law, exported
+        from law import Law
 
         with pytest.MonkeyPatch.context() as patch:
             patch.setenv("CC", UNOPTIMIZED)
-            yield cradle, Law(exported(cradle.oil(), tmp_path_factory.mktemp("oil")), "oil")
+            yield cradle, Law(law_alone(cradle.oil(), tmp_path_factory.mktemp("oil")), "oil")
     finally:
         sys.path.remove(str(FOLDER))
 

@@ -24,7 +24,7 @@ def changed(scene: Scene, free: str, value: float) -> Scene:
 
 
 @parts
-@examples(3)
+@examples(2)
 @given(st.data())
 def test_a_collision_is_found_again_from_its_result(structures: list[Structure], data: st.DataObject) -> None:
     """An entry within a factor of 5 of the scene's: all that is found gives the result, what was sought is among it."""
