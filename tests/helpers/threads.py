@@ -1,10 +1,10 @@
 """Every public function from several threads at once, beside the same calls in one thread.
 
-    python -X faulthandler tests/helpers/threads.py THREADS SECONDS
+    python -X faulthandler tests/helpers/threads.py THREADS
 
-Threads start together in a cold process, each at another place of the list of calls, and go round it until the time is
-over; then one thread makes the same calls, once each. What it gives, every thread must have given, to the last bit;
-exit status 1 if one has not, or fails.
+Threads start together in a cold process, each at another place of the list of calls, and go round it together; then one
+thread makes the same calls. What it gives, every thread must have given, to the last bit; exit status 1 if one has not,
+or fails.
 """
 
 # ruff: noqa: T201 -- a script that prints
@@ -13,7 +13,6 @@ import io
 import math
 import sys
 import threading
-import time
 import warnings
 from collections import defaultdict
 from collections.abc import Callable, Mapping
@@ -114,25 +113,21 @@ def _digest(found: Any) -> str:
     return hashlib.sha256(repr(found).encode()).hexdigest()
 
 
-def together(calls: Mapping[str, Callable[[], Any]], count: int, seconds: float) -> dict[str, dict[str, int]]:
+def together(calls: Mapping[str, Callable[[], Any]], count: int) -> dict[str, dict[str, int]]:
     """What the calls gave in so many threads: by name, how often each digest; a failure is its message."""
     found: dict[str, dict[str, int]] = defaultdict(lambda: defaultdict(int))
     names, guard, ready = list(calls), threading.Lock(), threading.Barrier(count)
-    end = time.monotonic() + seconds
 
     def go(own: int) -> None:
         ready.wait()
-        place = own * len(names) // count
-        done = 0
-        while time.monotonic() < end or done < len(names) / count:  # together at least once round
-            name = names[(place + done) % len(names)]
+        share = -(-len(names) // count)
+        for name in names[own * share : (own + 1) * share]:
             try:
                 said = _digest(calls[name]())
             except Exception as error:  # noqa: BLE001 # counted, and told
                 said = f"{type(error).__name__}: {error}"
             with guard:
                 found[name][said] += 1
-            done += 1
 
     threads = [threading.Thread(target=go, args=(own,)) for own in range(count)]
     for thread in threads:
@@ -142,11 +137,11 @@ def together(calls: Mapping[str, Callable[[], Any]], count: int, seconds: float)
     return found
 
 
-def main(count: int, seconds: float) -> int:
+def main(count: int) -> int:
     warnings.simplefilter("ignore", solvers.ModelWarning)
     calls = {name: call for name, call in CALLS.items() if compiler() is not None or "taylor" not in name}
     before = sys.stderr
-    found, wrong = together(calls, count, seconds), 0
+    found, wrong = together(calls, count), 0
     for name, said in found.items():
         good = set(said) == {_digest(calls[name]())}
         wrong += not good
@@ -161,4 +156,4 @@ def main(count: int, seconds: float) -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main(int(sys.argv[1]), float(sys.argv[2])))
+    sys.exit(main(int(sys.argv[1])))

@@ -117,18 +117,6 @@ def test_lines_cross_a_change_where_a_result_is_steep_along_it():
     assert likelihood(value).plain[0] == pytest.approx(many, abs=0.02)
 
 
-@pytest.mark.slow
-def test_finer_integrals_change_little():
-    """The integrals over the scatter agree with ones that are twice as fine."""
-    scene = Scene.load("pendulum")
-    likelihood = Likelihood(scene, ("liquid.viscosity",), impacts(scene, *PENDULUM))
-    values = np.array([12.5])
-    likelihood.aim(values)
-    likelihood.refine(values, 0.01)
-    coarse, fine = likelihood(values), likelihood(values, Resolution().doubled())
-    np.testing.assert_allclose(coarse.rows, fine.rows, atol=0.03)
-
-
 def test_a_row_beyond_the_scatter_has_a_gradient():
     """An outcome far from any that the scatter allows has a finite log-likelihood, and a gradient with its sign."""
     scene = Scene.load("granulation")

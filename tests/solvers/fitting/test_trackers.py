@@ -8,26 +8,18 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 import pytest
-from wetdoublet.solvers import InputError, Scene, collide, tracks
+from wetdoublet.solvers import InputError, tracks
 
 from tests.helpers.command import run
-from tests.helpers.films import PLACES, filmed, long_table
+from tests.helpers.films import PIXEL, PLACES, RATE, bounce, long_table, read
 
-RATE, PIXEL = 1.5e5, 2e-6
 Film = dict[str, np.ndarray]
 
 
 @pytest.fixture(scope="module")
 def film() -> Film:
-    """A bounce of 0.818 m/s, tracked to 0.2 px and written with three decimals."""
-    scene = Scene.load("lactose-pvp")
-    one = collide(scene, stokes=12, angle=math.radians(40), trajectory=True)
-    shot = filmed(scene, one, RATE, PIXEL, 0.2, np.random.default_rng(1))
-    return {name: values if name == "frame" else values.round(3) for name, values in shot.items()}
-
-
-def read(source: object, **settings: object):
-    return tracks(source, "lactose-pvp", **{"rate": RATE, "scale": PIXEL} | settings)
+    """A bounce, written with three decimals."""
+    return {name: values if name == "frame" else values.round(3) for name, values in bounce().items()}
 
 
 def same(found: object, film: Film, within: float = 1e-9) -> None:

@@ -42,7 +42,7 @@ def test_public_functions_from_several_threads():
     """In a cold process, four threads round the public functions give what one thread gives, to the last bit, and print
     nothing; a crash would be told with every thread's place.
     """
-    command = [sys.executable, "-X", "faulthandler", str(SCRIPT), "4", "0"]
+    command = [sys.executable, "-X", "faulthandler", str(SCRIPT), "4"]
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     assert (done.returncode, done.stderr) == (0, ""), done.stdout + done.stderr
 

@@ -66,13 +66,13 @@ def test_results_share_nothing(compute):
 
 
 def test_vary():
-    """An entry that varies is that of each scene; where it makes a scene impossible, that collision is marked."""
-    viscosity = [1.0, 2.0, 3.0]
-    data = collide_many("granulation", stokes=0.1, angle="75 deg", vary={"liquid.viscosity": viscosity})
-    scenes = [Scene.load("granulation").with_entries({"liquid.viscosity": mu}) for mu in viscosity]
-    expected = [collide(scene, stokes=0.1, angle="75 deg", engine="rosenbrock").restitution for scene in scenes]
-    assert data.restitution.values == pytest.approx(expected, rel=1e-8)
-    assert data["liquid.viscosity"].values.tolist() == viscosity
+    """An entry or law that varies is that of each scene; where it makes none, that collision is marked."""
+    vary = {"liquid.viscosity": [1.0, 2.0, 3.0], "bridge.law": ["mikami", "willett", "mikami"]}
+    data = collide_many("granulation", stokes=0.1, angle="75 deg", vary=vary)
+    for k, entries in enumerate(dict(zip(vary, row)) for row in zip(*vary.values())):
+        one = collide(Scene.load("granulation").with_entries(entries), stokes=0.1, angle="75 deg", engine="rosenbrock")
+        assert data.restitution.values[k] == pytest.approx(one.restitution, rel=1e-8)
+    assert {name: data[name].values.tolist() for name in vary} == vary
     rough = collide_many("granulation", vary={"particles.roughness": ["0.2 um", "9 um"]})
     assert rough.outcome.values.tolist()[1] == -1
     assert "particles.roughness" in str(rough.reason.values[1])
@@ -117,17 +117,6 @@ def test_data_arrays_are_broadcast_by_name():
     assert (data.restitution.values == plain.restitution.values).all()
     turned = collide_many("granulation", stokes=stokes, angle=pint.UnitRegistry().Quantity(60.0, "deg"))
     assert (turned.restitution.values == plain.restitution.values[:, 1]).all()
-
-
-def test_laws_vary():
-    """Names of laws are entries as any other: each collision is by its own law, in the order of the request."""
-    laws = ["mikami", "willett", "mikami"]
-    data = collide_many("granulation", stokes=[0.02, 0.02, 0.05], angle=1.3, vary={"bridge.law": laws})
-    for k, law in enumerate(laws):
-        scene = Scene.load("granulation").with_entries({"bridge.law": law})
-        one = collide(scene, stokes=data.stokes.values[k], angle=1.3, engine="rosenbrock", ledger=False)
-        assert data.restitution.values[k] == pytest.approx(one.restitution, rel=1e-8)
-    assert data["bridge.law"].values.tolist() == laws
 
 
 def test_a_choice_that_its_scene_cannot_have_is_marked():

@@ -96,15 +96,21 @@ def test_cells_from_head_on_impacts_on_hold_both() -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("name", "about"), [("granulation", 0.3), ("lactose-pvp", 10)])
-@pytest.mark.parametrize("entry", ["impact.stokes", "impact.angle", "liquid.viscosity"])
+@pytest.mark.parametrize(
+    ("name", "about", "entry"),
+    [
+        ("granulation", 0.3, "impact.angle"),
+        ("granulation", 0.3, "liquid.viscosity"),
+        ("lactose-pvp", 10, "impact.stokes"),
+    ],
+)
 def test_a_narrow_box_has_the_restitutions_of_its_ends(name: str, about: float, entry: str) -> None:
     """Followed step by step through all events: the ends lie within, and the range is little wider.
 
     A box of viscosities keeps the Stokes number.
     """
     random, tried, near = np.random.default_rng(3), 0, 2e-6
-    for _ in range(12):
+    for _ in range(8):
         scene = Scene.load(name).with_impact(stokes=about * 3 ** random.uniform(-1, 1), angle=random.uniform(0.1, 1.4))
         inputs = Inputs.of(scene, {entry: near})
         settings = BOX._replace(funnels=0, steps=5000, tolerance=1e-13)
@@ -119,7 +125,7 @@ def test_a_narrow_box_has_the_restitutions_of_its_ends(name: str, about: float, 
         tried += 1
         assert low - 1e-11 <= ends[0] < ends[1] <= high + 1e-11, quantity
         assert high - low < 1.1 * (ends[1] - ends[0]) + 1e-9
-    assert tried > 3
+    assert tried > 2
 
 
 NEAR = Scene.load("lactose-pvp").with_impact(stokes=7.3, angle="57 deg")

@@ -10,16 +10,8 @@ import numpy as np
 import pytest
 from wetdoublet import solvers
 from wetdoublet.solvers import ComputationError, Scene, boundary, collide
-from wetdoublet.solvers.sensitivity.boundary_distance import (
-    AT_ONCE,
-    CONTACT,
-    GLASS,
-    LADDER,
-    Course,
-    along_speed,
-    checked,
-    limit,
-)
+from wetdoublet.solvers.sensitivity import boundary_distance as distances
+from wetdoublet.solvers.sensitivity.boundary_distance import AT_ONCE, CONTACT, GLASS, Course, along_speed, limit
 
 from ...helpers.reference import sensitivities
 
@@ -104,7 +96,7 @@ def test_chatter_is_refused() -> None:
     """
     rests = Course(True, ("glass", "rests", "rupture"), speed=0.1)
     with pytest.raises(ComputationError, match="chatter"):
-        checked(lambda factors: [rests] * factors.size, True, 1e-9)
+        distances.checked(lambda factors: [rests] * factors.size, True, 1e-9)
 
 
 ROUGH, GLASSY = ("rough", "rupture"), ("glass", "rupture")
@@ -130,7 +122,7 @@ ROUGH, GLASSY = ("rough", "rupture"), ("glass", "rupture")
 @pytest.mark.parametrize("place", [-2e-3, 3e-8, 0.2])
 def test_a_boundary_is_named_by_what_differs(below: Course, above: Course, name: str | None, place: float) -> None:
     """Courses that change at a known speed: the distance to 1 %, and the name. Turning points alone change nothing."""
-    near = along_speed(lambda factors: [above if factor > 1 + place else below for factor in factors], LADDER)
+    near = along_speed(lambda factors: [above if factor > 1 + place else below for factor in factors], distances.LADDER)
     if name is None:
         assert near is None
     else:
@@ -156,7 +148,7 @@ def test_the_opening_speed_tells_what_is_lost(speed: Callable[[float], float], n
         past = (factors - 1.01).tolist()
         return [Course(True, GLASSY, speed(d)) if d > 0 else Course(False, (), 0.0) for d in past]
 
-    near = along_speed(courses, LADDER)
+    near = along_speed(courses, distances.LADDER)
     assert near is not None
     assert name in near.boundary
 

@@ -45,17 +45,8 @@ def test_adjoint_derivatives_are_those_of_differences(k: int) -> None:
     assert compared(of_case(k, "adjoint", "rosenbrock"), k) < 1e-7
 
 
-@pytest.mark.parametrize("k", [0, 7], ids=[NAMES[k] for k in (0, 7)])
-def test_forward_is_adjoint(k: int) -> None:
-    """Rosenbrock's two methods differentiate the same steps: they agree to 1e-9, and to rounding in fact."""
-    one, other = of_case(k, "forward", "rosenbrock"), of_case(k, "adjoint", "rosenbrock")
-    for of in one.value:
-        assert one.value[of] == pytest.approx(other.value[of], rel=1e-13)
-        assert apart(dict(one.elasticity[of]), dict(other.elasticity[of])) < 1e-9
-
-
 @pytest.mark.parametrize("method", ["forward", "adjoint"])
-@pytest.mark.parametrize("k", [3, 10], ids=[NAMES[k] for k in (3, 10)])
+@pytest.mark.parametrize("k", [2, 6], ids=[NAMES[k] for k in (2, 6)])
 def test_cvodes_agrees(k: int, method: str) -> None:
     """CVODES at rtol 1e-10, both methods: within 1e-5 of the differences, and within 1e-7 in fact (docs)."""
     found = sensitivities(CASES[k].scene, ["restitution"], method=method, engine="cvodes", rtol=1e-10)

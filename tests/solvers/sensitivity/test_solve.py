@@ -22,13 +22,9 @@ def test_a_root_is_confirmed_and_its_derivatives_are_those_of_the_root():
     confirmed = collide(GRANULATION.with_entries({"liquid.viscosity": value}), engine="cvodes")
     assert confirmed.restitution == pytest.approx(0.5, abs=1e-7)
     gradient, step = found.found[0].gradient, 1e-4
-    (film,) = [
-        (solve(thick, **FREE, restitution=0.5)[0] - solve(thin, **FREE, restitution=0.5)[0]) / (2 * step * 8e-6)
-        for thick, thin in [
-            [GRANULATION.with_entries({"liquid.film_thickness": 8e-6 * (1 + sign * step)}) for sign in (1, -1)]
-        ]
-    ]
-    assert gradient["liquid.film_thickness"] == pytest.approx(film, rel=1e-5)
+    films = [GRANULATION.with_entries({"liquid.film_thickness": 8e-6 * (1 + sign * step)}) for sign in (1, -1)]
+    thick, thin = (solve(scene, **FREE, restitution=0.5)[0] for scene in films)
+    assert gradient["liquid.film_thickness"] == pytest.approx((thick - thin) / (2 * step * 8e-6), rel=1e-5)
     targets = [solve(GRANULATION, **FREE, restitution=0.5 * (1 + sign * step))[0] for sign in (1, -1)]
     assert gradient["restitution"] == pytest.approx((targets[0] - targets[1]) / step, rel=1e-5)
     assert "liquid.viscosity" not in gradient
@@ -97,23 +93,18 @@ def test_a_result_that_does_not_change_is_said():
     assert "all along from 2 to 5 Pa s" in str(found) and "none" not in str(found)
 
 
-@pytest.mark.parametrize(
-    ("of", "target"),
-    [("contact_time", "100 us"), ("rotation", "80 deg"), ("final_spin", 4000.0), ("energy.capillary", 2e-10)],
-)
+@pytest.mark.parametrize(("of", "target"), [("contact_time", "100 us"), ("energy.capillary", 2e-10)])
 def test_any_result_may_have_a_value(of, target):
-    """Times, angles, rates, and terms of the ledger, with their units, over the impact as over the material."""
+    """Times and terms of the ledger, with their units, over the impact as over the material."""
     scene = Scene.load("granulation").with_impact(stokes=0.02, angle="75 deg")
-    ranges = {"contact_time": ("impact.angle", (0.0, "85 deg")), "final_spin": ("impact.stokes", (0.012, 0.1))}
-    free, within = ranges.get(of, ("bridge.volume", (0.03, 0.3)))
+    free, within = ("impact.angle", (0.0, "85 deg")) if of == "contact_time" else ("bridge.volume", (0.03, 0.3))
     found = solve(scene, free=free, within=within, **{of: target})
     assert len(found) >= 1
     for value in found:
-        key = free.partition(".")[2]
-        there = scene.with_entries({free: value}) if "bridge" in free else scene.with_impact(**{key: value})
-        one, (name, _, term) = collide(there, engine="rosenbrock"), of.partition(".")
-        expected = {"100 us": 1e-4, "80 deg": math.radians(80)}.get(target, target)
-        assert (getattr(one.energy, term) if term else getattr(one, name)) == pytest.approx(expected, rel=1e-6)
+        there = scene.with_entries({free: value}) if "bridge" in free else scene.with_impact(angle=value)
+        one = collide(there, engine="rosenbrock")
+        found_there = one.contact_time if of == "contact_time" else one.energy.capillary
+        assert found_there == pytest.approx(1e-4 if of == "contact_time" else target, rel=1e-6)
 
 
 def test_the_command():
@@ -131,13 +122,8 @@ def test_the_command():
     ):  # fmt: skip
         wrong = run(*arguments, "--free", option)
         assert wrong.exit_code == 2 and wrong.stderr.startswith(message)
-    for target, message in (
-        ("restituton=1", "--for"),
-        ("restitution=0", "restitution"),
-        ("restitution", "--for"),
-        ("free=1", "--for"),
-        ("stokes=0.1", "--for"),
-    ):
+    for target, message in (("restituton=1", "--for"), ("restitution=0", "restitution"), ("restitution", "--for"),
+                            ("free=1", "--for"), ("stokes=0.1", "--for")):  # fmt: skip
         wrong = run(*arguments[:-1], target, "--free", "liquid.viscosity=0.5:5 Pa s")
         assert wrong.exit_code == 2 and wrong.stderr.startswith(message), wrong.stderr
     again = pickle.loads(pickle.dumps(solve(GRANULATION, **FREE, restitution=0.5)))

@@ -8,18 +8,8 @@ from typing import Any
 
 import numpy as np
 import pytest
-from wetdoublet.solvers import Collision, Scene, collide, collide_many
-from wetdoublet.solvers.verify import (
-    Finding,
-    Report,
-    closed,
-    conserved,
-    numeric,
-    order,
-    region,
-    restitution_budget,
-    sample,
-)
+from wetdoublet.solvers import Collision, Scene, collide, collide_many, verify
+from wetdoublet.solvers.verify import Finding, Report, closed, conserved, order, region, sample
 
 from ...helpers.command import run
 from ...helpers.own_arm import surface
@@ -34,7 +24,7 @@ LAWS = [
 
 # fewer impacts than a user gets, of every kind
 SMALL = sample.Extent(
-    tolerances=tuple(10.0**-k for k in (5, 6, 7, 8, 9, 10)), audited=30, grid_angles=(30, 60, 75), grid_points=8
+    tolerances=tuple(10.0**-k for k in (5, 6, 7, 8, 9)), audited=16, grid_angles=(30, 75), grid_points=6
 )
 
 
@@ -42,7 +32,7 @@ SMALL = sample.Extent(
 @pytest.mark.parametrize("name", ["granulation", "pendulum", "granulation-dry-bridge"])
 def test_every_law_holds_on_the_presets(name: str) -> None:
     """Every law has a finding on every preset that has its subject, and none fails."""
-    found = {finding.name: finding for finding in numeric(Scene.load(name), extent=SMALL)}
+    found = {finding.name: finding for finding in verify.numeric(Scene.load(name), extent=SMALL)}
     strings = name == "pendulum"
     expected = LAWS + ["swinging"] * strings
     assert sorted(found) == sorted(expected)
@@ -66,7 +56,7 @@ def test_the_surface_arm_is_a_note() -> None:
 def test_the_budget_of_spinning_spheres() -> None:
     """What the spins bring counts as rotation: the identity closes, and e_n stays below its ceiling."""
     scene = Scene.load("granulation").with_entries({"impact.spin": 5e4, "impact.partner_spin": -2e5})
-    at = restitution_budget(scene, stokes=[0.5], angle=[0.0, 1.0])
+    at = verify.restitution_budget(scene, stokes=[0.5], angle=[0.0, 1.0])
     assert np.abs(at["gap"].values).max() < 1e-12 * at["tangential_lubrication"].values.max()
     assert np.all(at["restitution"].values ** 2 < at["ceiling"].values)
     found = {finding.name: finding.ok for finding in region.argument(scene, at)}

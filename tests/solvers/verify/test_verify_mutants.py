@@ -3,7 +3,7 @@
 import math
 from collections.abc import Callable, Iterable
 from dataclasses import replace
-from functools import partial
+from functools import cache, partial
 from typing import Any
 
 import pytest
@@ -16,6 +16,7 @@ from wetdoublet.solvers.verify.report import Finding
 pytestmark = pytest.mark.slow
 
 SCENE = Scene.load("granulation")
+computed = cache(collide)  # once; what a mutant changes is made of it
 BAD = {"stokes": 0.12, "angle": math.radians(60)}  # one impact of the sample; it separates
 
 
@@ -23,7 +24,7 @@ def doctored(change: Callable[[Collision], Collision], engine: str | None = None
     """`collide` with one impact changed (of one engine, or of all)."""
 
     def run(scene: Scene, **options: Any) -> Collision:
-        one = collide(scene, **options)
+        one = computed(scene, **options)
         hit = math.isclose(one.stokes, BAD["stokes"], rel_tol=1e-3) and math.isclose(one.angle, BAD["angle"])
         return change(one) if hit and engine in (None, one.engine) else one
 
@@ -45,7 +46,7 @@ FEW = sample.Extent(angles=(0.0, BAD["angle"]))  # two angles of the sample
 @pytest.fixture(scope="module")
 def collisions() -> sample.Sample:
     """The sample as it is, with nothing changed."""
-    return sample.collisions(SCENE, extent=FEW)
+    return sample.collisions(SCENE, extent=FEW, collide=computed)
 
 
 CVODES = ["cvodes = rosenbrock", "taylor = cvodes"]
@@ -121,7 +122,7 @@ def test_an_engine_that_does_not_converge_is_found(collisions) -> None:
     """e_n off by 1e-6 whatever the tolerance: the slope of the error breaks down, for that engine only."""
 
     def off(scene, **options):
-        one = collide(scene, **options)
+        one = computed(scene, **options)
         return replace(one, restitution=one.restitution * (1 + 1e-6 * (one.engine == "cvodes")))
 
     assert failures(order.convergence(collisions, TOLERANCES, collide=off)) == ["convergence, cvodes"]
