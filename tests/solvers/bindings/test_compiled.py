@@ -8,9 +8,8 @@ from pathlib import Path
 import pytest
 from wetdoublet.solvers import Scene, collide_many
 from wetdoublet.solvers.bindings.extras import required
-from wetdoublet.solvers.export.law.kernels import rendered
 
-from ...helpers.exported_law import FOUND, law_alone
+from ...helpers.exported_law import FOUND, written
 from ...helpers.flags import QUICK
 
 PAGE = Path(__file__).resolve().parents[3] / "docs/how-to/c-law.md"
@@ -20,8 +19,7 @@ PAGE = Path(__file__).resolve().parents[3] / "docs/how-to/c-law.md"
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The granulation's law, made as the page says."""
     above = tmp_path_factory.mktemp("from-python")
-    folder = law_alone(Scene.load("granulation"), above / "law")
-    (folder / "Makefile").write_text(rendered("Makefile", name="granulation"))
+    written(Scene.load("granulation"), above / "law")
     flags = f"CFLAGS={QUICK} -DGRANULATION_LANES=1"
     subprocess.run(["make", "-s", "-C", "law", "shared", flags], cwd=above, check=True)
     return above

@@ -230,7 +230,7 @@ def test_a_scale_is_right_and_uncertain_by_a_share(film: Film) -> None:
     for spread in ("5 %", 5, -0.1, math.nan):
         with pytest.raises(InputError, match="scale_sd.*a number from 0"):
             read(film, scale_sd=spread)
-    for source, scale in ((film, PIXEL / 10), (crowd(film), 1000 * PIXEL)):
+    for source, scale in itertools.product((film, crowd(film)), (PIXEL / 10, 1000 * PIXEL)):
         with pytest.raises(InputError, match="is the scale off|look at the scale"):
             read(source, scale=scale)
 
