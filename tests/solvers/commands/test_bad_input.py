@@ -1,7 +1,6 @@
 """The command line: bad input is one line and exit 2, options are judged first, standard output stays clean."""
 
 import json
-import math
 import os
 import re
 import subprocess
@@ -12,12 +11,9 @@ from types import ModuleType, SimpleNamespace
 
 import pytest
 from wetdoublet.solvers.commands.cli import COMMANDS, cli
-from wetdoublet.solvers.commands.texts import entry_range
-from wetdoublet.solvers.errors import CheckFailed, ComputationError, InputError, ModelWarning
-from wetdoublet.solvers.scene.ranges import parse_range
+from wetdoublet.solvers.errors import CheckFailed, ComputationError, ModelWarning
 from wetdoublet.solvers.scene.scene import Scene
 from wetdoublet.solvers.scene.scenefile import PRESETS
-from wetdoublet.solvers.scene.schema import FIELDS
 
 from ...helpers.command import quiet, run
 
@@ -58,6 +54,7 @@ BAD = [
     ("collide granulation --speed 1", "--speed", "no unit", "with its unit"),
     ("collide granulation --angle 95", "--angle", '"95 deg"', "< 90 deg"),
     ("collide granulation --stokes 1e300", "impact.stokes", "1e+300 is too far off", "stokes number"),
+    ("collide granulation --relative-speed 1e200m/s", "impact.relative_speed", '"1e200m/s"', "stokes number"),
     ("critical granulation --angle 20:x:3", "--angle", '"x" is not a number', "an impact angle"),
     ("design granulatoin --over stokes=0.1:1", "scene", "did you mean granulation?", "a preset: granulation, pendulum"),
     ("collide granulation --hold stokes --stokes 0.3", "--hold", "together with --stokes", "--hold without --stokes"),
@@ -93,10 +90,12 @@ BAD = [
     ("prove granulation --map --stokes 0.1 --angle 0:10:3", "--stokes", '"0.1" is one edge', "LO:HI:N or log:LO:HI:N"),
     ("prove granulation --map --stokes 0.1:0.5:3 --angle 10", "--angle", '"10" is one edge', "LO:HI:N in degrees"),
     ("map granulation --speed 0.1:0.2:3 --angle 0:80:3", "--speed", '"0.1:0.2" has no unit', "a number with its unit"),
+    ("map granulation --angle 0:1:2 --vary liquid.viscosity=1:2:3", "--vary liquid.viscosity", '"1:2" has no unit', ""),
     ("map granulation --angle 0:1:2 --vary impact.angle=1:2:3", "--vary", '"impact.angle"', ""),
     ("map granulation --set bridge.volume=0.2 --vary bridge.volume=0.1:0.2:2", "--vary", '"bridge.volume"', ""),
     ("map granulation --stokes 1:2:90 --angle 0:80:90 --vary bridge.volume=0.1:0.2:9000", "--vary bridge.volume",
      '"bridge.volume=0.1:0.2:9000" makes 90 x 90 x 9000', ""),
+    ("map granulation --stokes 0.1:0.2:3 --angle 0:80:3 -o map.txt", "-o", '"map.txt" has an unsupported suffix', ""),
     ("sensitivity granulation --over stokes=0.05:0.2:2", "--uncertainty", "missing", ""),
     ("sensitivity granulation --over viscosity=1:2:3 --uncertainty liquid.viscosity=0.1", "--over", "", ""),
     ("sensitivity granulation --over angle=2:6:3 --uncertainty liquid.viscosity=5% --of restitution,rotation", "--of",
@@ -111,6 +110,8 @@ BAD = [
     ("verify --stress -1", "--stress", '"-1" is out of range', "1 to 10000000"),
     ("verify --out x", "--out", "", "--stress"),
     ("verify granulation --stress 8", "SCENE", "", "--stress"),
+    ("design granulation --free liquid.viscosity,liquid.nothing --over stokes=0.1:1,angle=0:60", "--free",
+     '"liquid.nothing" is not known', "liquid.viscosity"),
     ("fit pendulum docs/how-to/data/synthetic-pendulum.csv --free liquid.viscosity,liquid.nothing", "--free",
      '"liquid.nothing" is not known', "liquid.viscosity"),
     ("sensitivity granulation --wrt liquid.viscosity,nothing", "--wrt", '"nothing"', "liquid.viscosity"),
@@ -249,19 +250,6 @@ def test_a_new_scene(tmp_path, monkeypatch):
     assert (tmp_path / "mine.toml").read_text() == text and not (tmp_path / "other.toml").exists()
 
 
-def test_angles_are_degrees_on_the_command_line():
-    """A bare angle is in degrees, alone and in ranges; either end of a range may carry the unit of both."""
-    one = [run("collide", "granulation", "--angle", angle, "--json").stdout for angle in ("75", "75 deg")]
-    assert one[0] == one[1] != ""
-    assert run("scenes", "granulation", "--set", "bridge.contact_angle=20").stdout.count('"20 deg"') == 1
-    angle, speed = FIELDS["impact.angle"], FIELDS["impact.speed"]
-    assert entry_range(angle, "20 deg:70 deg:26", "--angle") == entry_range(angle, "20:70:26", "--angle")
-    assert entry_range(angle, "40", "--angle") == entry_range(angle, "40:40deg:1", "--angle") == [math.radians(40)]
-    assert entry_range(angle, "0:1 rad:2", "--angle") == [0.0, 1.0]
-    speeds = entry_range(speed, "0.1:5 m/s:20", "--speed")
-    assert speeds == entry_range(speed, "0.1 m/s:5:20", "--speed") and speeds[-1] == 5.0
-
-
 @pytest.mark.slow
 def test_a_home_that_cannot_be_written(tmp_path):
     """Matplotlib then works from a temporary folder, and standard error stays clean."""
@@ -272,19 +260,6 @@ def test_a_home_that_cannot_be_written(tmp_path):
         [sys.executable, *line], check=False, capture_output=True, text=True, env=kept | {"HOME": "/proc/none"}
     )
     assert (done.returncode, quiet(done.stderr)) == (0, "") and (tmp_path / "a.png").is_file()
-
-
-def floats(low, high):
-    """Read both ends of a range as plain numbers, an empty one as 0."""
-    return float(low or "0"), float(high or "0")
-
-
-def test_ranges():
-    """Both ends are included exactly; log is even in the logarithm; one value is a range too."""
-    assert parse_range("0:60:4", "--angle", floats) == [0, 20, 40, 60]
-    assert parse_range("log:0.01:100:5", "--stokes", floats) == pytest.approx([0.01, 0.1, 1, 10, 100])
-    assert parse_range("log:0.1:0.7:3", "--stokes", floats)[::2] == [0.1, 0.7]
-    assert parse_range("5:5:1", "--angle", floats) == parse_range("5", "--angle", floats) == [5]
 
 
 def test_generate(module, tmp_path):
@@ -326,15 +301,6 @@ def test_only_near_names_are_suggested():
         assert "did you mean" not in run("collide", "granulation", option).stderr
     result = run("collide", "")
     assert result.stderr.startswith('scene: "" is an empty name; accepted: a scene file')
-
-
-@pytest.mark.parametrize(
-    "text", ["1:2", "1:2:0", "2:1:3", "1:2:1", "1:1:2", "1:2:x", "1:2:3.5", "1:2:-3", "log:0:1:3", "::", ""]
-)
-def test_bad_ranges(text):
-    """A range that is none, runs backwards or has the wrong count names its option."""
-    with pytest.raises(InputError, match=r"--stokes: .*; accepted: .*"):
-        parse_range(text, "--stokes", floats)
 
 
 @pytest.mark.parametrize(

@@ -1,12 +1,17 @@
-"""Help of commands: their docstrings, with meanings and defaults of the public functions; what a shell completes."""
+"""Help of commands: their docstrings, with defaults of the public functions; what a shell completes; ranges."""
 
 import inspect
+import math
 import re
 
 import pytest
 from click.testing import CliRunner
 from wetdoublet.solvers import collision_averages, design, tracks
 from wetdoublet.solvers.commands.cli import COMMANDS, cli
+from wetdoublet.solvers.commands.texts import entry_range
+from wetdoublet.solvers.errors import InputError
+from wetdoublet.solvers.scene.ranges import parse_range
+from wetdoublet.solvers.scene.schema import FIELDS
 
 from ...helpers.command import run
 
@@ -57,3 +62,38 @@ def test_a_shell_completes(line, completed):
     done = CliRunner().invoke(cli, [], env=env, prog_name="wetdoublet")
     assert (done.exit_code, done.stderr) == (0, "")
     assert completed <= {entry.partition(",")[2] for entry in done.stdout.split()}
+
+
+def floats(low, high):
+    """Read both ends of a range as plain numbers, an empty one as 0."""
+    return float(low or "0"), float(high or "0")
+
+
+def test_ranges():
+    """Both ends are included exactly; log is even in the logarithm; one value is a range too."""
+    assert parse_range("0:60:4", "--angle", floats) == [0, 20, 40, 60]
+    assert parse_range("log:0.01:100:5", "--stokes", floats) == pytest.approx([0.01, 0.1, 1, 10, 100])
+    assert parse_range("log:0.1:0.7:3", "--stokes", floats)[::2] == [0.1, 0.7]
+    assert parse_range("5:5:1", "--angle", floats) == parse_range("5", "--angle", floats) == [5]
+
+
+@pytest.mark.parametrize(
+    "text", ["1:2", "1:2:0", "2:1:3", "1:2:1", "1:1:2", "1:2:x", "1:2:3.5", "1:2:-3", "log:0:1:3", "::", ""]
+)
+def test_bad_ranges(text):
+    """A range that is none, runs backwards or has the wrong count names its option."""
+    with pytest.raises(InputError, match=r"--stokes: .*; accepted: .*"):
+        parse_range(text, "--stokes", floats)
+
+
+def test_angles_are_degrees_on_the_command_line():
+    """A bare angle is in degrees, alone and in ranges; either end of a range may carry the unit of both."""
+    one = [run("collide", "granulation", "--angle", angle, "--json").stdout for angle in ("75", "75 deg")]
+    assert one[0] == one[1] != ""
+    assert run("scenes", "granulation", "--set", "bridge.contact_angle=20").stdout.count('"20 deg"') == 1
+    angle, speed = FIELDS["impact.angle"], FIELDS["impact.speed"]
+    assert entry_range(angle, "20 deg:70 deg:26", "--angle") == entry_range(angle, "20:70:26", "--angle")
+    assert entry_range(angle, "40", "--angle") == entry_range(angle, "40:40deg:1", "--angle") == [math.radians(40)]
+    assert entry_range(angle, "0:1 rad:2", "--angle") == [0.0, 1.0]
+    speeds = entry_range(speed, "0.1:5 m/s:20", "--speed")
+    assert speeds == entry_range(speed, "0.1 m/s:5:20", "--speed") and speeds[-1] == 5.0
