@@ -93,18 +93,22 @@ def test_a_result_that_does_not_change_is_said():
     assert "all along from 2 to 5 Pa s" in str(found) and "none" not in str(found)
 
 
-@pytest.mark.parametrize(("of", "target"), [("contact_time", "100 us"), ("energy.capillary", 2e-10)])
+@pytest.mark.parametrize(
+    ("of", "target"), [("contact_time", "100 us"), ("final_spin", 4000.0), ("energy.capillary", 2e-10)]
+)
 def test_any_result_may_have_a_value(of, target):
-    """Times and terms of the ledger, with their units, over the impact as over the material."""
+    """Times, rates, and terms of the ledger, with their units, over the impact as over the material."""
     scene = Scene.load("granulation").with_impact(stokes=0.02, angle="75 deg")
-    free, within = ("impact.angle", (0.0, "85 deg")) if of == "contact_time" else ("bridge.volume", (0.03, 0.3))
+    ranges = {"contact_time": ("impact.angle", (0.0, "85 deg")), "final_spin": ("impact.stokes", (0.012, 0.1))}
+    free, within = ranges.get(of, ("bridge.volume", (0.03, 0.3)))
     found = solve(scene, free=free, within=within, **{of: target})
     assert len(found) >= 1
     for value in found:
-        there = scene.with_entries({free: value}) if "bridge" in free else scene.with_impact(angle=value)
-        one = collide(there, engine="rosenbrock")
-        found_there = one.contact_time if of == "contact_time" else one.energy.capillary
-        assert found_there == pytest.approx(1e-4 if of == "contact_time" else target, rel=1e-6)
+        key = free.partition(".")[2]
+        there = scene.with_entries({free: value}) if "bridge" in free else scene.with_impact(**{key: value})
+        one, (name, _, term) = collide(there, engine="rosenbrock"), of.partition(".")
+        expected = 1e-4 if target == "100 us" else target
+        assert (getattr(one.energy, term) if term else getattr(one, name)) == pytest.approx(expected, rel=1e-6)
 
 
 def test_the_command():
