@@ -60,8 +60,8 @@ PROVABLE = [each for each in STRUCTURES if not (each["strings"] or each["frictio
 
 @pytest.mark.slow
 @pytest.mark.usefixtures("released")
-@examples(20)
-@given(scenes([each | {"film": "finite", "tangential": "immersed", "glass": "literal"} for each in few(PROVABLE, 4)]))
+@examples(30)
+@given(scenes([each | {"film": "finite", "tangential": "immersed", "glass": "literal"} for each in few(PROVABLE, 2)]))
 def test_a_proof_holds_the_collision(scene: Scene) -> None:
     """Outcome and restitution of what is proved, and of collisions in a box that is."""
     proof, (speed, angle) = prove(scene), scene.need_impact()
