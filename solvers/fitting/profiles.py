@@ -69,8 +69,9 @@ def _with_lines_there(likelihood: Joint, free: FreeEntries, best: np.ndarray, en
     objective = Objective(likelihood, free, Resolution())
 
     def again(k: int, sign: float, end: End) -> End:
-        found = None if end.open else end_by_newton(objective, best, k, sign, None, end.inner)
-        return found or end
+        if end.open:
+            return end
+        return end_by_newton(objective, best, k, sign, None, end.inner) or end
 
     return [[again(k, sign, end) for sign, end in zip((-1.0, 1.0), both, strict=True)] for k, both in enumerate(ends)]
 
