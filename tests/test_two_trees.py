@@ -23,12 +23,12 @@ RECORD: dict[str, Any] = {
 }  # fmt: skip
 
 
-def compared(tmp_path: Path, after: list[dict[str, Any]], *words: tuple[str, str], **more: Any) -> tuple[int, str]:
+def compared(tmp_path: Path, after: list[dict[str, Any]]) -> tuple[int, str]:
     """How many records differ from RECORD's, and what is said of them."""
     files, said = (tmp_path / "before", tmp_path / "after"), []
-    files[0].write_text(json.dumps(RECORD | more) + "\n")
+    files[0].write_text(json.dumps(RECORD) + "\n")
     files[1].write_text("".join(json.dumps(one) + "\n" for one in after))
-    _, differ = two_trees.compared(*files, two_trees.Renaming(words), said.append)
+    _, differ = two_trees.compared(*files, said.append)
     return differ, "\n".join(said)
 
 
@@ -36,44 +36,15 @@ def with_value(**changes: Any) -> list[dict[str, Any]]:
     return [RECORD | {"value": RECORD["value"] | changes}]
 
 
-def test_what_is_equal_agrees(tmp_path: Path) -> None:
-    """Two files with the same answers differ nowhere."""
-    assert compared(tmp_path, [RECORD])[0] == 0
+NEXT = {"restitution": math.nextafter(E_N, 1).hex()}
 
 
 @pytest.mark.parametrize(
-    "changes",
-    [
-        {"restitution": math.nextafter(E_N, 1).hex()}, {"restitution": None}, {"events": ["turned"]},
-        {"events": ["turned", "rests"]}, {"text": "flight\nended\n"}, {"more": 1},
-    ],
-    ids=str,
-)  # fmt: skip
-def test_any_difference_is_reported(tmp_path: Path, changes: dict[str, Any]) -> None:
-    """The last bit of a number, an event, a line of text, a field: each is told with its place."""
+    "changes", [NEXT, {"restitution": None}, {"events": ["turned"]}, {"text": "flight\nended\n"}, {"more": 1}], ids=str
+)
+def test_any_difference_is_reported_with_its_place(tmp_path: Path, changes: dict[str, Any]) -> None:
+    """The last bit of a number, an event, a line of text, a field; a record on one side alone; and nothing else."""
     differ, said = compared(tmp_path, with_value(**changes))
     assert differ == 1
     assert f"/{next(iter(changes))}" in said
-
-
-def test_an_answer_that_one_tree_lacks_is_reported(tmp_path: Path) -> None:
-    """A record on one side alone is a difference."""
-    assert compared(tmp_path, [])[0] == 1
-
-
-def test_a_tolerance_is_of_its_number_alone(tmp_path: Path) -> None:
-    """The last bit may differ where a tolerance allows it, and no other value."""
-    after = with_value(restitution=math.nextafter(E_N, 1).hex())
-    assert compared(tmp_path, after, tolerance={"/restitution": (1e-15).hex()})[0] == 0
-    assert compared(tmp_path, after, tolerance={"/restitution": (1e-17).hex()})[0] == 1
-    assert compared(tmp_path, after, tolerance={"/opening": (1e-15).hex()})[0] == 1
-
-
-def test_renamed_words_are_accepted_where_they_lead_to_what_is_there(tmp_path: Path) -> None:
-    """A renamed key and a renamed word of a text agree; another word in their place does not."""
-    value = {"normal_velocity": (1.5).hex()} | {k: v for k, v in RECORD["value"].items() if k != "opening"}
-    words = (("opening", "normal_velocity"), ("flight", "trajectory"))
-    after = [RECORD | {"value": value | {"text": "trajectory\nends\n"}}]
-    assert compared(tmp_path, after, *words)[0] == 0
-    assert compared(tmp_path, after)[0] == 1
-    assert compared(tmp_path, [RECORD | {"value": value | {"text": "orbit\nends\n"}}], *words)[0] == 1
+    assert [compared(tmp_path, after)[0] for after in ([RECORD], [])] == [0, 1]

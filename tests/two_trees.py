@@ -1,27 +1,20 @@
-"""Whether two trees of this repository compute the same: run on one machine, in one go, nothing stored.
+"""Whether two trees of this repository compute the same, bit for bit: run on one machine, in one go, nothing stored.
 
-    python tests/two_trees.py BEFORE AFTER [--collisions N] [--seed S] [--quick] [--only KIND,...] [--renamed FILE]
+    python tests/two_trees.py BEFORE AFTER [--collisions N] [--seed S] [--quick] [--only KIND,...]
 
 BEFORE and AFTER are git revisions or folders with derive/, generated/ and solvers/. Each tree runs in processes of its
-own, with caches of its own, through the public interface (`two_trees_worker.py`); what it answers is compared:
+own, with caches of its own, through the public interface (`two_trees_worker.py`), and compiles with -ffp-contract=off,
+lest the compiler fuse products with sums as it likes. What it answers is compared:
 
-* collisions: `collide` and `collide_many` by the CasADi engines, with ledger, events and trajectory: bit for bit;
-* kernels: `collide_many` and `collide` by the Taylor kernel: bit for bit with -ffp-contract=off, and with the flags
-  that ship to 1e-13 times the conditioning, while outcomes, events and reasons are equal;
-* space: `collide_pair` on random vectors, and `collide` where solids chatter until they rest: bit for bit;
-* gradients: `gradients_many`, `sensitivities`, `band`: bit for bit;
-* boundaries: `boundary`, `boundary_sensitivities`, `atlas`, `regime_map`: bit for bit;
+* collisions: `collide` and `collide_many` by the CasADi engines, with ledger, events and trajectory;
+* kernels: `collide_many` and `collide` by the Taylor kernel;
+* space: `collide_pair` on random vectors, and `collide` where solids chatter until they rest;
+* gradients: `gradients_many`, `sensitivities`, `band`;
+* boundaries: `boundary`, `boundary_sensitivities`, `atlas`, `regime_map`;
 * commands: exit status, standard output, errors and files of every command but `bench`, which measures time.
 
-The flags that ship let the compiler fuse products with sums, and where it does depends on how the code is arranged. The
-tolerance of a number is then 1e-13 times the larger of its size and its conditioning: the sum, over four random
-perturbations of all entries and the impact at once by about 1e-6, of its change per relative perturbation (in BEFORE).
-What cancels (residual of the ledger, drift of the angular momentum) is measured by what it is a difference of. These
-collisions are integrated to rtol 1e-13: where rounding decides that a step is taken anew, the result moves by as much.
-
---renamed FILE has lines `old text -> new text`: words renamed on purpose. They are applied to lines, keys and messages
-of BEFORE that AFTER does not have; each use is counted. Exit status: 0 if the trees agree, 1 if
-not, or if one of them cannot be run. The full run takes some ten minutes on two quiet cores, --quick two to three.
+Exit status: 0 if the trees agree, 1 if not, or if one of them cannot be run. The full run takes some ten minutes on two
+quiet cores, --quick two to three.
 """
 
 from __future__ import annotations
@@ -30,17 +23,15 @@ import argparse
 import difflib
 import io
 import json
-import math
 import os
-import re
 import subprocess
 import sys
 import tarfile
 import tempfile
 from collections import Counter, defaultdict
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -48,39 +39,8 @@ from typing import Any
 ROOT = Path(__file__).resolve().parents[1]
 FOLDERS = ("derive", "generated", "solvers")
 KINDS = ("collisions", "kernels", "space", "gradients", "boundaries", "commands")
-OFF, SHIPPED = "-ffp-contract=off", ""
 SHOWN = 4  # records of a kind that differ, and differences of a record, that are printed
 _print = partial(print, flush=True)
-_NUMBER = re.compile(r"-?(0x[01]\.[0-9a-f]+p[+-]\d+|inf)|nan")
-
-
-@dataclass
-class Renaming:
-    """Words renamed on purpose, old to new, and how often each was needed."""
-
-    words: Sequence[tuple[str, str]] = ()
-    uses: Counter[str] = field(default_factory=Counter)
-
-    @classmethod
-    def read(cls, file: Path) -> Renaming:
-        """From lines `old text -> new text`; empty lines and those that begin with # are passed over."""
-        lines = [line for line in file.read_text().splitlines() if line.strip() and not line.startswith("#")]
-        for line in lines:
-            if line.count(" -> ") != 1:
-                raise SystemExit(f"--renamed {file}: {line!r} is not `old text -> new text`")
-        return cls([tuple(line.split(" -> ")) for line in lines])
-
-    def __call__(self, text: str, accepted: Sequence[str] | set[str]) -> str:
-        """`text` with all words renamed if that is among what is `accepted`; else as it is."""
-        found, used = text, []
-        for old, new in self.words:
-            if old in found:
-                used.append(f"{old} -> {new}")
-                found = found.replace(old, new)
-        if found == text or found not in accepted:
-            return text
-        self.uses.update(used)
-        return found
 
 
 def leaves(value: Any, path: str = "") -> Iterator[tuple[str, Any]]:
@@ -94,80 +54,35 @@ def leaves(value: Any, path: str = "") -> Iterator[tuple[str, Any]]:
         yield path, value
 
 
-def differences(before: dict[str, Any], after: dict[str, Any], renamed: Renaming) -> list[str]:
-    """What differs between two records of the same name, a text each.
-
-    Arguments:
-        before, after: records with a `value`, floats in hexadecimal; that of `before` may have a `tolerance`, path ->
-            largest difference.
-        renamed: words of `before` that may have become others.
-    """
-    old, new = dict(leaves(before["value"])), dict(leaves(after["value"]))
-    tolerance = before.get("tolerance", {})
-    left = {path for path in new if path not in old}
-    moved = {path: renamed(path, left) if path not in new else path for path in old}
-    found = [f"{path}: only after: {new[path]!r:.200}" for path in sorted(left - set(moved.values()))]
-    for path, value in old.items():
-        if moved[path] not in new:
-            found.append(f"{path}: only before: {value!r:.200}")
-            continue
-        told = _told(path, value, new[moved[path]], tolerance.get(path), renamed)
-        found += [told] if told else []
-    return found
+def differences(before: dict[str, Any], after: dict[str, Any]) -> Iterator[str]:
+    """What differs between two records of the same name, a text each; floats are in hexadecimal."""
+    old, new = (dict(leaves(record["value"])) for record in (before, after))
+    for path in {**old, **new}:
+        if path not in old or path not in new:
+            yield f"{path}: only {'before' if path in old else 'after'}"
+        elif type(old[path]) is not type(new[path]) or old[path] != new[path]:
+            texts = [str(each).splitlines() for each in (old[path], new[path])]
+            if max(map(len, texts)) < 2:
+                yield f"{path}: {old[path]!r:.200} before, {new[path]!r:.200} after"
+            else:
+                yield "\n".join([f"{path}:", *difflib.unified_diff(*texts, "before", "after", n=1, lineterm="")])
 
 
-def _told(path: str, old: Any, new: Any, tolerance: str | None, renamed: Renaming) -> str:
-    """How a value differs from what it was; empty if it agrees."""
-    if type(old) is type(new) and old == new:
-        return ""
-    if not isinstance(old, str) or not isinstance(new, str):
-        return f"{path}: {old!r:.200} before, {new!r:.200} after"
-    if _NUMBER.fullmatch(old) and _NUMBER.fullmatch(new):
-        one, two = float.fromhex(old), float.fromhex(new)
-        if tolerance is not None and abs(one - two) <= float.fromhex(tolerance):
-            return ""
-        relative = abs(one - two) / max(abs(one), abs(two)) if math.isfinite(one - two) and one != two else math.nan
-        allowed = f", {float.fromhex(tolerance):.1e} is allowed" if tolerance is not None else ""
-        return f"{path}: {one!r} before, {two!r} after: {relative:.1e} relative, {abs(one - two):.1e} absolute{allowed}"
-    lines, others = old.splitlines(), new.splitlines()
-    accepted = set(others)
-    lines = [line if line in accepted else renamed(line, accepted) for line in lines]
-    if lines == others:
-        return "" if old.endswith("\n") == new.endswith("\n") else f"{path}: one of the two ends with a newline"
-    if len(lines) < 2 and len(others) < 2:
-        return f"{path}: {old!r} before, {new!r} after"
-    return "\n".join([f"{path}:", *difflib.unified_diff(lines, others, "before", "after", n=1, lineterm="")])
-
-
-def compared(before: Path, after: Path, renamed: Renaming, say: Any = _print) -> tuple[int, int]:
+def compared(before: Path, after: Path, say: Any = _print) -> tuple[int, int]:
     """How many records two files of JSON lines have between them, and how many differ; tells of both, kind by kind."""
     old, new = _records(before), _records(after)
     total: dict[str, Counter[str]] = defaultdict(Counter)
-    told: dict[str, list[str]] = defaultdict(list)
-    met: Counter[str] = Counter()
-    for name in dict.fromkeys([*old, *new]):
-        one = old.get(name) or new[name]
-        met.update(
-            str(value) for path, value in leaves(one["value"]) if path.endswith(("/kind", "/outcome", "/raises"))
-        )
-        if name in old and name in new:
-            found = differences(old[name], new[name], renamed)
-        else:
-            found = ["only " + ("before" if name in old else "after")]
+    for name in {**old, **new}:
+        one, both = old.get(name) or new[name], name in old and name in new
+        found = [*differences(old[name], new[name])] if both else ["only " + ("before" if name in old else "after")]
         counts = total[one["what"]]
         counts.update(records=1, compared=one["count"], differ=int(bool(found)))
-        if found:
-            shown = "\n".join(found[:SHOWN] + [f"... {len(found) - SHOWN} more"] * (len(found) > SHOWN))
-            about = "; ".join(line for line in one.get("about", "").splitlines() if line)
-            told[one["what"]].append(f"  {name}: {about}\n" + re.sub("^", "    ", shown, flags=re.M))
+        if found and counts["differ"] <= SHOWN:
+            say(f"  {name}: {' '.join(one.get('about', '').split())}")
+            for each in found[:SHOWN]:
+                say("    " + each.replace("\n", "\n    "))
     for what, counts in total.items():
         say(f"{what}: {counts['compared']} in {counts['records']} records, {counts['differ']} records differ")
-        for each in told[what][:SHOWN]:
-            say(each)
-        if len(told[what]) > SHOWN:
-            say(f"  ... and {len(told[what]) - SHOWN} more")
-    if met:
-        say("met: " + ", ".join(f"{what} {times}" for what, times in met.most_common()))
     return sum(each["records"] for each in total.values()), sum(each["differ"] for each in total.values())
 
 
@@ -206,26 +121,24 @@ class Tree:
         (package / "__init__.py").write_text(own.read_text() if own.is_file() else "")
         return cls(name, source, work)
 
-    def run(self, kind: str, flags: str, options: argparse.Namespace) -> Path:
+    def run(self, kind: str, options: argparse.Namespace) -> Path:
         """Let the worker answer; returns its file of JSON lines. SystemExit if it does not come to an end."""
-        label = f"{kind}{'-shipped' if kind == 'kernels' and not flags else ''}"
-        file, cache = self.work / f"{label}.jsonl", self.work / ("cache-off" if flags else "cache-shipped")
-        (self.work / label).mkdir()
+        file = self.work / f"{kind}.jsonl"
+        (self.work / kind).mkdir()
         environment = {key: value for key, value in os.environ.items() if not key.startswith("WETDOUBLET_")}
         environment |= {
-            "PYTHONPATH": str(self.work / "path"), "XDG_CACHE_HOME": str(cache), "WETDOUBLET_CFLAGS": flags,
-            "MPLBACKEND": "agg", "PYTHONHASHSEED": "0",
+            "PYTHONPATH": str(self.work / "path"), "XDG_CACHE_HOME": str(self.work / "cache"),
+            "WETDOUBLET_CFLAGS": "-ffp-contract=off", "MPLBACKEND": "agg", "PYTHONHASHSEED": "0",
         }  # fmt: skip
         task = {"source": str(self.source), "kind": kind, "seed": options.seed, "quick": options.quick}
-        task |= {"collisions": options.collisions, "conditioning": not flags and self.name == "before"}
-        task |= {"exact": bool(flags), "file": str(file), "masked": [str(self.source), str(self.work)]}
+        task |= {"collisions": options.collisions, "file": str(file), "masked": [str(self.source), str(self.work)]}
         worker = Path(__file__).with_name("two_trees_worker.py")
         done = subprocess.run(
             [sys.executable, str(worker), json.dumps(task)],
-            cwd=self.work / label, env=environment, capture_output=True, text=True,
+            cwd=self.work / kind, env=environment, capture_output=True, text=True,
         )  # fmt: skip
         if done.returncode:
-            raise SystemExit(f"{self.name}, {label}: the worker ended with {done.returncode}:\n{done.stderr[-4000:]}")
+            raise SystemExit(f"{self.name}, {kind}: the worker ended with {done.returncode}:\n{done.stderr[-4000:]}")
         return file
 
 
@@ -237,21 +150,16 @@ def main() -> int:
     parser.add_argument("--seed", type=int, default=13)
     parser.add_argument("--quick", action="store_true", help="200 collisions, and less of everything else")
     parser.add_argument("--only", default=",".join(KINDS), help="of " + ",".join(KINDS))
-    parser.add_argument("--renamed", type=Path, help="file of lines `old text -> new text`")
     options = parser.parse_args()
     options.collisions = options.collisions or (200 if options.quick else 2000)
     kinds = options.only.split(",")
     for kind in kinds:
         if kind not in KINDS:
             parser.error(f"--only {kind}: one of {', '.join(KINDS)}")
-    renamed = Renaming.read(options.renamed) if options.renamed else Renaming()
-    jobs = [(kind, flags) for kind in kinds for flags in ((OFF, SHIPPED) if kind == "kernels" else (OFF,))]
     with tempfile.TemporaryDirectory(prefix="two-trees-") as folder, ThreadPoolExecutor(2) as pool:
         trees = [Tree.of(name, getattr(options, name), Path(folder)) for name in ("before", "after")]
-        running = [[pool.submit(tree.run, kind, flags, options) for tree in trees] for kind, flags in jobs]
-        counts = [compared(*(each.result() for each in pair), renamed) for pair in running]
-    for words in renamed.words:
-        _print(f"renamed {renamed.uses[' -> '.join(words)]} times: {' -> '.join(words)}")
+        running = [[pool.submit(tree.run, kind, options) for tree in trees] for kind in kinds]
+        counts = [compared(*(each.result() for each in pair)) for pair in running]
     records, differ = (sum(each) for each in zip(*counts))
     _print(f"{records} records, {differ} differ" if differ else f"{records} records: the trees agree")
     return 1 if differ else 0

@@ -1,6 +1,7 @@
 """What one tree answers, for `two_trees.py`: public functions and commands only, a JSON line an answer.
 
-Floats are written in hexadecimal. What raises answers with the name of the class and the message.
+Scenes are drawn as for the tree's own stress test. Floats are written in hexadecimal. What raises answers with the name
+of the class and the message.
 """
 
 import dataclasses
@@ -17,36 +18,14 @@ from typing import Any
 
 import numpy as np
 import wetdoublet.solvers as wd
-from two_trees import leaves
+from wetdoublet.solvers.verify.stress.sample import NUMBERS, Model, models, scene_of
 
 TASK: dict[str, Any] = json.loads(sys.argv[1]) if __name__ == "__main__" else {}
 QUICK = bool(TASK.get("quick"))
 PRESETS = ("granulation", "pendulum", "granulation-dry-bridge")
-CHOICES: dict[str, tuple[str, ...]] = {
-    "preset": ("granulation",) * 3 + ("pendulum",) * 3 + ("granulation-dry-bridge",),
-    "bridge.law": (
-        "mikami", "mikami-log10", "willett", "willett-simple", "rabinovich", "lambert", "soulie", "constant",
-    ),
-    "bridge.rupture": ("common", "common", "own"),
-    "model.film": ("finite", "finite", "infinite", "cavitating", "constant-volume"),
-    "model.glass": ("literal", "film-corrected"),
-    "model.tangential": ("immersed", "film"),
-    "pendulum.law": ("exact", "small-angle"),
-    "partner": ("", "", "sphere", "wall"),
-    "attraction": ("", "", "van der Waals"),
-    "friction": ("", "", "dry"),
-    "spins": ("", "", "spinning"),
-}  # fmt: skip
 FIELDS = ("restitution", "tangential_restitution", "rotation", "contact_time", "smallest_gap")
-SPANS = {  # decades by which a preset's value is scaled, so that each criterion is the first one somewhere
-    "particles.roughness": (-1.0, 1.6), "particles.youngs_modulus": (-6.0, 0.5),
-    "liquid.glass_transition_pressure": (-0.5, 5.0),
-}  # fmt: skip
-MOST = {"particles.dry_restitution": 1.0, "particles.poisson_ratio": 0.5, "bridge.contact_angle": 1.2}
 MODELS = 5 if QUICK else 12  # combinations of laws and structures: each compiles kernels of its own
 BATCH = 10  # impacts of a scene, the first head-on
-NUDGES, NUDGE, ROUNDING = 4, 1e-6, 1e-13  # how conditioning is measured, and what is allowed times it
-WHOLES = {"residual": lambda one: _real(one["/energy/initial"]), "angular_momentum_drift": lambda _: 1.0}
 MASKS = ((r"\d{4}-\d\d-\d\d", "DATE"), (r"\b\d+(\.\d+)? s of processor time", "TIME"))
 TEXTS = {".c", ".csv", ".h", ".html", ".json", ".md", ".py", ".svg", ".tex", ".toml", ".txt", ""}
 
@@ -95,112 +74,28 @@ class Out:
         self.stream.flush()
 
 
-def models(count: int) -> list[dict[str, str]]:
-    """Combinations of structures and laws in which every choice comes as often as its share."""
-    random = np.random.default_rng(TASK["seed"])
-    columns = {name: random.permutation(np.resize(some, count)).tolist() for name, some in CHOICES.items()}
-    found = [{name: column[k] for name, column in columns.items()} for k in range(count)]
-    for one in found:  # what a scene refuses, or has not
-        if one["preset"] == "pendulum":
-            one.update({"partner": "", "model.film": "finite", "spins": ""})
-        else:
-            del one["pendulum.law"]
-        if one["preset"] == "granulation-dry-bridge" or (one["preset"] == "pendulum" and one["attraction"]):
-            del one["bridge.law"], one["bridge.rupture"]
-            one["model.film"] = one["model.film"].replace("constant-volume", "finite")
-        if one.get("bridge.law") in ("rabinovich", "lambert", "constant"):
-            one["bridge.rupture"] = "common"
-        if one["model.film"] == "constant-volume":
-            one.update({"model.glass": "literal", "model.tangential": "immersed"})
-    return found
-
-
-def drawn(model: Mapping[str, str], random: np.random.Generator) -> wd.Scene:
-    """A preset with its numbers scaled and the model's choices; InputError where they do not fit."""
-    preset = wd.Scene.load(model["preset"])
-    entries: dict[str, Any] = {}
-    for name, value in preset.si:
-        factor, part = float(10 ** random.uniform(*SPANS.get(name, (-0.6, 0.6)))), float(random.uniform(-0.2, 1.2))
-        if not isinstance(value, str) and not name.startswith("impact."):
-            entries[name] = min(max(part, 0.0), 1.0) * MOST[name] if name in MOST else value * factor
-    entries |= {name: choice for name, choice in model.items() if "." in name}
-    if "bridge.law" in model and not any(name.startswith("bridge.") for name in entries.keys() - model.keys()):
-        entries |= {"bridge.surface_tension": 0.02, "bridge.volume": 0.01, "bridge.contact_angle": 0.1}
-    if model["attraction"]:
-        entries["attraction.hamaker"] = float(10 ** random.uniform(-20, -18))
-    if model["partner"] == "wall":
-        entries["partner.wall"] = "true"
-    elif model["partner"]:
-        size = 2 * entries["particles.reduced_radius"] * float(4 ** random.uniform(-1, 1))
-        mass = 2 * entries["particles.reduced_mass"] * float(4 ** random.uniform(-1, 1))
-        entries |= {"partner.radius": size, "partner.mass": mass}
-    if model["friction"]:
-        entries["particles.friction"] = float(random.uniform(0, 1))
-        entries["particles.contact_tangential_restitution"] = float(random.uniform(0, 1))
-    scene = preset.with_entries(entries)
-    if model["spins"]:  # surfaces about as fast as the centres
-        rate = scene.speed_of(0.3) / scene.reduced_radius
-        scene = scene.with_entries({"impact.spin": float(random.uniform(-rate, rate))})
-    return scene
-
-
-def scenes(out: Out, number: int, model: Mapping[str, str], count: int) -> Iterator[tuple[str, wd.Scene, Any, Any]]:
+def scenes(out: Out, number: int, model: Model, count: int) -> Iterator[tuple[str, wd.Scene, Any, Any]]:
     """Name, scene, Stokes numbers and angles of so many scenes of a model; what is refused is an answer as well."""
-    made = 0
+    random, made = np.random.default_rng([TASK["seed"], number]), 0
     for k in range(40 * count):
-        random = np.random.default_rng([TASK["seed"], number, k])
         name = f"model {number}, scene {k}"
+        stokes, angle = np.exp(random.uniform(np.log(3e-3), np.log(8.0), BATCH)), random.uniform(0.0, 1.5, BATCH)
         try:
-            scene = drawn(model, random)
+            scene = scene_of(name, model, random.random(NUMBERS), moderate=True)
         except wd.InputError as error:
             out("scene refused", name, str(error), about=str(model))
             continue
         out("scene", name, plain(scene), about=str(model))
-        stokes = np.exp(random.uniform(np.log(3e-3), np.log(8.0), BATCH))
-        yield name, scene, stokes, np.append(0.0, random.uniform(0.0, 1.5, BATCH - 1))
+        yield name, scene, stokes, angle * (np.arange(BATCH) > 0)
         made += 1
         if made == count:
             return
 
 
-def tolerances(call: Callable[..., Any], base: Any, scene: wd.Scene, stokes: Any, angle: Any) -> dict[str, str]:
-    """Path -> difference that rounding may make to a number of `base`, from how it moves with what goes in."""
-    old, moved = dict(leaves(base)), dict.fromkeys((path for path, _ in leaves(base)), 0.0)
-    random = np.random.default_rng(TASK["seed"])
-    for _ in range(NUDGES):
-        down = {name: value * (1 - 2 * NUDGE * random.uniform()) for name, value in scene.si if _moves(name, value)}
-        factors = 1 - 2 * NUDGE * random.uniform(size=2)
-        moved_scene, impact = scene.with_entries(down), {"stokes": stokes * factors[0], "angle": angle * factors[1]}
-        nudged = dict(leaves(answer(call, moved_scene, **impact)))
-        for path, value in old.items():
-            if _is_number(value):
-                change = abs(_real(nudged.get(path)) - _real(value))
-                moved[path] += change / NUDGE if np.isfinite(change) else np.inf  # it has become another collision
-    found = {}
-    for path, value in old.items():
-        if _is_number(value) and np.isfinite(_real(value)):
-            whole = WHOLES.get(path.split("/")[-1], lambda _: 0.0)(old)
-            scale = max(abs(_real(value)), whole, moved[path])
-            found[path] = (ROUNDING * scale).hex()
-    return found
-
-
-def _moves(name: str, value: Any) -> bool:
-    return isinstance(value, float) and not name.startswith("impact.")
-
-
-def _is_number(value: Any) -> bool:
-    return isinstance(value, str) and bool(re.match(r"-?0x|nan|-?inf", value))
-
-
-def _real(value: Any) -> float:
-    return float.fromhex(value) if _is_number(value) else float("nan")
-
-
 def collisions(out: Out) -> None:
     """By the engines of CasADi."""
     out("names", "public", list(wd.__all__))
-    for number, model in enumerate(models(MODELS)):
+    for number, model in enumerate(models(MODELS, TASK["seed"])):
         for name, scene, stokes, angle in scenes(out, number, model, -(-TASK["collisions"] // MODELS // BATCH)):
             about = scene.to_toml()
             for engine, impact in product(("rosenbrock", "cvodes"), zip(stokes.tolist(), angle.tolist())):
@@ -222,38 +117,23 @@ def collisions(out: Out) -> None:
 
 def kernels(out: Out) -> None:
     """By the Taylor kernel."""
-
-    def asked(what: str, name: str, call: Callable[..., Any], scene: wd.Scene, stokes: Any, angle: Any) -> None:
-        found = answer(call, scene, stokes=stokes, angle=angle)
-        more = {"tolerance": tolerances(call, found, scene, stokes, angle)} if TASK["conditioning"] else {}
-        out(what, name, found, count=np.size(stokes), about=scene.to_toml(), **more)
-
-    rtol = 1e-9 if TASK["exact"] else ROUNDING  # what a step more or less does is then below the tolerances
-
-    def many(scene: wd.Scene, stokes: Any, angle: Any) -> Any:
-        return wd.collide_many(scene, stokes=stokes, angle=angle, rtol=rtol, engine="taylor", of=FIELDS)
-
-    def one(scene: wd.Scene, stokes: Any, angle: Any) -> Any:
-        found = plain(wd.collide(scene, stokes=float(stokes), angle=float(angle), rtol=rtol, engine="taylor"))
-        return found if TASK["exact"] else found | {"steps": None}  # a step more is no other answer
-
-    flags = "" if TASK["exact"] else ", flags that ship"
-    for number, model in enumerate(models(MODELS)):
+    for number, model in enumerate(models(MODELS, TASK["seed"])):
         for name, scene, stokes, angle in scenes(out, number, model, -(-TASK["collisions"] // MODELS // BATCH)):
-            asked(f"collide_many taylor{flags}", name, many, scene, stokes, angle)
+            found = answer(wd.collide_many, scene, stokes=stokes, angle=angle, engine="taylor", of=FIELDS)
+            out("collide_many taylor", name, found, count=BATCH, about=scene.to_toml())
             for k in (1,) if QUICK else (1, 2, 3):
-                asked(f"collide taylor{flags}", f"{name}, impact {k}", one, scene, stokes[k], angle[k])
-    for preset in PRESETS if TASK["exact"] else ():
+                found = answer(wd.collide, scene, stokes=float(stokes[k]), angle=float(angle[k]), engine="taylor")
+                out("collide taylor", f"{name}, impact {k}", found, about=scene.to_toml())
+    for preset in PRESETS:
         out("trajectory", f"{preset}, taylor", answer(wd.collide, preset, engine="taylor", trajectory=True))
         vary = {"liquid.viscosity": np.geomspace(0.5, 2.0, 90) * dict(wd.Scene.load(preset).si)["liquid.viscosity"]}
-        found = answer(wd.collide_many, preset, vary=vary, engine="taylor", of=FIELDS)
-        out("collide_many taylor, vary", preset, found, count=90)
+        out("collide_many taylor, vary", preset, answer(wd.collide_many, preset, vary=vary, of=FIELDS), count=90)
 
 
 def space(out: Out) -> None:
     """Pairs in space with any velocities and spins, and solids that chatter until they rest in friction."""
-    for number, model in enumerate(models(MODELS)):
-        if model["preset"] == "pendulum" or (model["friction"] and model["partner"] == "wall"):
+    for number, model in enumerate(models(MODELS, TASK["seed"])):
+        if model["strings"] or (model["friction"] and model["partner"] == "wall"):
             continue
         planar = model | {"spins": ""}
         for name, scene, stokes, _ in scenes(out, number, planar, 1 if QUICK else 3):
@@ -277,7 +157,7 @@ def space(out: Out) -> None:
 def gradients(out: Out) -> None:
     """Derivatives in parameters, by all methods."""
     of = ("restitution", "contact_time", "rotation")
-    for number, model in enumerate(models(3 if QUICK else 6)):
+    for number, model in enumerate(models(3 if QUICK else 6, TASK["seed"])):
         for name, scene, stokes, angle in scenes(out, number, model, 1 if QUICK else 2):
             about = scene.to_toml()
             for hold in ("speed", "stokes"):
@@ -303,7 +183,7 @@ def boundaries(out: Out) -> None:
         out("boundary_sensitivities", preset, moved)
         grid = {"stokes": np.geomspace(0.01, 5.0, 12), "angle": np.linspace(0.0, 1.4, 7)}
         out("regime_map", preset, answer(wd.regime_map, preset, **grid), count=84)
-    for number, model in enumerate(models(3 if QUICK else 8)):
+    for number, model in enumerate(models(3 if QUICK else 8, TASK["seed"])):
         for name, scene, _, angle in scenes(out, number, model, 1):
             out("boundary", name, answer(wd.boundary, scene, angle=angle[:3]), count=3, about=scene.to_toml())
     out("atlas", "granulation", answer(wd.atlas, "granulation", span=np.radians([20.0, 65.0])))
