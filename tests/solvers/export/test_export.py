@@ -16,6 +16,7 @@ from wetdoublet.derive.laws.modelfile import read
 from wetdoublet.solvers import Scene, collide
 from wetdoublet.solvers.export import differences
 from wetdoublet.solvers.export.functions import texts as c_texts
+from wetdoublet.solvers.export.law.texts import source
 from wetdoublet.solvers.model.dimensionless import nondimensionalise
 from wetdoublet.solvers.model.model import load, select_model
 
@@ -180,8 +181,6 @@ def test_each_kernel_of_a_law_has_its_own_table_of_declared_events(tmp_path: Pat
     snap = 'event("snap", guard=limit - u/x, where="opening beyond the film", ends="separated")\n'
     limit = 'limit = quantity("limit", unit="1/s", default="1e5 1/s")\n'
     (tmp_path / "snap.py").write_text("from wetdoublet.derive.user import *\n" + limit + snap)
-    options = ("--model", str(tmp_path / "snap.py"), "--to", "c", "--out", str(tmp_path / "law"))
-    done = run("export", "granulation", *options)
-    assert done.exit_code == 0, done.output
-    tables = re.findall(r"^static const struct \{[^}]*\} (\w+)\[", (tmp_path / "law/granulation.c").read_text(), re.M)
+    text = source(Scene.load("granulation", model=tmp_path / "snap.py")).c
+    tables = re.findall(r"^static const struct \{[^}]*\} (\w+)\[", text, re.M)
     assert len(tables) > 1 and len({*tables}) == len(tables)

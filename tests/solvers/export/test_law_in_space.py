@@ -92,13 +92,6 @@ def test_a_wall_that_moves_is_that_of_collide_pair(walled: tuple[Path, Law]):
     agree(walled[1], WALL, 60)
 
 
-def test_one_by_one_is_the_batch(law: Law):
-    """A pair's answer does not depend, to the last bit, on those beside it."""
-    rows = law.pairs(*arrivals(SPHERES, 60, seed=5))
-    whole = law.collide_pairs(rows)
-    assert b"".join(law.collide_pairs(rows[k : k + 1]).tobytes() for k in range(rows.size)) == whole.tobytes()
-
-
 def test_what_cannot_collide_has_a_status(law: Law):
     """No direction, no number, receding, beyond range: NaN and a reason; sound pairs beside them are computed."""
     nan, inf, still = math.nan, math.inf, [0.0, 0.0, 0.0]
