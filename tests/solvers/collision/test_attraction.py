@@ -13,17 +13,11 @@ X0 = 8e-6
 
 def scene_of(bridge, **changes):
     """Granulation with van der Waals attraction, contact at 50 nm only, with or without the constant bridge."""
-    preset = Scene.load("granulation")
-    given = {name: value for name, value in preset.given if "young" not in name and "poiss" not in name}
-    if not bridge:
-        given = {name: value for name, value in given.items() if not name.startswith("bridge")}
     entries = {
-        "attraction.hamaker": A_H,
-        "particles.roughness": "50 nm",
-        "liquid.glass_transition_pressure": "1e6 GPa",
-        **({"bridge.law": "constant", "bridge.volume": 0.05} if bridge else {}),
-    }
-    return Scene("", tuple({**given, **entries, **changes}.items()))
+        "attraction.hamaker": A_H, "particles.roughness": "50 nm", "liquid.glass_transition_pressure": "1e6 GPa",
+        "particles.youngs_modulus": "1e9 GPa", **({"bridge.law": "constant", "bridge.volume": 0.05} if bridge else {}),
+    }  # fmt: skip
+    return Scene.load("granulation" if bridge else "granulation-dry-bridge").with_entries({**entries, **changes})
 
 
 @pytest.mark.parametrize("bridge", [True, False])

@@ -1,4 +1,4 @@
-"""Bridge laws as parts: the critical centrifugal number of each, own rupture distances, ranges that are left."""
+"""Bridge laws as parts: own rupture distances, ranges that are left."""
 
 import json
 import math
@@ -10,9 +10,6 @@ from wetdoublet.solvers import InputError, ModelWarning, Scene, collide_many
 from wetdoublet.solvers.host.emitted import LAWS
 
 from ...helpers.reference import collide
-
-# an independent prototype's Ce* at 45 deg with the surface arm, granulation
-
 
 OWN = {
     "mikami": lambda v, phi: (0.62 * phi + 0.99) * v**0.34,

@@ -41,8 +41,7 @@ def test_a_copy_is_cited_as_the_law(model: Path) -> None:
     assert any("rupture distance" in use for each in second for use in each.uses)
 
 
-@pytest.mark.parametrize("chosen", CHOSEN)
-@pytest.mark.parametrize("engine", ["taylor", "cvodes"])
+@pytest.mark.parametrize(("chosen", "engine"), [(CHOSEN[0], "cvodes"), (CHOSEN[1], "taylor")])
 def test_a_copy_collides_as_the_law(model: Path, chosen: dict[str, str], engine: str) -> None:
     """Every number of the results, of each outcome; of a stick only its outcome is defined."""
     if compiler() is None:
@@ -56,9 +55,6 @@ def test_a_copy_collides_as_the_law(model: Path, chosen: dict[str, str], engine:
         assert (first.outcome, second.outcome) == (outcome, outcome)
         assert first.validity == second.validity
         if outcome != "stick":
-            numbers = ("restitution", "tangential_restitution", "rotation", "contact_time", "smallest_gap")
-            assert [getattr(first, name) for name in numbers] == [getattr(second, name) for name in numbers]
-            assert [(each.kind, each.time) for each in first.events] == [
-                (each.kind, each.time) for each in second.events
-            ]
-            assert first.energy == second.energy
+            for name in ("restitution", "tangential_restitution", "rotation", "contact_time", "smallest_gap"):
+                assert getattr(first, name) == getattr(second, name)
+            assert (first.events, first.energy) == (second.events, second.energy)

@@ -3,9 +3,8 @@
 import json
 from typing import Any
 
-import numpy as np
 import pytest
-from wetdoublet.solvers import Scene, collide, collide_many
+from wetdoublet.solvers import Scene, collide
 
 from ...helpers.data import DATA
 from ...helpers.scanned import scanned
@@ -46,11 +45,3 @@ def test_a_hard_scene(name: str) -> None:
             assert [event.kind for event in found[0].events] == [kind for kind, _ in expected.events]
         assert found[0].restitution == pytest.approx(expected.restitution, rel=row.get("rel", 1e-7))
         assert found[0].final_spin == pytest.approx(expected.spins[0], rel=1e-6, abs=1e-9 * scene.speed)
-
-
-def test_a_batch_says_the_same() -> None:
-    """Of the outcomes and proofs above, by the kernel."""
-    for row in list(ROWS.values())[:4]:
-        many = collide_many(scene_of(row), engine="taylor")
-        assert ("stick", "stick-rotate-separate", "bounce")[int(many.outcome[0])] == row["outcome"]
-        assert np.isfinite(many.restitution.values).all()

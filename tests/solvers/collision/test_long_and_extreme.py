@@ -7,7 +7,7 @@ from wetdoublet.solvers import InputError, Scene, boundary, collide_many, regime
 from ...helpers.entries import CIRCLES
 from ...helpers.reference import collide
 
-pytestmark = [pytest.mark.slow, pytest.mark.usefixtures("optimized")]
+pytestmark = pytest.mark.slow
 
 
 def test_what_is_left_of_sliding_keeps_its_sign_and_digits() -> None:
@@ -31,14 +31,11 @@ def test_one_extreme_point_leaves_the_others(engine: str) -> None:
 @pytest.mark.parametrize(
     ("impact", "changes"),
     [
-        ({"stokes": 1e308}, {}),
-        ({"stokes": 1e-320}, {}),
-        ({"speed": 1e200}, {}),
-        ({"stokes": 0.1}, {"liquid.viscosity": 1e250}),
-        ({"stokes": 0.1}, {"particles.reduced_mass": 1e-300}),
+        ({"stokes": 1e308}, {}), ({"stokes": 1e-320}, {}), ({"speed": 1e200}, {}),
+        ({"stokes": 0.1}, {"liquid.viscosity": 1e250}), ({"stokes": 0.1}, {"particles.reduced_mass": 1e-300}),
         ({"stokes": 0.1}, {"bridge.surface_tension": 1e-200}),
     ],
-)
+)  # fmt: skip
 def test_extreme_numbers_are_bad_input(impact: dict[str, float], changes: dict[str, float]) -> None:
     """Where groups or scales leave their range, that is said of an entry, and collisions are marked."""
     scene = Scene.load("granulation").with_entries(changes)
@@ -55,6 +52,7 @@ def test_extreme_spans_are_bad_input(span: tuple[float, float]) -> None:
         boundary("granulation", angle=0.5, stokes=span)
 
 
+@pytest.mark.usefixtures("optimized")
 def test_circling_is_decided_by_its_limit() -> None:
     """A doublet that dips ever less into its film has the outcome of its limit.
 

@@ -1,9 +1,12 @@
-"""The table of a collision for a person."""
+"""The table of a collision for a person, what results show in a notebook, and a scene when it is printed."""
 
+from collections.abc import Callable
 from dataclasses import replace
+from typing import Any
 
 import pytest
-from wetdoublet.solvers import Scene
+from wetdoublet import solvers
+from wetdoublet.solvers import Scene, boundary, sensitivities
 from wetdoublet.solvers.collision.outcome import Event
 from wetdoublet.solvers.collision.text import name_of, table
 
@@ -42,9 +45,12 @@ def row(text, name):
 
 
 @pytest.mark.parametrize("name", IMPACTS)
-def test_fits_a_terminal(collisions, name):
-    """Every table is ASCII, at most 88 columns wide, without trailing blanks, and what print() shows."""
+def test_fits_a_terminal_and_gives_the_reason(collisions, name):
+    """Every table is ASCII, at most 88 columns wide, and what print() shows; the outcome stands with its reason."""
     text = str(collisions[name])
+    if name in REASONS:
+        assert row(text, "outcome") == REASONS[name][0]
+        assert REASONS[name][1] in text
     assert text == table(collisions[name])
     assert text.isascii()
     assert max(map(len, text.splitlines())) <= 88
@@ -52,25 +58,17 @@ def test_fits_a_terminal(collisions, name):
     assert not {"nan", "inf", "None"} & set(text.replace(",", " ").split())
 
 
-@pytest.mark.parametrize(
-    ("name", "outcome", "why"),
-    [
-        ("escapes", "stick-rotate-separate", "escaped by centrifugal force, no rebound criterion met"),
-        ("bounces", "bounce", "rebounded because the liquid reached its glass transition"),
-        ("sticks at touch", "stick", "proved at contact: energy below the barrier"),
-        ("sticks later", "stick", "proved: energy below the barrier (certificate)"),
-        ("half turn", "stick", "cut off after 767.4 ms: half a turn"),
-        ("rotation reverses", "stick", "cut off after 450.7 ms: the strings turn the rotation back"),
-        ("pendulum", "stick", "proved: the strings hold it for good"),
-        ("reversed, sticks", "stick", "the glass criterion had made it rebound on the way"),
-        ("film alone", "stick", "proved at contact: the film stops it"),
-    ],
-)
-def test_outcome_has_its_reason(collisions, name, outcome, why):
-    """The outcome stands with the reason why it came about."""
-    text = table(collisions[name])
-    assert row(text, "outcome") == outcome
-    assert why in text
+REASONS = {
+    "escapes": ("stick-rotate-separate", "escaped by centrifugal force, no rebound criterion met"),
+    "bounces": ("bounce", "rebounded because the liquid reached its glass transition"),
+    "sticks at touch": ("stick", "proved at contact: energy below the barrier"),
+    "sticks later": ("stick", "proved: energy below the barrier (certificate)"),
+    "half turn": ("stick", "cut off after 767.4 ms: half a turn"),
+    "rotation reverses": ("stick", "cut off after 450.7 ms: the strings turn the rotation back"),
+    "pendulum": ("stick", "proved: the strings hold it for good"),
+    "reversed, sticks": ("stick", "the glass criterion had made it rebound on the way"),
+    "film alone": ("stick", "proved at contact: the film stops it"),
+}
 
 
 def test_absent_tables_leave_no_lines(collisions):
@@ -115,22 +113,53 @@ def test_a_name_is_one_short_line():
     assert name_of(scene.with_entries({"name": ""})) == "unnamed scene"
 
 
-def test_repr_of_many_events_is_cut_in_the_middle(collisions):
-    one = next(iter(collisions.values()))
-    few, many = (replace(one, events=tuple(Event("rough", 1e-6 * k) for k in range(count))) for count in (40, 100_000))
-    assert repr(few).count("kind='rough'") == 40
-    text = repr(many)
-    assert text.count("kind='rough'") == 40
-    assert "... 99960 more ..." in text
-    assert repr(many.events[0]) in text
-    assert repr(many.events[-1]) in text
-    assert len(many.to_dict()["events"]) == 100_000
-
-
 def test_many_events_are_shortened(collisions):
     """A chatter's hundreds of events do not fill the screen: first and last stand, the others are counted."""
-    events = (*(Event("rough", 1e-6 * count) for count in range(300)), Event("rests", 4e-4))
-    text = table(replace(collisions["escapes"], events=events))
-    assert len(text.splitlines()) < 50
-    assert row(text, "...") == "289 more"
-    assert row(text, "rests") == "400 us"
+    few, many = (tuple(Event("rough", 1e-6 * k) for k in range(count)) for count in (40, 100_000))
+    few, many, rests = (
+        replace(collisions["escapes"], events=each) for each in (few, many, (*many[:300], Event("rests", 4e-4)))
+    )
+    assert repr(few).count("kind='rough'") == repr(many).count("kind='rough'") == 40
+    for part in ("... 99960 more ...", repr(many.events[0]), repr(many.events[-1])):
+        assert part in repr(many)
+    assert len(many.to_dict()["events"]) == 100_000
+    assert len(table(rests).splitlines()) < 50
+    assert (row(table(rests), "..."), row(table(rests), "rests")) == ("289 more", "400 us")
+
+
+NAME = "<b>&'\""
+SCENE = Scene.load("granulation").with_entries({"name": NAME})
+
+RESULTS: dict[str, tuple[Callable[[], Any], list[str]]] = {  # how it is made, what its table says
+    "scene": (lambda: SCENE, ["liquid.viscosity", "2 Pa s", "assumed: glass", "default"]),
+    "collision": (
+        lambda: solvers.collide(SCENE, stokes=0.05, angle="75 deg"),
+        ["stick-rotate-separate", "1.581", "rupture at"],
+    ),
+    "stick": (lambda: solvers.collide(SCENE, stokes=0.01, ledger=False), ["stick", "proved"]),
+    "boundaries": (lambda: boundary(SCENE, angle=[0.5], stokes=(0.05, 0.2)), ["28.6479", "stick-rotate-separate"]),
+    "sensitivities": (lambda: sensitivities(SCENE, stokes=0.01), ["restitution = 0", "wetdoublet boundary"]),
+}
+
+
+@pytest.mark.parametrize("kind", RESULTS)
+def test_a_notebook_shows_a_small_escaped_table(kind: str) -> None:
+    """A table of what matters; a name that looks like markup is text, and no colour is set that a dark page hides."""
+    make, says = RESULTS[kind]
+    shown = make()._repr_html_()
+    assert all(word in shown for word in says)
+    assert "&lt;b&gt;&amp;&#x27;&quot;" in shown and "<b>" not in shown
+    assert "<table" in shown and "color:" not in shown
+    assert len(shown) < 12_000
+
+
+def test_a_printed_scene_is_a_table() -> None:
+    """Each entry with the unit it was given in, defaults and assumptions marked, and the impact both ways."""
+    scene = Scene.load("granulation").with_entries({"liquid.viscosity": 3.0})
+    rows = {line.split()[0]: line for line in str(scene).splitlines() if line.strip()}
+    assert rows["liquid.viscosity"].split()[1:] == ["3", "Pa", "s"]
+    assert rows["particles.reduced_radius"].split()[1:3] == ["50", "um"]
+    assert rows["bridge.rupture"].endswith("default")
+    assert "assumed: glass" in rows["particles.youngs_modulus"]
+    assert f"{scene.speed:.4g} m/s" in str(scene)
+    assert max(map(len, str(scene).splitlines())) <= 100
