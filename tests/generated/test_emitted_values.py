@@ -3,7 +3,7 @@
 import importlib
 import math
 import random
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterator
 from functools import cache
 from types import ModuleType
 from typing import Any
@@ -14,11 +14,11 @@ import pytest
 import sympy as sp
 from wetdoublet.derive.emit.first_use import structure_text
 from wetdoublet.derive.equations.model import Model, derive
-from wetdoublet.derive.physics.forces import FILM, SHEAR
 from wetdoublet.derive.laws import LAWS
+from wetdoublet.derive.physics.forces import FILM, SHEAR
 from wetdoublet.derive.physics.law import Law, LawFunction, fill
 from wetdoublet.derive.physics.scaling import group_definitions
-from wetdoublet.derive.physics.structure import Structure, all_structures, committed, structures
+from wetdoublet.derive.physics.structure import Structure, all_structures, committed
 from wetdoublet.derive.vocabulary.quantities import VOCABULARY
 from wetdoublet.generated import scaling
 from wetdoublet.generated.assemble import Laws, casadi_functions
@@ -156,9 +156,11 @@ CHOICES = [
 ]
 
 
-# beside the paper's structures, those in which every other term stands once
+# together they have every state, force, event and term
 STRUCTURES = (
-    *structures(),
+    Structure(False, True, False),
+    Structure(True, False, False, reduced=True),
+    Structure(True, True, True),
     Structure(True, True, False, reduced=True, attraction=True, spread=True),
     Structure(False, False, True, attraction=True),
     Structure(True, True, False, attraction=True, partner="pair"),
@@ -196,27 +198,22 @@ def _filled(structure: Structure, choice: int) -> tuple[Model, dict[str, list[sp
 QUICK = ("head_on_bridge", "oblique_reduced")
 
 
-def _marked(those: Iterable[Structure]) -> list[Any]:
-    """The structures, all but two of them slow: each is derived."""
-    return [pytest.param(each, marks=() if each.name in QUICK else pytest.mark.slow) for each in those]
+# laws take turns; the quick structures have every choice, all others are slow: each is derived
+TURNS = [
+    pytest.param(each, choice, marks=() if each.name in QUICK else pytest.mark.slow)
+    for k, each in enumerate(STRUCTURES)
+    for choice in range(len(CHOICES))
+    if each.name in QUICK or choice == k % len(CHOICES)
+]
 
 
-def _in_turn() -> list[Any]:
-    """Each structure with a choice of laws, which take turns; the quick ones with every choice."""
-    turns = [
-        (each, choice)
-        for k, each in enumerate(STRUCTURES)
-        for choice in range(len(CHOICES))
-        if each.name in QUICK or choice == k % len(CHOICES)
-    ]
-    return [pytest.param(each, n, marks=() if each.name in QUICK else pytest.mark.slow) for each, n in turns]
-
-
-@pytest.mark.parametrize(("structure", "choice"), _in_turn())
+@pytest.mark.parametrize(("structure", "choice"), TURNS)
 def test_structure(structure: Structure, choice: int):
     """Every function of a structure, its Jacobian and event rates too, is its expression; in all regions."""
     model, columns = _filled(structure, choice)
     module = emitted(structure.name)
+    assert [s.name for s in model.states] == [*module.STATES] and [s.name for s in model.groups] == [*module.GROUPS]
+    assert model.slots == module.SLOTS
     laws = Laws(**{slot: emitted(f"laws.{_law(structure, choice, slot).module}") for slot in module.SLOTS})
     arguments = [*model.states, *model.groups]
     exact = {name: exactly([*arguments, FILM, SHEAR], column) for name, column in columns.items()}
@@ -232,23 +229,6 @@ def test_structure(structure: Structure, choice: int):
                 compare(
                     f"{structure.name}.{name}", exact[name], list(map(float, found.elements())), [*numbers, film, shear]
                 )
-
-
-@pytest.mark.parametrize("structure", _marked(committed()), ids=lambda structure: structure.name)
-def test_module_lists_what_the_model_has(structure: Structure):
-    """STATES, GROUPS, SLOTS, FUNCTIONS and REGIONAL are the model's, and each function returns its outputs by name."""
-    model, module = derive(structure), emitted(structure.name)
-    assert tuple(s.name for s in model.states) == module.STATES
-    assert tuple(s.name for s in model.groups) == module.GROUPS
-    assert model.slots == module.SLOTS
-    functions = [function for function in model.functions if not function.certificate]  # whose margins C alone has
-    assert tuple(function.name for function in functions) == module.FUNCTIONS
-    assert tuple(function.name for function in functions if function.regional) == module.REGIONAL
-    laws = Laws(**{slot: emitted(f"laws.{_law(structure, 0, slot).module}") for slot in module.SLOTS})
-    point = {name: sum(RANGES.get(name, (0.1, 1.0))) / 2 for name in (*module.STATES, *module.GROUPS)}
-    for function in functions:
-        outputs = getattr(module, function.name)(point, point, laws)
-        assert tuple(outputs) == tuple(name for name, _ in function.outputs)
 
 
 def test_an_empty_slot_is_named():

@@ -121,11 +121,6 @@ def of_points(structure: Structure, right: Any = observables.restitution_ceiling
     return {"squared": right(structure)["squared"].subs(observables.INERTIA_RATIO, forces.DISTANCE**2)}
 
 
-def hollow(structure: Structure, right: Any = observables.energies) -> Any:
-    """Kinetic energies with 2/3 for 2/5."""
-    return {name: value.subs(q.spin**2, q.spin**2 * sp.Rational(5, 3)) for name, value in right(structure).items()}
-
-
 def hollow_in_one_place(*_: Any) -> sp.Expr:
     return sp.expand(doublet_inertia() + (sp.Rational(2, 3) - sp.Rational(2, 5)) * 16 * q.m * q.a**2)
 
@@ -137,7 +132,6 @@ def rebounds() -> tuple[Check, ...]:
 NONE, ROOM, SHEARS = putting(), "forces as the laws fill them", "shear dissipates: immersed, midgap arm"
 PUSHES, RIMLESS = altered(FILM, resistance=-FILM["resistance"].result), altered(FILM, resistance=1 / q.gap)
 THIRD = altered(replace(MIDGAP, name="third"), lever=sp.Integer(3))
-STIFF = altered(STRINGS, stiffness=2 * STRINGS["stiffness"].result)
 LONG = altered(IMMERSED, edge=2 * IMMERSED["edge"].result)
 # What is wrong, how it is made, the checks that run, and the names of those that fail.
 MUTANTS: dict[str, tuple[Mutation, Callable[[], Any], list[str]]] = {
@@ -160,17 +154,11 @@ MUTANTS: dict[str, tuple[Mutation, Callable[[], Any], list[str]]] = {
         lambda: (inertia_is_rigid_rotation(), least_energy(), least_energy_is_a_minimum()),
         ["inertia", "stick certificate", "least energy at fixed L"],
     ),
-    "2/3 for 2/5 in the kinetic energy alone contradicts the equations of motion": (
-        putting((observables.energies, hollow)), lambda: energy([OBLIQUE]), ["energy: oblique"],
-    ),
     "a viscous term in F_c is charged, but its work is no potential": (
         force(F_c, lambda f: f * (1 - q.u / q.v0)), bridge_does_work, ["bridge does work only"],
     ),
     "strings that pull sideways twice as hard can be swung round for energy": (
         force(S_t, lambda f: 2 * f), lambda: strings_are_conservative([STRINGS]), ["strings: small-angle"],
-    ),
-    "a stiffness of strings that is not the slope of the height gained": (
-        NONE, lambda: strings_are_conservative([STIFF]), ["strings: small-angle"],
     ),
     "a film force with a radius too many is named with its dimension": (
         force(F_n, lambda f: f * q.a), lambda: dimension_checks({ROOM: si_equations()[ROOM]}),
@@ -191,7 +179,7 @@ MUTANTS: dict[str, tuple[Mutation, Callable[[], Any], list[str]]] = {
         lambda: energy([OBLIQUE]), ["energy: oblique"],
     ),
     "ln(2a/x) used up to x = 4a is negative beyond 2a": (
-        NONE, lambda: (arms([MIDGAP], [LONG]), film_ends([], [LONG])), [SHEARS, "shear's edge: immersed"],
+        NONE, lambda: film_ends([], [LONG]), ["shear's edge: immersed"],
     ),
     "a ceiling with the inertia of two points in place of two spheres": (
         putting((observables.restitution_ceiling, of_points)), ceiling_is_the_published, ["ceiling of e_n^2"],
@@ -211,16 +199,11 @@ def test_a_mutant_is_caught(name: str, mutate: Mutate, healthy: Healthy) -> None
 
 
 def test_a_failure_says_where() -> None:
-    """The point at which a film drives, the dimension that a force has, the torque of an arm that is neither."""
+    """The point at which a film drives, the torque of an arm that is neither."""
     assert "-" in failed(film_dissipates(PUSHES))["film dissipates: finite"].figure
     kept, taken = arms([THIRD], [IMMERSED])  # that its shear takes energy is open
     assert taken.name == "shear dissipates: immersed, third arm" and not taken.ok
     assert kept.figure == "dL/dt = F_t*(2*a - x)" and kept.ok is False  # 2 arm - r = 6a - (4a + x)
-
-
-def test_a_wrong_dimension_is_named(mutate: Mutate) -> None:
-    force(F_n, lambda f: f * q.a)(mutate)
-    assert failed(dimension_checks({ROOM: si_equations()[ROOM]}))[f"dimensions: {ROOM}"].figure.startswith("F_n:")
 
 
 def test_a_bridge_that_depends_on_velocity_has_no_certificate(mutate: Mutate) -> None:
@@ -231,12 +214,10 @@ def test_a_bridge_that_depends_on_velocity_has_no_certificate(mutate: Mutate) ->
 @pytest.mark.parametrize(
     ("group", "factor", "names"),
     [
-        (q.stokes, sp.Integer(2), {"paper's groups"}),
         (q.stokes, q.a, {"paper's groups", "dimensions: groups", "St, Ca, Ce"}),
         (q.centrifugal, sp.Rational(1, 2), {"paper's groups", "centrifugal number"}),
-        (q.centrifugal, q.x0 / q.a, {"paper's groups", "centrifugal number"}),
     ],
-    ids=["St twice", "St times a", "Ce half", "Ce of x0"],
+    ids=["St times a", "Ce half"],
 )
 def test_a_group_misdefined(mutate: Mutate, healthy: Healthy, group, factor, names):
     """A factor in a group's definition, a pure number or a length, is caught as what it is."""

@@ -48,20 +48,12 @@ _HALF_THE_PULL = sp.sqrt(sp.Min(q.normal_velocity, 0) ** 2 + pendulum.LARGEST_PU
         ({pendulum.CONTACT: q.rough_gap}, {}, "outward pull recoil"),
         ({pendulum.LARGEST_PULL: pendulum.pull_at(sp.Integer(1), q.beta)}, {}, "recoil beneath"),
         (
-            {pendulum.PULL: pendulum.pull_at(sp.Integer(1), q.beta)},
-            {"recoil": {pendulum.REACH: pendulum.CONTACT}},
+            {pendulum.PULL: pendulum.pull_at(sp.Integer(1), q.beta)}, {"recoil": {pendulum.REACH: pendulum.CONTACT}},
             "pull recoil",
         ),
     ],
-    ids=[
-        "nearest, half the pull",
-        "farthest, from rest",
-        "momentum, a tenth",
-        "contact",
-        "pull at beta",
-        "reach, touch",
-    ],
-)
+    ids=["nearest, half the pull", "farthest, from rest", "momentum, a tenth", "contact", "pull at beta", "reach"],
+)  # fmt: skip
 def test_a_margin_that_is_not_the_worst(mutate: Mutate, healthy: Healthy, bounds, margins, names):
     """Each wrong distance, orbit, contact, pull, speed or reach of a rebound is caught by the margins that have it."""
     outputs = {name: value for _, _, values in pendulum.functions() for name, value in values.items()}
@@ -78,26 +70,16 @@ MUTANTS: dict[str, tuple[Mutation, Callable[[], Any], str]] = {
     "orbit at rest": (
         value_of(intermediates.resting_rates, q.orbital_momentum, lambda e: -e), resting_is_held, "resting contact",
     ),
-    "opening at rest": (
-        value_of(intermediates.resting_rates, q.normal_velocity, lambda e: e + 1), resting_is_held, "resting contact",
+    "output final_spin": (
+        value_of(observables.outputs, "final_spin", lambda e: -e), outputs_are_the_definitions, "outputs",
     ),
-    **{
-        f"output {name}": (value_of(observables.outputs, name, change), outputs_are_the_definitions, "outputs")
-        for name, change in (
-            ("tangential_restitution", lambda e: 2 * e), ("final_spin", lambda e: -e), ("restitution", lambda e: -e),
-        )
-    },
     **{
         f"event {name}": (value_of(events.events, name, change), events_are_the_definitions, "events")
         for name, change in (
-            ("rupture", lambda e: e + q.gap / 2), ("elastic", lambda e: e + q.elastic_gap / 2),
-            ("rough", lambda e: e + q.rough_gap / 2), ("half_turn", lambda e: e + sp.pi),
+            ("half_turn", lambda e: e + sp.pi),
             ("glass", lambda e: q.glass_number + slot_call("glass", "pressure", q.gap, -q.normal_velocity)),
         )
     },
-    "event release": (
-        value_of(events.events, "release", lambda e: -e), inward_is_minus_the_acceleration, "inward force",
-    ),
     # it would rest where it should be thrown off
     "an inward force that pushes": (
         times(intermediates.inward_force, -1), inward_is_minus_the_acceleration, "inward force",
@@ -106,7 +88,6 @@ MUTANTS: dict[str, tuple[Mutation, Callable[[], Any], str]] = {
     "L times the gap": (times(observables.angular_momentum, q.gap), momentum_is_the_bodies, "emitted angular momentum"),
     # half of F_t dissipates and conserves L: only the published force tells
     "half of F_t": (force(F_t, lambda f: f / 2), tangential_force_is_the_published, "tangential force"),
-    "F_t the other way": (force(F_t, lambda f: -f), tangential_force_is_the_published, "tangential force"),
     "e_n^2 - 1 with half the shear": (
         value_of(observables.energy_rates, "tangential_lubrication", lambda e: e / 2), decomposition,
         "decomposition of e_n^2 - 1",

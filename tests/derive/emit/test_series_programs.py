@@ -1,20 +1,25 @@
-"""Series programs: which recurrences an expression becomes, what is constant, and what has no recurrence."""
+"""Series programs: which recurrences an expression becomes, what has none, and slopes by the chain rule."""
 
 import math
+import random
 import re
 from dataclasses import replace
 
 import pytest
 import sympy as sp
 from wetdoublet.derive.emit.casadi.printer import EmissionError
+from wetdoublet.derive.emit.taylor.chain_rule import Chain
 from wetdoublet.derive.emit.taylor.constants import Constants
 from wetdoublet.derive.emit.taylor.header import structure_header
 from wetdoublet.derive.emit.taylor.law_header import antiderivative, law_header, moves
+from wetdoublet.derive.emit.taylor.law_slopes import slope_program
 from wetdoublet.derive.emit.taylor.loops import Loops
 from wetdoublet.derive.emit.taylor.program import Program, cheapest
 from wetdoublet.derive.emit.taylor.recurrences import Recurrences
 from wetdoublet.derive.equations.model import derive
 from wetdoublet.derive.laws import LAWS
+from wetdoublet.derive.physics.law import Law, LawFunction
+from wetdoublet.derive.physics.scaling import as_product
 from wetdoublet.derive.physics.structure import Structure
 
 x, y = sp.symbols("x y", positive=True)
@@ -184,3 +189,44 @@ def test_terms_of_other_shapes_are_no_loop():
         [sp.sin(k * x) for k in range(1, 9)],
     ):
         assert "for (" not in "".join(_looped(terms)[:2])
+
+
+LIBRARY = [law for laws in LAWS.values() for law in laws.values()]
+
+
+@pytest.mark.parametrize("law", LIBRARY, ids=lambda law: law.module)
+def test_slopes_of_a_law(law: Law) -> None:
+    """Each function of a law by each argument, with names kept, is the slope of the function written out."""
+    draw = random.Random(3)
+    for each in law.functions:
+        chain, written = Chain(each.definitions), sp.lambdify(each.arguments, each(*each.arguments), "math")
+        at = {symbol: draw.uniform(0.3, 0.6) for symbol in each.arguments}
+        at |= {symbol: 5.0 for symbol in at if symbol.name == "string_ratio"}  # strings longer than the spheres
+        for argument in each.arguments:
+            found = chain.by(each.result, argument)
+            for symbol, value in (*reversed(chain.named), *reversed(each.definitions)):
+                found = found.subs(symbol, value)
+            low, high = (written(*(at | {argument: at[argument] + step}).values()) for step in (-1e-5, 1e-5))
+            slope = float(sp.lambdify(list(at), found, "math")(*at.values()))
+            assert math.isclose(slope, (high - low) / 2e-5, rel_tol=1e-6, abs_tol=1e-8), (each.name, argument)
+
+
+@pytest.mark.parametrize("count", [3, 30])
+def test_a_law_with_many_roots(count: int, monkeypatch: pytest.MonkeyPatch):
+    """Up to seven are factored: sympy takes hours for thirty. The form that costs least has the value of the slope."""
+    widest, factor, gap = 0, sp.factor, sp.Symbol("gap", positive=True)
+
+    def watched(expression: sp.Expr) -> sp.Expr:
+        nonlocal widest
+        widest = max(widest, len({part for part in expression.atoms(sp.Pow) if part.exp == sp.Rational(1, 2)}))
+        assert widest <= 7
+        return factor(expression)
+
+    monkeypatch.setattr(sp, "factor", watched)
+    law = sp.Add(*(sp.sqrt(1 + k * gap) for k in range(1, count + 1))) / (1 + gap) ** 2
+    _, _, program, results = slope_program(LawFunction("force", (gap,), law, ""), (gap,))
+    assert isinstance(results[gap], str)
+    assert program.cost < 40 * count
+    assert widest == (3 if count == 3 else 0)
+    here = {gap: sp.Rational(1, 3)}
+    assert as_product(law.diff(gap)).subs(here).n() == pytest.approx(law.diff(gap).subs(here).n(), rel=1e-14)
