@@ -75,8 +75,8 @@ SPINS = ("impact.spin", "impact.partner_spin")
 LITERAL = re.compile(r"(?<![\w.])(\d+\.\d*(?:e[-+]?\d+)?)")
 FUNCTIONS = {
     name: lambda x, name=name: getattr(x + flint.arb(0), name)()
-    for name in ("exp", "log", "sqrt", "sin", "cos", "acos")
-}
+    for name in ("exp", "log", "sqrt", "sin", "cos", "acos", "tan")
+} | {"fabs": abs, "fmax": lambda x, y: max(x, y, key=float)}
 
 
 @pytest.fixture(autouse=True)
@@ -92,7 +92,8 @@ def emitted(name: str) -> SimpleNamespace:
     """The functions of an emitted Python file, with decimals as balls and functions of series in place of CasADi's."""
     text = (Path(generated.__file__).parent / f"{name}.py").read_text()
     text = re.sub(r"^from (casadi|\.\w+) import (\([^)]*\)|.*)\n", "", text, flags=re.MULTILINE)
-    space: dict[str, Any] = {"Decimal": flint.arb, **FUNCTIONS}
+    text = re.sub(r"\((\d+)/(\d+)\)", r"(Decimal(\1)/\2)", text)
+    space: dict[str, Any] = {"Decimal": flint.arb, "pi": flint.arb.pi(), **FUNCTIONS}
     exec(LITERAL.sub(r'Decimal("\1")', text), space)
     return SimpleNamespace(**space)
 
@@ -132,39 +133,23 @@ class Exact:
 
 
 def groups(scene: Scene, q: dict[str, Any]) -> dict[str, Any]:
-    """The dimensionless groups, by their definitions in MODEL.md."""
-    a, m, mu, x0, pi = (
-        *(q[each] for each in ("reduced_radius", "reduced_mass", "viscosity", "film_thickness")),
-        flint.arb.pi(),
-    )
-    stokes = q["stokes"] if "stokes" in q else m * q["speed"] / (6 * pi * mu * a**2)
-    v0 = stokes * 6 * pi * mu * a**2 / m
-    found = {"stokes": stokes, "aspect": x0 / a, "obliquity": q["angle"].tan(), "initial_turning": flint.arb(1)}
-    found |= {"initial_spin": flint.arb(0), "dry_restitution": q["dry_restitution"], "rough_gap": q["roughness"] / x0}
-    found["glass_number"] = q["glass_transition_pressure"] / (3 * mu * a * v0 / x0**2)
-    found["elastic_gap"] = flint.arb(0)
-    if scene.particles.youngs_modulus is not None:
-        theta = 2 * (1 - q["poisson_ratio"] ** 2) / (pi * q["youngs_modulus"])
-        length = (3 * pi * theta * mu * a ** flint.arb("1.5") * v0 / flint.arb(2).sqrt()) ** flint.arb("0.4")
-        found["elastic_gap"] = length / x0
-    if scene.bridge is not None:
-        found |= {"capillary": 3 * mu * a * v0 / (q["surface_tension"] * x0), "volume": q["volume"]}
-        found["contact_angle"] = q["contact_angle"]
-        found["rupture_gap"] = 2 * a * q["volume"] ** (flint.arb(1) / 3) * (1 + q["contact_angle"] / 2) / x0
-    else:
-        found["rupture_gap"] = flint.arb(1)
-    return found | (spun(q, v0) if scene.pair else {})
+    """The dimensionless groups, by their emitted definitions in balls."""
+    scaling, suffix = emitted("scaling"), "_pair" if scene.pair else ""
 
+    def group(name: str, *more: str, **known: Any) -> Any:
+        return getattr(scaling, name)(*((q | known)[each] for each in scaling.ARGUMENTS[name]))
 
-def spun(q: dict[str, Any], v0: Any) -> dict[str, Any]:
-    """The groups of an unequal pair: its ratios, the scale of tangential speeds, and first rates over theirs."""
-    ratio, spins = q["radius_ratio"], (q["impact_spin"], q["impact_partner_spin"])
-    radii = q["reduced_radius"] * (1 + ratio) / ratio, q["reduced_radius"] * (1 + ratio)
-    speeds = [q["angle"].tan(), *(radius * abs(spin) / v0 for radius, spin in zip(radii, spins, strict=True))]
-    scale = max(speeds, key=float)
-    first, other = (spin * (radii[0] + radii[1]) / (v0 * scale) for spin in spins)
-    found = {"radius_ratio": ratio, "mass_ratio": q["mass_ratio"], "obliquity": scale}
-    return found | {"initial_turning": speeds[0] / scale, "initial_spin": first, "initial_partner_spin": other}
+    still = {"impact_spin": flint.arb(0), "impact_partner_spin": flint.arb(0)}
+    q = still | q
+    if "speed" not in q:
+        q["speed"] = q["stokes"] / group("stokes", speed=flint.arb(1))
+    q["obliquity"] = group(f"obliquity{suffix}")
+    q["rate_scale"] = group(f"rate_scale{suffix}")
+    names = ["stokes", "aspect", "initial_turning", "initial_spin", "rough_gap", "glass_number"]
+    names += ["elastic_gap"] * (scene.particles.youngs_modulus is not None)
+    names += ["capillary", "rupture_gap"] * (scene.bridge is not None) + ["initial_partner_spin"] * bool(scene.pair)
+    found = {"elastic_gap": flint.arb(0), "rupture_gap": flint.arb(1)} | {name: group(name) for name in names}
+    return q | found
 
 
 @cache

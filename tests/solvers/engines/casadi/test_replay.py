@@ -1,18 +1,21 @@
-"""A replay notices a record of the kernel with an event taken out, moved or exchanged; each kind of event."""
+"""A replay notices a record of the kernel that is wrong, for each kind of event; the Dataset of a trajectory."""
 
 import json
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import replace
+from importlib.metadata import version
 from typing import Any
 
 import numpy as np
 import pytest
+import xarray
 from wetdoublet.generated.automaton import KINDS
-from wetdoublet.solvers import Scene, boundary, collide
+from wetdoublet.solvers import ComputationError, Scene, boundary, collide
 from wetdoublet.solvers.collision.by_kernel import followed, sequence_in, sequence_of
+from wetdoublet.solvers.engines.casadi import trajectory
 from wetdoublet.solvers.engines.casadi.confirm import Confirmation
-from wetdoublet.solvers.engines.casadi.integrators import tolerance_for
+from wetdoublet.solvers.engines.casadi.integrators import IntegrationFailed, tolerance_for
 from wetdoublet.solvers.engines.casadi.replay import PHASES, Run, Stopped
 from wetdoublet.solvers.engines.casadi.sequence import EventSequence
 from wetdoublet.solvers.engines.steps import Steps
@@ -92,9 +95,13 @@ def mutants(path: EventSequence) -> Iterator[tuple[str, EventSequence]]:
 
 
 @pytest.mark.parametrize(
-    "name", [pytest.param(name, marks=[pytest.mark.slow] * (name == "fell back")) for name in SCENES]
+    ("plugin", "name"),
+    [
+        *(("rosenbrock", name) for name in SCENES if name != "fell back"),
+        *(("cvodes", name) for name in ("parts", "rough", "rolls")),
+        pytest.param("rosenbrock", "fell back", marks=pytest.mark.slow),
+    ],
 )
-@pytest.mark.parametrize("plugin", ["cvodes", "rosenbrock"])
 def test_a_wrong_record_is_noticed(name: str, plugin: str) -> None:
     """The record is followed as it is; with an event taken out, moved or exchanged the replay stops there."""
     scene = SCENES[name]()
@@ -207,3 +214,28 @@ def test_where_an_engine_cannot_follow_the_kernel_answers() -> None:
     found = collide(scene, engine="cvodes")
     assert found.engine == "taylor"
     assert found == collide(scene)
+
+
+def test_attributes_of_a_file_suffice_to_repeat_the_collision(tmp_path):
+    """A NetCDF file carries scene, outcome, engine, tolerance and version: enough to compute it again."""
+    first = collide("granulation", stokes=0.14, angle="40 deg", rtol=1e-8, engine="rosenbrock", trajectory=True)
+    first.trajectory.to_netcdf(tmp_path / "a.nc", engine="h5netcdf")
+    with xarray.open_dataset(tmp_path / "a.nc", engine="h5netcdf") as read:
+        attrs = read.attrs
+    assert attrs["outcome"] == "bounce" and attrs["version"] == version("wetdoublet")
+    again = collide(Scene.from_toml(attrs["scene"]), rtol=attrs["rtol"], engine=attrs["engine"])
+    assert again.to_dict() == first.to_dict()
+
+
+def test_a_trajectory_that_fails_is_an_answer(monkeypatch):
+    """An integrator that gives up on the way is an error that names phase, time, state and what to try, in SI."""
+
+    def fails(*_):
+        raise IntegrationFailed("Evaluation failed")
+
+    monkeypatch.setattr(trajectory, "plain", lambda *_: fails)
+    with pytest.raises(
+        ComputationError, match=r"rosenbrock gave up .* in phase closing .*gap = 8e-06.*--engine"
+    ) as found:
+        collide("granulation", engine="rosenbrock", trajectory=True)
+    assert found.value.time == 0.0

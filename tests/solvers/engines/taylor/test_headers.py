@@ -18,7 +18,6 @@ MADE = ("settings.h", "layout.h", "automaton.h", "criteria.h", "effects.h", "gua
 WARNINGS = ("-Wall", "-Wextra", "-Werror", "-Wno-unused-function")
 VARIANTS = {
     "plain": {},
-    "forwards": {"gradients": True},
     "backwards": {"gradients": True, "backward": True},
     "ledger and trajectory": {"ledger": True, "trajectory": True, "rotation": True},
 }

@@ -1,5 +1,9 @@
 """Collisions by the Taylor kernel: the same as by other engines and as the reference, at the tolerance asked for."""
 
+import json
+import os
+import subprocess
+import sys
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -12,6 +16,7 @@ from wetdoublet.solvers.engines.taylor import headers
 from wetdoublet.solvers.host.compiler import compiler
 from wetdoublet.solvers.scene.scenefile import PRESETS
 
+from ....helpers.command import quiet
 from ....helpers.flags import QUICK
 from ....helpers.own_arm import described
 
@@ -32,16 +37,8 @@ def shipped(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> 
 def test_reference_collisions(reference: dict[str, Any]):
     """The independent 80-bit reference, to its error and ours: 1e-13 times the conditioning, with some steps' worth."""
     expected = reference["results"]
-    found = collide(
-        described(reference["scene"]),
-        stokes=reference["impact"]["stokes"],
-        angle=reference["impact"]["angle"],
-        rtol=1e-13,
-        engine="taylor",
-        ledger=False,
-    )
-    assert found.engine == "taylor"
-    assert found.outcome == expected["outcome"]
+    found = collide(described(reference["scene"]), **reference["impact"], rtol=1e-13, engine="taylor")
+    assert (found.engine, found.outcome) == ("taylor", expected["outcome"])
     if found.outcome == "stick":
         return
     for name in ("restitution", "tangential_restitution", "rotation", "contact_time", "smallest_gap", "final_spin"):
@@ -53,17 +50,15 @@ def test_reference_collisions(reference: dict[str, Any]):
     assert [event.kind for event in found.events] == [event["kind"] for event in expected["events"]]
     for mine, theirs in zip(found.events, expected["events"], strict=True):
         assert mine.time == pytest.approx(theirs["time"], rel=1e-10, abs=1e-300)
+    for term, value in found.energy.to_dict().items():
+        assert value == pytest.approx(expected["energy"][term], abs=1e-11 * expected["energy"]["initial"]), term
 
 
 def test_collisions_that_end_at_initial_contact_do_not_move():
     """Solids that meet at x0 rebound and separate there: e_n = e_dry, e_t = 1, no time, whoever had the lane before."""
     soft = {"particles.youngs_modulus": "1 MPa", "particles.poisson_ratio": 0.3, "particles.dry_restitution": 0.9}
-    scene = Scene.from_dict(
-        {
-            "particles": {"radius": "170 um", "density": "2500 kg/m^3", "roughness": "0.4 um", "dry_restitution": 0.9},
-            "liquid": {"viscosity": "1.5 Pa s", "film_thickness": "5 um", "glass_transition_pressure": "1 GPa"},
-        }
-    ).with_entries(soft)
+    film = {"liquid.film_thickness": "5 um", "liquid.glass_transition_pressure": "1 GPa"}
+    scene = Scene.load("granulation-dry-bridge").with_entries(soft | film)
     count = 40  # more than are computed side by side, several times over
     found = collide_many(
         scene,
@@ -78,6 +73,27 @@ def test_collisions_that_end_at_initial_contact_do_not_move():
     np.testing.assert_allclose(found["smallest_gap"], 5e-6, rtol=1e-15)
 
 
+@pytest.mark.skipif(os.name != "posix", reason="environments as on POSIX")
+def test_the_cache_does_not_decide(tmp_path: Path):
+    """With an empty cache, a filled one and one that cannot be written the kernel answers, with the same digits."""
+    (tmp_path / "file").write_text("")
+    words = "collide", "granulation", "--stokes", "0.3", "--angle", "0", "--rtol", "1e-8", "--json"
+    runs = [
+        subprocess.run(
+            (sys.executable, "-m", "wetdoublet.solvers", *words), capture_output=True, text=True, check=True,
+            env=os.environ | {"WETDOUBLET_CFLAGS": QUICK, "WETDOUBLET_CACHE": str(tmp_path / folder / "cache")},
+        )
+        for folder in ("", "", "file")
+    ]  # fmt: skip
+    assert [quiet(done.stderr).count("\n") for done in runs] == [0, 0, 1]
+    assert "kept in" in runs[2].stderr
+    assert runs[0].stdout == runs[1].stdout == runs[2].stdout
+    found = json.loads(runs[0].stdout)
+    assert found["engine"] == "taylor"
+    reference = collide("granulation", stokes=0.3, angle=0, rtol=1e-8, engine="cvodes")
+    assert found["restitution"] == pytest.approx(reference.restitution, rel=1e-7)
+
+
 def test_a_kernel_is_compiled_once(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
     """The library is addressed by its content and found again by the next process; nothing else is left behind."""
     monkeypatch.setenv("WETDOUBLET_CACHE", str(tmp_path))
@@ -86,9 +102,7 @@ def test_a_kernel_is_compiled_once(tmp_path: Path, monkeypatch: pytest.MonkeyPat
     for _ in range(2):
         library.kernel.cache_clear()
         collide_many(scene, stokes=0.5, angle=0.0, engine="taylor")
-        made = [
-            path for path in tmp_path.iterdir() if not path.name.startswith("compiler-")
-        ]  # tried by whoever is first
+        made = [path for path in tmp_path.iterdir() if not path.name.startswith("compiler-")]  # tried by the first
         kept.append([(path.name, path.stat().st_mtime_ns) for path in made])
     library.kernel.cache_clear()
     assert kept[0] == kept[1]

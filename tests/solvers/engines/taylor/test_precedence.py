@@ -1,9 +1,15 @@
-"""What the kernel watches for, and which of coincident events it reports: as the table of the automaton has it."""
+"""What the kernel watches for and reports, and how conditions and proofs decide: as the automaton declares them."""
 
 import ctypes
+import inspect
+from collections.abc import Callable
 from itertools import combinations
 
+import numpy as np
 import pytest
+from wetdoublet.derive.equations.automaton import arguments
+from wetdoublet.derive.equations.certificates.table import CERTIFICATES
+from wetdoublet.generated import automaton
 from wetdoublet.generated.automaton import EVENTS
 from wetdoublet.solvers import Scene
 from wetdoublet.solvers.engines.taylor import source
@@ -61,14 +67,39 @@ MODES = {  # motion, film, shear, resting, and what happens at a gap
 }
 
 
+CONDITIONS = {
+    name: each
+    for name, each in vars(automaton).items()
+    if inspect.isfunction(each) and each.__module__ == automaton.__name__
+}
+PROOFS = {
+    proof.name: eval(f"lambda {', '.join(arguments(proof.test))}: {proof.test}", vars(automaton))
+    for row in CERTIFICATES
+    for proof in row.proofs
+}
+VALUES = [0.0, 1.0, 1e-13, 1e-9, 1e9, float("nan")]
+
+
+def call(name: str, condition: Callable[..., bool]) -> str:
+    """A C function that returns a condition of numbers in an array."""
+    numbers = [
+        f"splat(x[{k}])" if name in PROOFS and each != "margin" else f"x[{k}]"
+        for k, each in enumerate(inspect.signature(condition).parameters)
+    ]
+    result = f"{name}({', '.join(numbers)})"
+    result = f"LANE({result}, 0) != 0" if name in PROOFS else result
+    return f"int call_{name}(const double *x) {{ return {result}; }}\n"
+
+
 @pytest.fixture(scope="module")
 def kernel() -> ctypes.CDLL:
-    """The search for events of a structure that has all of them: oblique, with bridge and strings."""
+    """Conditions, proofs, and the search for events, of a structure that has all: oblique, with bridge and strings."""
     bridge = {"bridge.surface_tension": "0.05 N/m", "bridge.volume": 0.05, "bridge.contact_angle": "0 deg"}
     choice = select_model(Scene.load("pendulum").with_entries(bridge), True)
     emitted = headers(choice)
     assert emitted is not None
-    text = resolved(HARNESS, source.files(source.Variant(choice, 9, lanes=2), emitted))
+    calls = "".join(call(*each) for each in (CONDITIONS | PROOFS).items())
+    text = resolved(HARNESS + calls, source.files(source.Variant(choice, 9, lanes=2), emitted))
     made = loaded(library(text, ("-std=gnu11", "-fPIC", "-shared", *QUICK.split())), ctypes.CDLL)
     made.reported.argtypes = [ctypes.c_uint, *[ctypes.c_int] * 5, ctypes.c_double]
     return made
@@ -90,3 +121,18 @@ def test_of_coincident_events_the_first_of_the_table_is_reported(kernel: ctypes.
         wanted = sum(1 << NUMBER[name] for name in some)
         found = kernel.reported(wanted, motion < 0, film, shear, resting, NUMBER[at_gap], GAPS[at_gap])
         assert found == NUMBER[some[0]], some
+
+
+@pytest.mark.parametrize("name", CONDITIONS | PROOFS)
+def test_a_condition_is_the_declared_one(kernel: ctypes.CDLL, name: str) -> None:
+    """For numbers of any size, on limits, and for NaN, with which no condition holds; both answers occur."""
+    condition, rng = (CONDITIONS | PROOFS)[name], np.random.default_rng(7)
+    compiled = getattr(kernel, f"call_{name}")
+    names, answers = list(inspect.signature(condition).parameters), set()
+    for _ in range(1000):
+        some = np.where(rng.random(len(names)) < 0.5, rng.choice(VALUES, len(names)), rng.normal(size=len(names)))
+        numbers = [abs(value) if each in ("aspect", "margin") else value for each, value in zip(names, some.tolist())]
+        expected = bool(condition(*numbers))
+        assert bool(compiled((ctypes.c_double * len(names))(*numbers))) == expected, numbers
+        answers.add(expected)
+    assert answers == {True, False}
