@@ -90,13 +90,6 @@ def reference(request: pytest.FixtureRequest) -> dict[str, Any]:
     return case
 
 
-@pytest.fixture(params=[case for case in COLLISIONS if case["results"]["outcome"] != "stick"], ids=_name)
-def separated_reference(request: pytest.FixtureRequest) -> dict[str, Any]:
-    """One reference collision that separates, and so has a restitution to compare."""
-    case: dict[str, Any] = request.param
-    return case
-
-
 @pytest.fixture(scope="session")
 def reference_boundaries() -> dict[str, Any]:
     """Changes of outcome of the presets at four angles."""

@@ -92,7 +92,6 @@ def test_commands_of_the_pages_are_understood(line):
 
 @pytest.mark.parametrize("name", sorted(solvers.__all__))
 @pytest.mark.slow
-@pytest.mark.usefixtures("optimized")
 def test_every_public_name_has_an_example_that_runs(name):
     """The docstring of each public name has an example, and it gives what it says."""
     value = getattr(solvers, name)
