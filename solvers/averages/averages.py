@@ -2,18 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..changes.experiment import free_names
 from ..engines.settings import RTOL, check_rtol
 from ..errors import InputError
-from ..host.arguments import check_function, check_name, check_names
+from ..host.arguments import check_function, check_name
 from ..host.outputs import check_file
 from ..host.progress import Progress
 from ..many.arguments import checked_numbers, first_accepted
@@ -42,7 +39,6 @@ def collision_averages(
     films: str = FIXED,
     tolerance: float = 1e-6,
     rtol: float = RTOL,
-    wrt: Sequence[str] | str = (),
     progress: Progress | None = None,
     resume: str | Path | None = None,
 ) -> xarray.Dataset:
@@ -50,9 +46,6 @@ def collision_averages(
 
     The direction of the relative velocity is isotropic, so that impact angles have the density sin(2 theta); its
     magnitude has the distribution `speeds`. The normal speed of a collision is V cos(theta). Spins are the scene's.
-
-    Of many radii, without `wrt`, most pairs are interpolated between others if that is as accurate: held against pairs
-    drawn at random.
 
     Arguments:
         scene: a Scene, a path or a preset's name; its [impact] has no influence but for its spins.
@@ -66,10 +59,7 @@ def collision_averages(
         tolerance: absolute error of the quadrature, of the shares and of the means over all collisions. From 1e-9 to
             1e-2. Means over those that separate have it divided by their share.
         rtol: relative tolerance of the collisions, 1e-13..1e-3.
-        wrt: numeric entries of a pair's scene, such as liquid.viscosity, by which the means are differentiated, each
-            alone, at fixed relative speeds.
-        progress: called with (pairs done, pairs in all) at the start and after every block; the second may grow where
-            most of many pairs are interpolated.
+        progress: called with (pairs done, pairs in all) at the start and after every block.
         resume: where an interrupt leaves the finished pairs: in RESUME.KEY.partial, which the same call reads, and
             removes when it has computed the rest.
 
@@ -82,7 +72,6 @@ def collision_averages(
         normal_dissipation, the same of the normal motion alone, no cooling rate and negative where rotation feeds it;
         energy_into_rotation, the gain of the energy of rotation over the kinetic energy; of each its error as
         NAME_error; collision_rate, m^3/s, over both number densities (beside a wall m/s); reason of a failure, else "".
-        With `wrt` also gradient and gradient_error over (quantity, parameter), SI.
 
     Raises:
         InputError: an invalid name or value, or a scene with strings. A pair that fails raises nothing; it is marked.
@@ -96,15 +85,13 @@ def collision_averages(
     """
     loaded = Scene.load(scene)
     check_function(progress, "progress")
-    request = _checked(loaded, speeds, radii, films, tolerance, rtol, wrt)
+    request = _checked(loaded, speeds, radii, films, tolerance, rtol)
     beside = None if resume is None else check_file(resume, "resume", replaced=True)
     warn(loaded)
-    return dataset(loaded, request.axes, averages(request, beside, progress), request.attributes(), request.wrt)
+    return dataset(loaded, request.axes, averages(request, beside, progress), request.attributes())
 
 
-def _checked(
-    scene: Scene, speeds: Any, radii: Any, films: str, tolerance: float, rtol: float, wrt: Sequence[str] | str
-) -> Request:
+def _checked(scene: Scene, speeds: Any, radii: Any, films: str, tolerance: float, rtol: float) -> Request:
     if scene.pendulum is not None:
         raise InputError("scene", scene.name, "a scene without [pendulum]", "has strings, so that nothing is isotropic")
     distribution = Speeds.of(scene.impact.relative_speed if speeds is None else speeds)
@@ -115,7 +102,7 @@ def _checked(
             raise InputError("radii", axis, f"1 to {MOST} different radii", f"has {axis.size}")
         axes = {"radius": axis} if scene.wall else {"radius": axis, "partner_radius": axis.copy()}
     request = Request(
-        scene, distribution, axes, check_name(films, FILMS, "films"), _TOLERANCE.number(tolerance), check_rtol(rtol), ()
+        scene, distribution, axes, check_name(films, FILMS, "films"), _TOLERANCE.number(tolerance), check_rtol(rtol)
     )
-    possible = first_accepted(partial(request.scene_of, sizes) for sizes in request.sizes)
-    return replace(request, wrt=check_names(wrt, free_names(possible), "wrt"))
+    first_accepted(partial(request.scene_of, sizes) for sizes in request.sizes)
+    return request

@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
-from itertools import product
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ..scene.origin import provenance, release
 from ..scene.scene import Scene
-from .geometry import BOUNCES, ENERGY, LOST, NORMAL, ROTATES, SLOPES, STICKS, TANGENTIAL, TURNING
+from .geometry import BOUNCES, ENERGY, LOST, NORMAL, ROTATES, STICKS, TANGENTIAL, TURNING
 from .matrix import Columns
 
 if TYPE_CHECKING:
@@ -58,14 +57,12 @@ _TABLE = {
         TURNING, "gain of the energy of rotation over the kinetic energy of all collisions"
     ),
 }  # fmt: skip
-QUANTITIES = tuple(name for name, quantity in _TABLE.items() if quantity.column < SLOPES)
-"""What has derivatives, in this order."""
 _SIZES = {"radius": "radius (um)", "partner_radius": "partner (um)"}
 _AXES = {"radius": "radius of the first sphere", "partner_radius": "radius of the second sphere"}
 
 
 def dataset(
-    scene: Scene, axes: Mapping[str, np.ndarray], columns: Columns, attributes: Mapping[str, Any], wrt: Sequence[str]
+    scene: Scene, axes: Mapping[str, np.ndarray], columns: Columns, attributes: Mapping[str, Any]
 ) -> xarray.Dataset:
     """The Dataset of flat columns, one row for each pair."""
     import xarray as xr
@@ -73,7 +70,7 @@ def dataset(
     dims, shape = tuple(axes), tuple(axis.size for axis in axes.values())
     means = {name: _averaged(quantity, columns) for name, quantity in _TABLE.items()}
     variables: dict[str, Any] = {}
-    for name, (value, error, *_) in means.items():
+    for name, (value, error) in means.items():
         variables[name] = dims, value.reshape(shape), {"units": "1", "long_name": _TABLE[name].meaning}
         meaning = f"estimated error of the quadrature of {name}"
         variables[f"{name}_error"] = dims, error.reshape(shape), {"units": "1", "long_name": meaning}
@@ -82,12 +79,6 @@ def dataset(
     coordinates: dict[str, Any] = {
         name: (name, axis, {"units": "m", "long_name": _AXES[name]}) for name, axis in axes.items()
     }
-    if wrt:
-        over, sizes = (*dims, "quantity", "parameter"), (*shape, len(QUANTITIES), len(wrt))
-        slope, slope_error = (np.stack([means[name][k] for name in QUANTITIES], axis=1) for k in (2, 3))
-        variables["gradient"] = over, slope.reshape(sizes), {"long_name": "derivatives by entries of the scene, SI"}
-        variables["gradient_error"] = over, slope_error.reshape(sizes), {"long_name": "estimated errors of gradient"}
-        coordinates |= {"quantity": list(QUANTITIES), "parameter": list(wrt)}
     variables["reason"] = dims, columns["reason"].astype(str).reshape(shape), {"long_name": "why it failed"}
     all_attributes = {
         "Conventions": "CF-1.11",
@@ -101,26 +92,20 @@ def dataset(
     return xr.Dataset(variables, coordinates, all_attributes)
 
 
-def _averaged(quantity: Quantity, columns: Columns) -> tuple[np.ndarray, ...]:
-    """A quantity and its error, (pairs,), and its derivatives and their errors, (pairs, parameters)."""
-    k = quantity.column
-    value = quantity.constant + quantity.factor * columns["mean"][:, k]
-    error = abs(quantity.factor) * columns["error"][:, k]
-    if k >= SLOPES:
-        return value, error
-    slope, slope_error = columns["gradient"][:, k], columns["gradient_error"][:, k]
+def _averaged(quantity: Quantity, columns: Columns) -> tuple[np.ndarray, np.ndarray]:
+    """A quantity and its error, (pairs,)."""
+    value = quantity.constant + quantity.factor * columns["mean"][:, quantity.column]
+    error = abs(quantity.factor) * columns["error"][:, quantity.column]
     if not quantity.separated:
-        return value, error, slope, slope_error
+        return value, error
     separate, of_share = columns["mean"][:, [ROTATES, BOUNCES]].sum(axis=1), columns["error"][:, STICKS]
     share = np.where(separate > np.maximum(of_share, 1e-12), separate, np.nan)
     ratio = value / share
-    slope = (slope + ratio[:, None] * columns["gradient"][:, STICKS]) / share[:, None]
-    slope_error = (slope_error + np.abs(ratio)[:, None] * columns["gradient_error"][:, STICKS]) / share[:, None]
-    return ratio, (error + np.abs(ratio) * of_share) / share, slope, slope_error
+    return ratio, (error + np.abs(ratio) * of_share) / share
 
 
 def to_csv(data: xarray.Dataset) -> str:
-    """The table of averages: a row for each pair; derivatives in columns `d(QUANTITY)/d(ENTRY)`, SI.
+    """The table of averages: a row for each pair, SI.
 
     The column `relative_speeds` names the speed, as text. Numbers round-trip; a field is empty where a result is not
     defined.
@@ -129,23 +114,17 @@ def to_csv(data: xarray.Dataset) -> str:
     plain = sorted((name for name in data.data_vars if data[name].dims == dims), key="reason".__eq__)
     frame = _frame(data[plain].rename({name: f"{name} [m]" for name in dims}))
     frame.insert(len(dims), "relative_speeds", data.attrs["speeds"])
-    for variable, suffix in (("gradient", ""), ("gradient_error", " error")) if "gradient" in data else ():
-        for quantity, parameter in product(data["quantity"].values, data["parameter"].values):
-            cells = data[variable].sel(quantity=quantity, parameter=parameter).values
-            frame[f"d({quantity})/d({parameter}){suffix}"] = cells.ravel()
     return str(frame.to_csv(index=False, lineterminator="\n"))
 
 
 def table(data: xarray.Dataset) -> str:
-    """The averages for a person: a line for each pair below names and units, and below them the derivatives (SI)."""
+    """The averages for a person: a line for each pair below names and units."""
     sizes = {name: head for name, head in _SIZES.items() if name in data.dims}
     rate = data["collision_rate"].attrs["units"].replace("m s-1", "m/s").replace("m3 s-1", "m^3/s")
     heads = {name: entry.head for name, entry in _TABLE.items() if entry.head} | {"collision_rate": f"rate ({rate})"}
     data = data.assign_coords({name: 1e6 * data[name] for name in sizes}).rename(sizes)
-    blocks = [data[list(heads)].rename(heads)]
-    blocks += [data["gradient"].to_dataset("parameter")] if "gradient" in data else []
-    texts = [_frame(block).to_string(index=False, na_rep="-", float_format="{:.5g}".format) for block in blocks]
-    return "\n\n".join([f"{data.attrs['speeds']}, all impact angles", *texts]) + "\n"
+    text = _frame(data[list(heads)].rename(heads)).to_string(index=False, na_rep="-", float_format="{:.5g}".format)
+    return f"{data.attrs['speeds']}, all impact angles\n\n{text}\n"
 
 
 def _frame(data: xarray.Dataset) -> Any:

@@ -21,7 +21,6 @@ WIDTH = 1e-8  # rad, to which changes are enclosed
 STICKS, ROTATES, BOUNCES, NORMAL, TANGENTIAL, ENERGY, TURNING, LOST = range(8)  # columns: shares of the outcomes, sums
 # of e_n and e_t, of the normal energy that is left, of what rotations gain and of what is lost, over the energy
 COLUMNS = 8
-SLOPES = 5  # columns that have derivatives
 _FIRST, _DOUBLINGS = 8, 6  # parts of an interval whose ends are the first places, and numbers of them that are tried
 _ASYMPTOTIC = 3  # the doubling from which on changes of an integral fall, but for noise
 _MOST = 64  # changes of a line within one bracket; more are those of chatter, and are left to the quadrature

@@ -16,6 +16,7 @@ from .speeds import Speeds
 _SCAN = 24  # speeds at which the sequence is sampled, for each distribution
 _COARSE = 1e-7  # rad, to which changes of outcome are enclosed for it
 _LOOSE = 1e-7  # tolerance of its collisions
+_CUT = 1e-6  # width to which changes of the sequence are enclosed, over the fastest speed
 _INNER = 0.3  # part of the tolerance for the means over angles
 
 Along = Callable[[np.ndarray, np.ndarray, np.ndarray | None, float], tuple[np.ndarray, np.ndarray]]
@@ -24,19 +25,15 @@ tolerance -> means along the lines and their errors, (lines, columns) each."""
 
 
 def means(
-    along: Along, experiment: Experiment, pairs: int, speeds: Speeds, tolerance: float, cut: float
+    along: Along, experiment: Experiment, pairs: int, speeds: Speeds, tolerance: float
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Means of pairs, the rows of an experiment, over impact angles and relative speeds, and errors: (pairs, columns).
-
-    Arguments:
-        cut: width to which changes of the sequence are enclosed, over the fastest speed.
-    """
+    """Means of the rows of an experiment over impact angles and relative speeds, and errors: (pairs, columns) each."""
     inner = _INNER * tolerance
     if speeds.density is None:
         return along(np.arange(pairs), np.full(pairs, speeds.knots[0]), None, inner)
     density = speeds.density
     sequences = _Sequences(replace(experiment, rtol=max(experiment.rtol, _LOOSE)), float(speeds.knots[-1]))
-    pair, ends, sharp = _intervals(sequences, pairs, speeds, cut)
+    pair, ends, sharp = _intervals(sequences, pairs, speeds)
     hints = sequences.hints(pair, *ends.T)
 
     def columns(which: np.ndarray, speed: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -47,9 +44,7 @@ def means(
     return integrals(columns, pair, ends, sharp, (1 - _INNER) * tolerance, pairs)
 
 
-def _intervals(
-    sequences: _Sequences, pairs: int, speeds: Speeds, cut: float
-) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def _intervals(sequences: _Sequences, pairs: int, speeds: Speeds) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Intervals of speed between changes of the sequence and knots of the distribution.
 
     Returns:
@@ -57,7 +52,7 @@ def _intervals(
     """
     low, high = float(speeds.knots[0]), float(speeds.knots[-1])
     scan = low + (high - low) * (np.arange(_SCAN) + 0.5) / _SCAN
-    cuts = locate(sequences, np.tile(scan, (pairs, 1)), cut * high, most=_SCAN)
+    cuts = locate(sequences, np.tile(scan, (pairs, 1)), _CUT * high, most=_SCAN)
     pair = np.concatenate([np.repeat(np.arange(pairs), speeds.knots.size), cuts.line])
     at = np.concatenate([np.tile(speeds.knots, pairs), cuts.place])
     order = np.lexsort((at, pair))

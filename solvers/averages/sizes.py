@@ -28,15 +28,13 @@ _OF_SPHERES = tuple(
 )
 
 
-def experiment_of(scenes: Sequence[Scene], names: tuple[str, ...], rtol: float) -> Experiment:
-    """An experiment with a row for each scene, which have the same entries, and with the free entries `names`."""
+def experiment_of(scenes: Sequence[Scene], rtol: float) -> Experiment:
+    """An experiment with a row for each scene, which have the same entries."""
     first = scenes[0]
     numbers = [name for name, value in first.si if not isinstance(value, str) and name not in MEETING]
     values = {name: np.array([float(scene.entries[name]) for scene in scenes]) for name in numbers}
-    columns = {name: row for name, row in values.items() if name not in names and np.any(row != row[0])}
-    free = np.array([values[name] for name in names]).reshape(len(names), len(scenes))
-    alike = not columns and not np.any(free != free[:, :1])
-    return Rows(first, names, columns, 1 if alike else len(scenes), rtol).unchecked(free[:, :1] if alike else free)
+    columns = {name: row for name, row in values.items() if np.any(row != row[0])}
+    return Rows(first, (), columns, len(scenes) if columns else 1, rtol).unchecked(np.zeros(0))
 
 
 @dataclass(frozen=True)

@@ -76,14 +76,9 @@ class Rows:
         experiment = self.unchecked(values)
         return experiment if experiment.possible.all() else None
 
-    def by_row(self, values: np.ndarray) -> np.ndarray:
-        """Values of the free entries as (free entries, rows)."""
-        return np.broadcast_to(values if values.ndim == 2 else values[:, None], (len(self.names), self.size))
-
     def unchecked(self, values: np.ndarray) -> Experiment:
-        """The experiment with these values, which are (free entries,), or (free entries, rows)."""
-        values = np.asarray(values, dtype=float)
-        entries = self.by_row(values)
+        """The experiment with these values, which may make the scene of a row impossible."""
+        entries = np.broadcast_to(values[:, None], (len(self.names), self.size))
         mapped, slopes = self._map.map(self.size)(np.vstack([entries, *self.columns.values()]))
         by_quantity = np.asarray(slopes.full()).reshape(len(self._quantities), self.size, len(self.names))
         columns = dict(zip(self._quantities, np.asarray(mapped.full()), strict=True))
@@ -122,7 +117,7 @@ class Experiment:
 
     Attributes:
         rows: the quantities as a function of the free entries.
-        values: of the free entries, (free entries,) or (free entries, rows).
+        values: of the free entries.
         columns: name of a quantity -> (rows,), or (1,) where all rows are alike, SI.
         slopes: the same, with the derivatives by the free entries along the last axis.
         rtol: relative tolerance of the integrations.
@@ -255,9 +250,9 @@ class Experiment:
         """What steps of differences are parts of, as `values`: 1 for fractions and angles, which may be 0."""
         bounded = [bool(np.isfinite(self.scene.fields[name].range.high)) for name in self.rows.names]
         size = np.abs(self.values)
-        return np.where(np.reshape(bounded, (-1, *[1] * (size.ndim - 1))) | (size == 0), 1.0, size)
+        return np.where(np.array(bounded, bool) | (size == 0), 1.0, size)
 
-    def displaced(self, k: int, step: np.ndarray | float) -> Experiment | None:
+    def displaced(self, k: int, step: float) -> Experiment | None:
         """The experiment with free entry k changed by a step; None where that is impossible."""
         values = self.values.copy()
         values[k] += step

@@ -9,7 +9,7 @@ A boundary that is met at initial contact has no such gradient: its place follow
 where the gradients do not grow as they should, the change is located again with displaced entries.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -61,10 +61,6 @@ class Lines:
             speed = self.speed[line, 0] + self.speed[line, 1] * y
             by_speed = by_speed * np.cos(angle) - speed * np.sin(angle) * by_angle
         return by_speed, np.broadcast_to(by_angle, by_speed.shape)
-
-
-ExperimentLabels = Callable[[Experiment, np.ndarray, np.ndarray, np.ndarray], np.ndarray]
-"""Experiment, rows, normal speeds and angles -> labels of what happens."""
 
 
 def outcomes_along(experiment: Experiment, lines: Lines) -> Labels:
@@ -181,18 +177,11 @@ def slopes(experiment: Experiment, lines: Lines, changes: Brackets, approximate:
     return by_free
 
 
-def slopes_by_differences(
-    experiment: Experiment,
-    lines: Lines,
-    changes: Brackets,
-    step: float = _EXACT,
-    labels: ExperimentLabels | None = None,
-) -> np.ndarray:
+def slopes_by_differences(experiment: Experiment, lines: Lines, changes: Brackets, step: float = _EXACT) -> np.ndarray:
     """The same from the places of the changes with displaced entries; NaN where a change is not found again.
 
     Arguments:
         step: of an entry, over its value.
-        labels: what differs below and above the changes; None: the outcome.
     """
     by_free = np.full((changes.size, len(experiment.rows.names)), np.nan)
     steps = step * experiment.scales
@@ -200,15 +189,12 @@ def slopes_by_differences(
     possible = [k for k, both in ends.items() if None not in both]
     moved = [end for k in possible for end in ends[k] if end is not None]
     if moved:
-        places = places_again(moved, lines, changes, step, labels or Experiment.outcomes).reshape(-1, 2, changes.size)
-        of_changes = steps[possible] if steps.ndim == 1 else steps[possible][:, lines.row[changes.line]].T
-        by_free[:, possible] = (places[:, 0] - places[:, 1]).T / (2 * of_changes)
+        places = places_again(moved, lines, changes, step).reshape(-1, 2, changes.size)
+        by_free[:, possible] = (places[:, 0] - places[:, 1]).T / (2 * steps[possible])
     return by_free
 
 
-def places_again(
-    experiments: Sequence[Experiment], lines: Lines, changes: Brackets, step: float, labels: ExperimentLabels
-) -> np.ndarray:
+def places_again(experiments: Sequence[Experiment], lines: Lines, changes: Brackets, step: float) -> np.ndarray:
     """Places of changes near where they were, in each experiment in turn; NaN where they are not found."""
     line, y, before, after = (
         np.tile(column, len(experiments)) for column in (changes.line, changes.place, changes.before, changes.after)
@@ -216,7 +202,7 @@ def places_again(
     every, rows = experiments[0].joined(experiments[1:], lines.row[changes.line])
 
     def label(which: np.ndarray, places: np.ndarray) -> np.ndarray:
-        return labels(every, rows[which], *lines.at(line[which], places))
+        return every.outcomes(rows[which], *lines.at(line[which], places))
 
     places, rest = np.full(y.size, np.nan), np.arange(y.size)
     for reach in _REACH:

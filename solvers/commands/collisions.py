@@ -295,7 +295,6 @@ def averages(radii: _Radii, request: Entries, output: _Table, as_json: bool, **c
             scene's pair].
         --films RULE
         --tolerance E
-        --wrt NAMES
         --rtol
         -o FILE (output): Write NetCDF (.nc) or a table (.csv); the same command continues an interrupted run.
         --json

@@ -97,13 +97,7 @@ _Measured = Annotated[Any, group(_measured, "source", "changes", "hold", "model"
 
 @command(free=_ENTRIES)
 def fit(
-    free: list[str],
-    own: tuple[str, ...],
-    predict: Path | None,
-    write: Path | None,
-    measured: _Measured,
-    output: Shown,
-    **chosen: Any,
+    free: list[str], own: tuple[str, ...], write: Path | None, measured: _Measured, output: Shown, **chosen: Any
 ) -> None:
     """Entries of SCENE from the measured impacts in DATA.csv, with what the data cannot tell.
 
@@ -126,13 +120,10 @@ def fit(
         --own NAME: A free entry of which each scene has a value of its own, or NAME=LABEL,LABEL,... with a label for
             each scene, of which equal ones share; repeatable.
         --prior
-        --predict FILE.png: Draw the probability of sticking around the impacts, with the uncertainty of the estimates;
-            of several scenes FILE-1.png, FILE-2.png, ...
         --write FILE.toml: Write the fitted scene, intervals as comments; of several FILE-1.toml, FILE-2.toml, ...
         --rtol
     """
     from ..fitting.fit import fit
-    from ..host.pictures import plot
 
     check_apart(output.file, write, "--write")
     if any(data is None for _, data in measured):
@@ -145,10 +136,6 @@ def fit(
     output.put(str(fitted), fitted.to_dict())
     if fitted.rows.contradicted and (output.as_json or output.file is not None):
         click.echo(fitted.remarks[0], err=True)  # a table on standard output says so itself
-    if predict is not None:
-        for k in range(len(scenes)):
-            file = predict.with_stem(f"{predict.stem}-{k + 1}") if len(scenes) > 1 else predict
-            plot(fitted.predict(part=k), file)
     if write is not None:
         fitted.write(write)
     if output.picture is not None:

@@ -1,19 +1,19 @@
-"""A fit as a figure: data over the map, results with their band, profiles, residuals; and what it predicts."""
+"""A fit as a figure: data over the map, results with their band, profiles and residuals."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.colors import ListedColormap, to_rgb
+from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from scipy.stats import chi2
 
 from ...generated.automaton import OUTCOMES
-from ..formatting.style import EDGES, FILLS, INK, LETTERS, NOTE, broken, halo, patch, picture, plain_text, title
+from ..formatting.style import EDGES, FILLS, INK, LETTERS, NOTE, broken, patch, picture, plain_text
 from ..formatting.ticks import plain
 from ..many.collide_many import collide_many
 from ..results import DEFINITIONS
@@ -25,14 +25,10 @@ from .optimise import whitening
 from .profiles import profile_point
 from .result import Fit
 
-if TYPE_CHECKING:
-    import xarray
-
 _GRID = 40  # points of the map along each axis
 _FINE = 120  # of the outcomes of the estimates
 _TRIED = 32  # values of the entries, for bands
 _JOINT = 0.95
-_PROBABILITIES = 0.05, 0.5, 0.95  # of sticking
 _CURVE = 80  # points of a curve of a result
 _PROFILE = 5  # points of a profile to each side
 _MARKS = {0: "o", 1: "s", 2: "^", -1: "x"}  # by outcome; -1: not recorded
@@ -267,33 +263,3 @@ def _residuals(axes: Axes, fit: Fit) -> None:
     axes.set_ylabel("residual (standard deviations)")
     axes.legend(fontsize=6.5)
     axes.set_title("residuals", fontsize=9)
-
-
-@picture
-def draw_prediction(data: xarray.Dataset) -> Figure:
-    """The colours of the outcomes, mixed by probability, and lines of the probability of sticking."""
-    names, kind = data["outcome"].values.tolist(), str(data["probability"].dims[2])
-    share, degrees, speed = data["probability"].values, np.degrees(data["angle"].values), data[kind].values
-    figure = Figure(figsize=(6.4, 5.2), layout="constrained")
-    axes = figure.add_subplot()
-    colours = np.tensordot(share, np.array([to_rgb(FILLS[name]) for name in names]), axes=(0, 0))
-    axes.pcolormesh(degrees, speed, np.clip(colours.swapaxes(0, 1), 0, 1), shading="nearest", rasterized=True)
-    if share[0].min() < _PROBABILITIES[-1] and share[0].max() > _PROBABILITIES[0]:
-        lines = axes.contour(
-            degrees, speed, share[0].T, levels=_PROBABILITIES, colors=INK, linestyles=["--", "-", "--"]
-        )
-        for label in axes.clabel(lines, fmt=lambda level: f"{level:.0%}", fontsize=7):
-            label.set_path_effects([halo()])
-    if (speed > 0).all():
-        axes.set_yscale("log")
-    plain(axes.yaxis)
-    axes.set(xlabel="impact angle (deg)", ylabel=AXIS_LABELS[kind])
-    what = "probability of sticking, with the uncertainty of the fitted entries"
-    title(figure, f"{plain_text(data.attrs['title'])}: {what}")
-    handles = [patch(name) for name, chance in zip(names, share, strict=True) if chance.max() > _PROBABILITIES[0]]
-    for handle in handles:
-        handle.set(edgecolor=INK, hatch=None, linewidth=0.6)
-    axes.legend(handles=handles, fontsize=7, loc="best", frameon=True, framealpha=0.9)
-    effective = f"{data.attrs['effective_draws']:.0f}"
-    figure.supxlabel(f"{data.attrs['draws']} weighted draws of the entries, worth {effective}", color=NOTE, fontsize=7)
-    return figure

@@ -6,14 +6,13 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from ..errors import InputError
 from ..formatting.markdown import aligned
 from ..host import files
-from ..host.arguments import check_whole
 from ..host.outputs import check_file
 from ..host.pictures import plot
 from ..host.progress import Estimated, Progress
@@ -24,9 +23,6 @@ from .joint import Part, home, worded
 from .likelihood import KNEE
 from .measurements import Measurements
 from .optimise import Objective
-
-if TYPE_CHECKING:
-    import xarray
 
 _WIDE = 2.0  # ratio of the ends of an interval from which it is told as a factor
 _TRIED, _PROFILE, _PER_POINT = 33, 20, 4  # evaluations of a picture; points of a profile, and evaluations of one
@@ -229,47 +225,6 @@ class Fit:
         finally:
             del self.objective.likelihood.tell
             work.finish()
-
-    def predict(
-        self,
-        *,
-        speed: Any = None,
-        relative_speed: Any = None,
-        angle: Any = None,
-        part: int = 0,
-        samples: int = 256,
-        seed: int = 0,
-    ) -> xarray.Dataset:
-        """Probabilities of the outcomes over speed and angle, with the uncertainty of the estimates.
-
-        Arguments:
-            speed, relative_speed: normal speeds, or magnitudes of the relative velocity, m/s; one of them. None: around
-                the scene's impacts.
-            angle: impact angles, rad; likewise.
-            part: index of the scene, if there are several.
-            samples: weighted draws of the entries, 32 to 4096, rounded up to a power of two.
-            seed: of the draws.
-
-        Returns:
-            Dataset: `probability` over (outcome, angle, speed); that of an impact at just this speed and angle, which
-            adds up to less than 1 where collisions are undecided. The
-            attribute `effective_draws` says how many equally weighted draws are worth as much. Its
-            `.wetdoublet.plot("map.png")` draws it.
-
-        Raises:
-            InputError: a wrong argument.
-            ComputationError: the likelihood leaves next to none of the draws.
-        """
-        from .predictive import draws, predicted
-
-        values, weight = draws(
-            self.objective,
-            self.best,
-            check_whole(samples, "samples", 32, 4096),
-            check_whole(seed, "seed", 0, 2**32 - 1),
-        )
-        member = self.parts[check_whole(part, "part", 0, len(self.parts) - 1)]
-        return predicted(member, self.free.names, values, weight, speed, relative_speed, angle)
 
     def write(self, path: str | Path) -> None:
         """Write the fitted scene as TOML, with the intervals as comments; of several NAME-1.toml, NAME-2.toml, ..."""

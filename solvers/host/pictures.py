@@ -21,7 +21,6 @@ if TYPE_CHECKING:
 _HOMES = {  # a variable that only one kind of result has -> what draws it
     "first_order": "sensitivity.plots.draw_band",
     "engine": "sensitivity.plots.draw_gradients",
-    "probability": "fitting.plot.draw_prediction",
     "outcome": "many.plot_map.draw",
 }
 _RESULTS = {"Design": "planning.plot.draw", "Fit": "fitting.plot.draw"}  # results that are no Dataset, by class
@@ -32,7 +31,7 @@ def plot(data: Any, path: str | Path | None = None) -> Any:
     """Draw a Dataset that this package has made, read back from a file or not.
 
     Arguments:
-        data: of `collide_many`, `regime_map`, `band`, `gradients_many`, `Fit.predict` or `restitution_budget`.
+        data: of `collide_many`, `regime_map`, `band`, `gradients_many` or `restitution_budget`.
         path: file to write (.png, .pdf or .svg); None only draws.
 
     Returns:

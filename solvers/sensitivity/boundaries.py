@@ -276,7 +276,7 @@ def _by_angle(experiment: Experiment, speed: float, angle: float, change: Change
     row, end = np.zeros(2, int), np.full(2, np.expm1(_REACH))
     aside = Lines(row, np.full((2, 2), speed), np.array([[angle - _STEP, 0.0], [angle + _STEP, 0.0]]), -end, end, False)
     outcomes = [np.full(2, OUTCOMES.index(name)) for name in (change.before, change.after)]
-    places = places_again([experiment], aside, Brackets(np.arange(2), row, row, *outcomes), _STEP, Experiment.outcomes)
+    places = places_again([experiment], aside, Brackets(np.arange(2), row, row, *outcomes), _STEP)
     if not np.isfinite(places).all():
         raise ComputationError("it is not found at angles beside")
     return float(np.diff(np.log1p(places))[0]) / (2 * _STEP)

@@ -17,7 +17,7 @@ from ...helpers.command import run
 
 PUBLIC = [
     ("design", design, ("n", "target", "data", "restitution_sd")),
-    ("averages", collision_averages, ("films", "tolerance", "wrt")),
+    ("averages", collision_averages, ("films", "tolerance")),
     ("tracks", tracks, ("rate", "noise", "particles")),
 ]
 
