@@ -12,9 +12,8 @@ import numpy as np
 
 from ...generated import scaling
 from ...generated.automaton import OUTCOMES
-from ..collision.text import name_of
 from ..engines.settings import RTOL
-from ..formatting.notebook import view
+from ..formatting.notebook import NotebookTable
 from ..host.pictures import Drawn
 from ..results import outcome_attributes
 from ..scene.origin import Recorded, origin, provenance
@@ -37,7 +36,7 @@ LATTICE = (65, 193)  # columns and rows of the search lattice
 
 
 @dataclass(frozen=True)
-class Boundaries(Drawn):
+class Boundaries(Drawn, NotebookTable):
     """Changes of outcome for each angle (rad), ascending in St, as `boundary` returns them.
 
     `plot` draws the regions of each outcome, the curves and where they meet.
@@ -106,26 +105,17 @@ class Boundaries(Drawn):
         always = {"stokes": "1", "centrifugal": "1", "speed": "m/s", "relative_speed": "m/s", "angle": "rad"}
         return {"rtol": self.rtol, "searched": list(self.window), "units": {**units, **always}} | source
 
-    def _rows(self) -> list[tuple[str, ...]]:
-        """Angle, Stokes number, Ce, speed, change and kind of each change; angle and reason of a line without."""
-        rows: list[tuple[str, ...]] = []
-        failures = self.failures or ("",) * len(self.angles)
-        for angle, changes, failure in zip(self.angles, self.changes, failures, strict=True):
-            degrees = f"{math.degrees(angle):.6g}"
-            for change in changes:
-                ce = "-" if change.centrifugal is None else f"{change.centrifugal:.6g}"
-                speed = f"{self.speed_at(change.stokes, angle):.6g}"
-                rows.append(
-                    (degrees, f"{change.stokes:.10g}", ce, speed, f"{change.before} -> {change.after}", change.kind)
-                )
-            rows += [] if changes else [(degrees, failure or f"no change for {self.range_text}")]
-        return rows
-
     def __str__(self) -> str:
         lines = [f"angle (deg)   St              Ce          {self.speed_heading:<18} change"]
-        for degrees, *cells in self._rows():
-            text = "{:<15} {:<11} {:<18} {}".format(*cells) if len(cells) > 1 else cells[0]
-            lines.append(f"{degrees:<13} {text}")
+        failures = self.failures or ("",) * len(self.angles)
+        for angle, changes, failure in zip(self.angles, self.changes, failures, strict=True):
+            degrees = f"{math.degrees(angle):<13.6g}"
+            for change in changes:
+                ce = "-" if change.centrifugal is None else f"{change.centrifugal:.6g}"
+                speed = self.speed_at(change.stokes, angle)
+                cells = f"{change.stokes:<15.10g} {ce:<11} {speed:<18.6g} {change.before} -> {change.after}"
+                lines.append(f"{degrees} {cells}")
+            lines += [] if changes else [f"{degrees} {failure or f'no change for {self.range_text}'}"]
         points = sum(len(changes) for changes in self.changes)
         merged = sum(change.merged for line in self.changes for change in line)
         lines += [f"{merged} of the changes stand for several closer than {MERGED:g}"] if merged else []
@@ -160,15 +150,6 @@ class Boundaries(Drawn):
             self.scene, resolution=self.resolution, collisions=self.collisions, searched=self.range_text
         )
         return xr.Dataset(variables, {"angle": angle}, attributes)
-
-    def _repr_html_(self) -> str:
-        head = ("angle (deg)", "St", "Ce", self.speed_heading, "change", "kind")
-        notes = [f"{self.collisions} collisions, {self.range_text}"]
-        return view(f"{self._name}: boundaries between outcomes", self._rows(), head, notes)
-
-    @property
-    def _name(self) -> str:
-        return name_of(self.scene) if self.scene is not None else "scene"
 
     @property
     def speed_heading(self) -> str:
@@ -358,17 +339,6 @@ class Atlas(Boundaries):
         data["point_stokes"] = "point", np.array([point.stokes for point in self.points], dtype=float), stokes
         more = {"over": self.over} | {f"sought_{name}": value for name, value in self.sought.items()}
         return data.assign_coords(x=("line", np.array(self.at), x)).assign_attrs(more)
-
-    def _repr_html_(self) -> str:
-        scale, x = (math.degrees(1.0), "angle (deg)") if self.over == ANGLE else (1.0, self.over)
-        rows = [
-            (f"{line.before} → {line.after}", line.kind,
-             f"{scale * line.x[0]:.6g} ... {scale * line.x[-1]:.6g}", f"{line.stokes[0]:.6g} ... {line.stokes[-1]:.6g}")
-            for line in self.curves
-        ]  # fmt: skip
-        rows += [("point", point.kind, f"{scale * point.x:.6g}", f"{point.stokes:.6g}") for point in self.points]
-        notes = [f"not settled at {scale * at:.6g}, St {stokes:.6g}: {why}" for at, stokes, why in self.unsettled]
-        return view(f"{self._name}: atlas of boundaries", rows, ("curve", "kind", x, "St"), notes)
 
 
 def _padded(rows: Sequence[Sequence[float]], most: int, filler: float = np.nan) -> np.ndarray:

@@ -2,9 +2,8 @@
 
 from dataclasses import dataclass, fields
 
-from ..formatting.notebook import view
+from ..formatting.notebook import NotebookTable
 from ..host.pictures import Drawn
-from ..results import DEFINITIONS, OF_SEPARATION
 from .budget import Budget
 from .outcome import Outcome
 
@@ -12,7 +11,7 @@ _ENDS = 20  # events that `repr` shows at each end of a longer list
 
 
 @dataclass(frozen=True, kw_only=True)
-class Collision(Outcome, Drawn):
+class Collision(Outcome, Drawn, NotebookTable):
     """One collision, as `collide` returns it; its attributes are those of `Outcome`.
 
     `plot` draws gap and velocity, the rotation, and the doublet at a few instants; ValueError if the collision was
@@ -47,31 +46,3 @@ class Collision(Outcome, Drawn):
         from .text import table
 
         return table(self)
-
-    def _repr_html_(self) -> str:
-        """Outcome and why, results with units, events, and what the model warns of."""
-        from .text import assumed, degrees, name_of, plain, quantity, reason, with_unit
-
-        rows = [
-            ("outcome", self.outcome, reason(self)),
-            (
-                "impact",
-                f"St {plain(self.stokes)}, {degrees(self.angle)}",
-                f"normal speed {quantity(self.speed, 'm/s')}",
-            ),
-        ]
-        defined = (DEFINITIONS[name] for name in OF_SEPARATION if getattr(self, name) is not None)
-        rows += [(row.label, with_unit(getattr(self, row.name), row.unit), "") for row in defined]
-        if self.events:
-            happened = [f"{event.kind} at {quantity(event.time, 's')}" for event in self.events[:6]]
-            more = [f"{len(self.events) - 6} more"] if len(self.events) > 6 else []
-            rows.append(("events", "; ".join([*happened, *more]), ""))
-        if self.energy is not None:
-            end = f"{quantity(self.energy.final, 'J')} at the end; residual {self.energy.residual:.1e} J"
-            rows.append(("energy", f"{quantity(self.energy.initial, 'J')} at contact", end))
-        engine = f"{self.engine}, {self.steps} steps"
-        return view(
-            name_of(self.scene),
-            rows,
-            notes=[*self.validity, *filter(None, [self.long_contact]), *assumed(self.scene), engine],
-        )

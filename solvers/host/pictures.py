@@ -31,7 +31,7 @@ def plot(data: Any, path: str | Path | None = None) -> Any:
     """Draw a Dataset that this package has made, read back from a file or not.
 
     Arguments:
-        data: of `collide_many`, `regime_map`, `band`, `gradients_many` or `restitution_budget`.
+        data: of `collide_many`, `regime_map`, `band` or `gradients_many`.
         path: file to write (.png, .pdf or .svg); None only draws.
 
     Returns:

@@ -4,7 +4,6 @@ import math
 from collections.abc import Iterator
 from textwrap import shorten
 
-from ..formatting.notebook import view
 from .groups import System
 from .schema import FIELDS, TABLES
 
@@ -44,12 +43,6 @@ def text(scene: System) -> str:
 
 def _line(entry: str, remark: str) -> str:
     return (entry + shorten(remark, max(_WIDTH - len(entry), 20), placeholder=" ...")).rstrip()
-
-
-def html(scene: System) -> str:
-    """The table for a notebook."""
-    rows = [*entries(scene), *derived(scene)]
-    return view(scene.name or "unnamed scene", rows, ("entry", "value", ""), most=len(rows))
 
 
 def _value(scene: System, name: str) -> str:

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any, Self
 
 from ..errors import InputError
+from ..formatting.notebook import NotebookTable
 from ..host.arguments import check_mapping
 from . import entry_rules as rules
 from . import scenefile
@@ -24,7 +25,7 @@ from .user_model_source import liquid_package, open_package
 
 
 @dataclass(frozen=True)
-class Scene(System):
+class Scene(System, NotebookTable):
     """A colliding pair and its impact, in SI units and radians.
 
     A scene stores its entries as the file or the caller gave them; the tables are derived from those, so the two cannot
@@ -147,11 +148,6 @@ class Scene(System):
         from .listing import text
 
         return text(self)
-
-    def _repr_html_(self) -> str:
-        from .listing import html
-
-        return html(self)
 
     @property
     def custom(self) -> Mapping[str, Raw]:

@@ -3,18 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import asdict, dataclass, field
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ...generated.automaton import STICK
 from ..formatting.markdown import numbers_aligned
-from ..formatting.notebook import view
+from ..formatting.notebook import NotebookTable
 from ..host.pictures import Drawn
 from ..results import DEFINITIONS
 from ..scene.held import NAMES
-from ..scene.origin import origin, provenance
+from ..scene.origin import Recorded, provenance
 from ..scene.schema import SPEEDS
 from .parameters import Row, cell
 
@@ -46,7 +46,7 @@ class Near:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Sensitivities(Drawn):
+class Sensitivities(Recorded, Drawn, NotebookTable):
     """Derivatives of a collision's results; SI and radians; None where undefined.
 
     `plot` draws a tornado chart of the elasticities.
@@ -68,6 +68,7 @@ class Sensitivities(Drawn):
     """
 
     _picture = "sensitivity.plots.draw"
+    _keys = "value gradient elasticity outcome method engine hold nearest=near rtol units"
 
     value: Mapping[str, float | None]
     gradient: Mapping[str, Row]
@@ -85,19 +86,11 @@ class Sensitivities(Drawn):
     def parameters(self) -> tuple[str, ...]:
         return tuple(self.reference)
 
-    def to_dict(self) -> dict[str, Any]:
-        """The JSON object of `wetdoublet sensitivity --json`."""
-        return {
-            "value": dict(self.value),
-            "gradient": {name: dict(row) for name, row in self.gradient.items()},
-            "elasticity": {name: dict(row) for name, row in self.elasticity.items()},
-            **{name: getattr(self, name) for name in _ABOUT},
-            "nearest": self.near and asdict(self.near),
-            "rtol": self.rtol,
-            "units": {name: DEFINITIONS[name].unit for name in self.value}
-            | {name: self.scene.fields[name].unit or "1" for name in self.parameters},
-            **origin(self.scene),
-        }
+    @property
+    def units(self) -> dict[str, str]:
+        """Units of the quantities and the parameters."""
+        entries = self.scene.fields
+        return {y: DEFINITIONS[y].unit for y in self.value} | {p: entries[p].unit or "1" for p in self.parameters}
 
     def boundary(self) -> BoundarySensitivities:
         """The boundaries at this impact angle, and how they move with the same parameters.
@@ -175,16 +168,6 @@ class Sensitivities(Drawn):
         """True if a nonzero elasticity is only rounding error."""
         largest = max((abs(value or 0.0) for value in self.elasticity[y].values()), default=0.0)
         return 0 < abs(self.elasticity[y][p] or 0.0) < _ROUNDING * largest
-
-    def _repr_html_(self) -> str:
-        from ..collision.text import name_of
-
-        head = ["parameter", *(f"{name} = {_number(self.value[name], DEFINITIONS[name].unit)}" for name in self.value)]
-        rows = [[p, *(self._cell(y, p) for y in self.value)] for p in self.parameters]
-        title = f"{name_of(self.scene)}, {self.outcome}: elasticities d ln y/d ln p"
-        near = [f"nearest: {self.near}"] if self.near else []
-        stick = [" ".join(_STICK_NOTES)] if self.outcome == STICK else []
-        return view(title, rows, head, ["* dy/dp where y or p is zero", *near, *stick])
 
 
 def _number(value: float | None, unit: str) -> str:

@@ -1,8 +1,7 @@
 """`wetdoublet verify`: symbolic identities of the derivation, and numerical checks against bounds."""
 
-from .budget import restitution_budget
 from .identities import symbolic
 from .report import Finding, Report
 from .run import numeric, verify
 
-__all__ = ["Finding", "Report", "numeric", "restitution_budget", "symbolic", "verify"]
+__all__ = ["Finding", "Report", "numeric", "symbolic", "verify"]

@@ -24,7 +24,7 @@ def conserved(sample: Sample) -> Iterator[Finding]:
     yield Finding("", "completed", statement, completed, "", not sample.failures, about=failures)
     if not sample.all:
         return
-    figure, worst = _worst(
+    figure, worst = worst_of(
         sample.all, lambda case: abs(case.energy.residual) / case.energy.initial if case.energy else None
     )
     statement = "T(0) = T(end) + losses + works: residual over T(0)"
@@ -34,7 +34,7 @@ def conserved(sample: Sample) -> Iterator[Finding]:
     if sample.scene.pendulum is not None and any(collision.angle for collision in sample.all):
         yield note("angular momentum", statement, "the strings exert a torque: L is not conserved")
     elif drifting:
-        figure, worst = _worst(drifting, lambda case: case.angular_momentum_drift)
+        figure, worst = worst_of(drifting, lambda case: case.angular_momentum_drift)
         if sample.scene.law_has("arm", "balanced"):
             yield bounded("angular momentum", statement, figure, DRIFT, where(worst))
         else:
@@ -49,7 +49,7 @@ def conserved(sample: Sample) -> Iterator[Finding]:
             yield agreement(f"{engine} = {reference}", pairs)
 
 
-def _worst(collisions: Sequence[Collision], figure: Callable[[Collision], float | None]) -> tuple[float, Collision]:
+def worst_of(collisions: Sequence[Collision], figure: Callable[[Collision], float | None]) -> tuple[float, Collision]:
     """The largest figure, infinite where it is missing or not finite, and its collision."""
     figures = [value if (value := figure(run)) is not None and math.isfinite(value) else math.inf for run in collisions]
     largest = max(figures)

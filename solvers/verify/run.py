@@ -71,8 +71,8 @@ def numeric(scene: Scene, head_on: bool = False, extent: Extent = WHOLE) -> Iter
     }
     if not head_on:
         data = cache(lambda: grid(scene, extent))
-        checks["cvodes, on the grid"] = lambda: beside_cvodes(scene, data())
-        checks["e_n > 1"] = lambda: argument(scene, data())
+        checks["cvodes, on the grid"] = lambda: beside_cvodes(data())
+        checks["e_n > 1"] = lambda: argument(data())
     for name, check in checks.items():
         try:
             for finding in check():
