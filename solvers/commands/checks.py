@@ -19,7 +19,7 @@ from .options import Request, Shown, json_text, refuse
 from .signature import command
 
 _WANTED = Field("--error", "an absolute error of e_n", "1e-6", Range("above 0 and below 1", 0.0, 1.0))
-_SYMBOLIC, _NUMERIC = 156, 17  # usual numbers of findings; the latter of a scene, with or without rotation
+_SYMBOLIC, _NUMERIC = 156, 14  # usual numbers of findings; the latter of a scene, with or without rotation
 
 
 @command()

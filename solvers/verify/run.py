@@ -14,7 +14,6 @@ from .audit import stick_audit
 from .closed import closed_forms
 from .conserved import conserved
 from .identities import symbolic
-from .order import convergence
 from .region import argument, beside_cvodes, grid
 from .report import Finding, Report
 from .sample import WHOLE, Extent, collisions
@@ -66,7 +65,6 @@ def numeric(scene: Scene, head_on: bool = False, extent: Extent = WHOLE) -> Iter
     checks: dict[str, Callable[[], Iterator[Finding]]] = {
         "conservation": lambda: conserved(sample),
         "closed forms": lambda: closed_forms(scene, head_on),
-        "convergence": lambda: convergence(sample, extent.tolerances),
         "stick certificate": lambda: stick_audit(scene, angles, extent.audited),
     }
     if not head_on:

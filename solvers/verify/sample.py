@@ -1,7 +1,7 @@
 """The sample of collisions for numerical checks: impacts around the scene's, integrated by every engine."""
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
 from ..collision.collide import collide
@@ -25,7 +25,6 @@ class Extent:
     Arguments:
         angles: angles of the sample, rad; the scene's is added.
         factors: Stokes numbers of the sample, relative to the scene's.
-        tolerances: tolerances of the convergence check, descending.
         audited: impacts of the certificate audit.
         grid_angles: angles of the budget, degrees.
         grid_points: Stokes numbers of the budget.
@@ -33,7 +32,6 @@ class Extent:
 
     angles: tuple[float, ...] = ANGLES
     factors: tuple[float, ...] = FACTORS
-    tolerances: tuple[float, ...] = tuple(10.0**-k for k in range(5, 12))
     audited: int = 240  # a quarter of this head-on
     grid_angles: tuple[float, ...] = tuple(range(5, 90, 5))
     grid_points: int = 27  # ten per decade
@@ -53,21 +51,6 @@ class Sample:
     @property
     def all(self) -> list[Collision]:
         return [collision for impact in self.impacts for collision in impact.values()]
-
-    @property
-    def separated(self) -> Iterator[Collision]:
-        for impact in self.impacts:
-            if REFERENCE in impact and impact[REFERENCE].outcome != "stick":
-                yield impact[REFERENCE]
-
-    @property
-    def silent(self) -> str:
-        """The reason if no trajectory has a duration; empty if one has."""
-        if not self.all:
-            return "no collision was completed"
-        if not any(collision.contact_time or collision.until for collision in self.all):
-            return "no trajectory lasts: all rebound at initial contact"
-        return ""
 
 
 def stokes_of(scene: Scene) -> float:

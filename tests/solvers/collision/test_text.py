@@ -134,11 +134,11 @@ RESULTS: dict[str, tuple[Callable[[], Any], list[str]]] = {  # how it is made, w
     "scene": (lambda: SCENE, ["liquid.viscosity", "2 Pa s", "assumed: glass", "default"]),
     "collision": (
         lambda: solvers.collide(SCENE, stokes=0.05, angle="75 deg"),
-        ["stick-rotate-separate", "1.581", "rupture at"],
+        ["stick-rotate-separate", "1.581", "rotation has given"],
     ),
     "stick": (lambda: solvers.collide(SCENE, stokes=0.01, ledger=False), ["stick", "proved"]),
     "boundaries": (lambda: boundary(SCENE, angle=[0.5], stokes=(0.05, 0.2)), ["28.6479", "stick-rotate-separate"]),
-    "sensitivities": (lambda: sensitivities(SCENE, stokes=0.01), ["restitution = 0", "wetdoublet boundary"]),
+    "sensitivities": (lambda: sensitivities(SCENE, stokes=0.01), ["restitution", "wetdoublet boundary"]),
 }
 
 

@@ -10,7 +10,7 @@ import pytest
 from wetdoublet.solvers import Collision, ComputationError, Scene, collide
 from wetdoublet.solvers.collision.by_kernel import recorded
 from wetdoublet.solvers.engines.casadi.integrators import plain
-from wetdoublet.solvers.verify import audit, closed, conserved, order, region, sample
+from wetdoublet.solvers.verify import audit, closed, conserved, region, sample
 from wetdoublet.solvers.verify.report import Finding
 
 pytestmark = pytest.mark.slow
@@ -39,7 +39,6 @@ def failures(findings: Iterable[Finding]) -> list[str]:
     return [finding.name for finding in findings if finding.ok is False]
 
 
-TOLERANCES = (1e-5, 1e-6, 1e-7, 1e-9)  # of two orders of the kernel, which is compiled for each
 FEW = sample.Extent(angles=(0.0, BAD["angle"]))  # two angles of the sample
 GRID = sample.Extent(grid_angles=(60,), grid_points=14)
 ON_GRID = SCENE.with_entries({"impact.stokes": BAD["stokes"] / 10**0.6})
@@ -118,16 +117,6 @@ def test_a_bounce_that_is_off_misses_the_film_alone() -> None:
     assert found.name == "film alone"
     assert float(found.figure) == pytest.approx(1e-6, rel=0.1)
     assert found.where.endswith("glass")
-
-
-def test_an_engine_that_does_not_converge_is_found(collisions) -> None:
-    """e_n off by 1e-6 whatever the tolerance: the slope of the error breaks down, for that engine only."""
-
-    def off(scene, **options):
-        one = computed(scene, **options)
-        return replace(one, restitution=one.restitution * (1 + 1e-6 * (one.engine == "cvodes")))
-
-    assert failures(order.convergence(collisions, TOLERANCES, collide=off)) == ["convergence, cvodes"]
 
 
 def overeager(n, rtol, until=None):
