@@ -1,9 +1,7 @@
 """`collide`: computes one collision of a scene."""
 
-from dataclasses import replace
 from pathlib import Path as FilePath
 
-from ...generated.automaton import STICK
 from ..engines.settings import UNTIL, check_engine, check_rtol
 from ..errors import ComputationError
 from ..host.arguments import check_flag
@@ -26,7 +24,6 @@ def collide(
     ledger: bool = True,
     trajectory: bool = False,
     until: float | str | None = None,
-    proof: bool = False,
 ) -> Collision:
     """Collide two wet particles.
 
@@ -44,15 +41,13 @@ def collide(
         trajectory: keep the trajectory as an xarray Dataset.
         until: time after initial contact, s or a string with its unit. A stick is integrated up to this time, beyond
             its proof or not so far; its outcome stays, its events and energy run up to this time.
-        proof: enclose the collision as well, so that `result.proof` proves the outcome, or says why not.
 
     Returns:
         The Collision.
 
     Raises:
         InputError: a field or option is not acceptable.
-        ComputationError: the trajectory could not be completed; says in which phase, when and at what state. Or the
-            proof contradicts it.
+        ComputationError: the trajectory could not be completed; says in which phase, when and at what state.
 
     Warns:
         ModelWarning: the scene leaves the range of validity of a law.
@@ -64,26 +59,10 @@ def collide(
     """
     rtol, requested = check_rtol(rtol), check_engine(engine)
     ledger, trajectory = check_flag(ledger, "ledger"), check_flag(trajectory, "trajectory")
-    check_flag(proof, "proof")
     last = None if until is None else UNTIL.number(until)
     problem = Problem.read(scene, stokes, speed, angle, relative_speed)
     warn(problem.scene)
-    result = integrated(problem, rtol, requested, ledger, trajectory, last)
-    return _proved(result) if proof else result
-
-
-def _proved(result: Collision) -> Collision:
-    """The result with the proof of its outcome, or with the reason why there is none."""
-    from ..engines.interval.inputs import Inputs
-    from ..engines.interval.prove import prove_inputs
-
-    proof = prove_inputs(Inputs.of(result.scene))
-    if proof and proof.outcome != result.outcome:
-        raise ComputationError(
-            f"the collision is computed as {result.outcome} and proved to be {proof.outcome}",
-            advice="use a smaller rtol; the proof holds",
-        )
-    return replace(result, proof=proof, certified=result.certified or proof.outcome == STICK)
+    return integrated(problem, rtol, requested, ledger, trajectory, last)
 
 
 def integrated(

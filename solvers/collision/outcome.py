@@ -19,7 +19,6 @@ from ..scene.scene import Scene
 if TYPE_CHECKING:
     import xarray
 
-    from ..engines.interval.prove import Proof
 
 _OPEN, _OPEN_AT_LEAST = 1e4, 1e-6  # limits of the residual: multiple of rtol, part of the largest term
 
@@ -121,7 +120,6 @@ class Outcome:
         reversal: the first rebound criterion met, if any.
         rtol: relative tolerance that was asked for.
         trajectory: Dataset over `time`, if requested.
-        proof: what the enclosure of the collision proves, if requested.
     """
 
     outcome: str
@@ -154,7 +152,6 @@ class Outcome:
     final_gap: float | None = None
     scene: Scene = field(repr=False, compare=False)
     trajectory: xarray.Dataset | None = field(default=None, repr=False, compare=False)
-    proof: Proof | None = field(default=None, repr=False, compare=False)
 
     @property
     def validity(self) -> tuple[str, ...]:
@@ -198,7 +195,4 @@ class Outcome:
         result["energy"] = self.energy.to_dict() if self.energy else None
         result["angular_momentum_drift"] = self.angular_momentum_drift
         result |= {"engine": self.engine, "steps": self.steps, "rtol": self.rtol, "validity": list(self.validity)}
-        if self.proof is not None:
-            names = ("proved", "outcome", "restitution", "reason", "smallest_gap", "rebounds", "steps")
-            result["proof"] = {name: value for name, value in self.proof.to_dict().items() if name in names}
         return result | {"units": {key: UNITS[key] for key in result if key in UNITS}} | origin(self.scene)

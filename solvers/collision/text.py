@@ -200,11 +200,6 @@ def _outcome(collision: Outcome) -> list[str]:
     restitution = collision.restitution
     gained = "> 1: rotation has given it energy" if restitution > 1 else ""
     lines = [_line("outcome", collision.outcome), _line("", reason(collision))]
-    if collision.proof is not None:
-        texts = [str(collision.proof).partition("\n")[0]]
-        if collision.proof.restitution is not None and collision.proof.restitution[1] > 0:
-            texts.append("e_n between {:.15g} and {:.15g}".format(*collision.proof.restitution))
-        lines += [_line("" if k else "enclosure", text) for k, text in enumerate(texts)]
     if collision.outcome == "stick" and collision.reversal:
         lines.append(_line("", f"the {collision.reversal} criterion had made it rebound on the way"))
     if collision.outcome == "stick" and stopped(collision):

@@ -40,7 +40,6 @@ def collide(why: bool, request: Request, output: Shown, **chosen: Any) -> None:
         --rtol
         --engine
         --until TIME: Follow a stick on after its proof, as "5 ms" after initial contact.
-        --proof: Enclose the collision as well, so that its outcome is proved, or it is said why not.
         --why: Which terms make up e_n^2 - 1; --plot then draws them, and the angular momentum, over time.
     """
     scene = request.scene()
