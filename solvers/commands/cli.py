@@ -17,7 +17,6 @@ import click
 
 from ..errors import InputError, ModelWarning, WetDoubletError, cut, did_you_mean, one_line
 from ..host.interrupts import INTERRUPTED, handled
-from ..host.locks import sweep_temporary
 from .bar import AtWork
 
 COMMANDS = {
@@ -71,7 +70,6 @@ class Commands(click.Group):
         """Run the command; an interrupt and a closed pipe set the exit status and print no error."""
         try:
             with handled() as signals, AtWork():
-                sweep_temporary()
                 super().invoke(ctx)
             sys.stdout.flush()
         except KeyboardInterrupt as interrupt:

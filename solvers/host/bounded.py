@@ -1,14 +1,9 @@
-"""Reading of files named by users, within bounds of size, time and nesting depth."""
+"""Reading of files named by users, within bounds of size and nesting depth."""
 
 import os
 import re
-import select
 import stat
-import time
 from pathlib import Path
-
-UNOPENED = 0.7  # s to wait for a writer to open a pipe
-SILENT = 60.0  # s in which a pipe must deliver everything
 
 LARGEST = 1_000_000  # bytes; most of a model file or an emitted file
 
@@ -29,17 +24,11 @@ is_folder, is_file, exists = os.path.isdir, os.path.isfile, os.path.exists
 """What of that name exists; False also for invalid names, unlike the methods of a path."""
 
 
-def read(path: Path, most: int, unopened: float = UNOPENED, silent: float = SILENT) -> bytes:
-    """Return the content of a file, a pipe or a device.
-
-    Arguments:
-        path: file to read; also `/dev/stdin` and pipes of process substitution.
-        most: largest number of bytes.
-        unopened: s to wait for a writer to open a pipe.
-        silent: s in which a pipe must deliver everything.
+def read(path: Path, most: int) -> bytes:
+    """Return the content of a file of at most `most` bytes; also of `/dev/stdin` and pipes of process substitution.
 
     Raises:
-        NotRead: too large, too slow, or cannot be opened.
+        NotRead: too large, a named pipe, or cannot be opened.
         FileNotFoundError: there is nothing of that name.
     """
     try:
@@ -50,45 +39,18 @@ def read(path: Path, most: int, unopened: float = UNOPENED, silent: float = SILE
     except (OSError, ValueError) as error:  # ValueError: a null byte in the name
         raise NotRead(f"cannot be read ({getattr(error, 'strerror', None) or error})") from None
     try:
-        kind = os.fstat(descriptor).st_mode
-        waits = stat.S_ISFIFO(kind) or stat.S_ISCHR(kind)
-        content = _delivered(descriptor, most, unopened, silent) if waits else _whole(descriptor, most)
+        if stat.S_ISFIFO(os.fstat(descriptor).st_mode) and path.parts[:2] != ("/", "dev"):
+            raise NotRead("is a named pipe")
+        os.set_blocking(descriptor, True)
+        content = b""
+        while len(content) <= most and (chunk := os.read(descriptor, _PART)):
+            content += chunk
     except OSError as error:  # for instance a folder
         raise NotRead(f"cannot be read ({error.strerror or error})") from None
     finally:
         os.close(descriptor)
     if len(content) > most:
         raise NotRead(f"is larger than {most} bytes")
-    return content
-
-
-def _whole(descriptor: int, most: int) -> bytes:
-    """Up to `most + 1` bytes of a regular file."""
-    content = b""
-    while len(content) <= most and (chunk := os.read(descriptor, _PART)):
-        content += chunk
-    return content
-
-
-def _delivered(descriptor: int, most: int, unopened: float, silent: float) -> bytes:
-    """The bytes that a pipe or a terminal delivers until its end."""
-    begun = time.monotonic()
-    content, met = b"", False  # met: a writer has opened the pipe
-    while len(content) <= most:
-        seconds = (silent if met else unopened) - (time.monotonic() - begun)
-        ready = bool(select.select([descriptor], [], [], max(0.0, seconds))[0])
-        try:
-            chunk = os.read(descriptor, _PART)
-        except BlockingIOError:  # the writer has not written yet
-            if met and seconds <= 0:
-                raise NotRead(f"did not deliver everything within {silent:g} s") from None
-            met = True
-            continue
-        if not chunk and not ready and not met:
-            raise NotRead(f"is a pipe that nothing has opened for writing within {unopened:g} s")
-        if not chunk:
-            break
-        content, met = content + chunk, True
     return content
 
 

@@ -235,20 +235,11 @@ def _try(command: tuple[str, ...], limit: float) -> None:
     """Compile the test program and run it. CannotCompile, TimeoutExpired or OSError if that fails."""
     with cache.room() as place:
         (place / "source.c").write_text(_TRIAL)
-        program = _compiled(command, (), place, limit)
-        if _ran(program, place, limit)[0] != _ANSWER:
+        program = place / "trial"
+        program.write_bytes(_compiled(command, (), place, limit))
+        program.chmod(0o700)
+        if _run((str(program),), limit)[0] != _ANSWER:
             raise CannotCompile("what it compiles does not run")
-
-
-def _ran(program: bytes, place: Path, limit: float) -> tuple[int, str]:
-    try:
-        with cache.in_memory(program) as descriptor:  # the folder may be mounted noexec
-            return _run((f"/proc/self/fd/{descriptor}",), limit, passed=(descriptor,))
-    except OSError:
-        path = place / "trial"
-        path.write_bytes(program)
-        path.chmod(0o700)
-        return _run((str(path),), limit)
 
 
 def _compiled(command: tuple[str, ...], flags: Sequence[str], place: Path, limit: float) -> bytes:
@@ -265,9 +256,7 @@ def _compiled(command: tuple[str, ...], flags: Sequence[str], place: Path, limit
     return binary.read_bytes()
 
 
-def _run(
-    command: tuple[str, ...], limit: float, place: Path | None = None, passed: tuple[int, ...] = ()
-) -> tuple[int, str]:
+def _run(command: tuple[str, ...], limit: float, place: Path | None = None) -> tuple[int, str]:
     """Run a command in its own process group; returns its status and output, errors last.
 
     The whole group is killed if this raises.
@@ -284,7 +273,7 @@ def _run(
         with interrupts.held():
             process = subprocess.Popen(
                 command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                env=environment, pass_fds=passed, process_group=0 if os.name == "posix" else None,
+                env=environment, process_group=0 if os.name == "posix" else None,
             )  # fmt: skip
             _RUNNING[process] = threading.get_ident()
         out, err = process.communicate(timeout=limit)

@@ -1,9 +1,9 @@
 """The user's cache of derived code, compiled libraries and unit factors.
 
 An entry is a file STEM.DIGEST.SUFFIX in one folder. Its content is read and compared with the digest in its
-name before use; an entry that disagrees is removed, with a remark, and made again. An entry is written to a file in a
-temporary folder beside the entries, moved into place and never changed, so several processes may write at once. A
-library is loaded from a verified copy in memory, so later changes of the file do not affect a running process.
+name before use; an entry that disagrees is removed, with a remark, and made again. An entry is written to a file beside
+the entries, moved into place and never changed, so several processes may write at once. A library is loaded from a
+verified copy that is removed at once, so later changes of the file do not affect a running process.
 
 A folder that other users can write to is refused, because its content is executed. If no folder can be written, entries
 go to a private temporary folder that is removed with the process, or to memory, with one remark.
@@ -12,18 +12,16 @@ go to a private temporary folder that is removed with the process, or to memory,
 import atexit
 import errno
 import hashlib
-import itertools
 import os
 import stat
 import threading
 from collections.abc import Callable, Iterator
-from contextlib import ExitStack, contextmanager, suppress
-from functools import cache, lru_cache
+from contextlib import contextmanager, suppress
+from functools import lru_cache
 from pathlib import Path
 from typing import TypeVar
 
 from .files import write_all
-from .locks import TEMPORARY, held_folder, sweep, temporary
 from .remarks import say, say_once
 from .thread_caches import Locks
 
@@ -31,7 +29,7 @@ Loaded = TypeVar("Loaded")
 
 _NAMED = "WETDOUBLET_CACHE"
 _PRIVATE = "WETDOUBLET_PRIVATE_CACHE"  # environment variable that passes the folder of this run to workers
-_MAKING = ".making-"  # prefix of temporary folders
+_MAKING = ".making-"  # prefix of temporary files and folders
 _DIGITS = 32  # hexadecimal digits of the digest in a name
 _LARGEST = 1 << 28  # bytes; larger than any entry
 _ROOM = 16 << 20  # bytes; ample for a compilation
@@ -39,7 +37,6 @@ _PROBE = bytes(1 << 18)  # content of a trial entry, larger than most
 _MEMORY: dict[str, bytes] = {}  # entries kept in memory if no folder can be written
 _REFUSED: set[Path] = set()  # folders whose failure was reported
 _LOCK = threading.RLock()
-_LOADS = itertools.count()
 _BY_NAME = Locks()
 
 
@@ -95,56 +92,71 @@ def has(prefix: str) -> bool:
 
 
 def loaded(content: bytes, opened: Callable[[str], Loaded]) -> Loaded:
-    """The result of `opened` for the path of a private copy of a library with that content.
+    """The result of `opened` for the path of a private copy of a library with that content, removed afterwards.
 
     Raises:
         OSError, RuntimeError: from `opened`, if the library cannot be loaded.
     """
-    try:
-        with in_memory(content) as descriptor:
-            # the system's loader returns the old library for a path opened before
-            return opened(f"/proc/self{'/.' * next(_LOADS)}/fd/{descriptor}")
-    except (OSError, RuntimeError):  # no files in memory here, or not executable
-        with room() as place:
-            library = place / "library.so"
-            library.write_bytes(content)
-            return opened(str(library))
-
-
-@contextmanager
-def in_memory(content: bytes) -> Iterator[int]:
-    """Descriptor of an anonymous file in memory. OSError if not supported."""
-    if not hasattr(os, "memfd_create"):
-        raise OSError(errno.ENOSYS, "no files in memory")
-    descriptor = os.memfd_create("wetdoublet")
-    try:
-        write_all(descriptor, content)
-        yield descriptor
-    finally:
-        os.close(descriptor)
+    failure: Exception = OSError(errno.ENOSPC, "no room to load from", str(folder()))
+    for place in _places():
+        copy = (
+            place / f"{_MAKING}{os.urandom(8).hex()}.so"
+        )  # the loader returns the old library for a path opened before
+        try:
+            _write_new(copy, content)
+            return opened(str(copy))
+        except (OSError, RuntimeError) as error:  # no room, or a folder from which nothing may be executed
+            failure = error
+        finally:
+            with suppress(OSError):  # not there, or a system that keeps what is loaded
+                copy.unlink()
+    raise failure
 
 
 @contextmanager
 def room() -> Iterator[Path]:
-    """A private folder with space for compilation, removed at the end, or by the next process if this one is killed.
+    """A private folder with space for compilation, removed at the end.
 
     Raises:
         OSError: no folder has the space.
     """
-    import shutil  # slow import
+    import shutil  # slow imports
+    import tempfile
 
-    with ExitStack() as stack:
-        for place, prefix in ((folder(), _MAKING), *((root, TEMPORARY) for root in temporary())):
-            with suppress(OSError):
-                if prefix == _MAKING:
-                    _check_private(place, create=True)
-                _sweep(place, prefix)
-                if shutil.disk_usage(place).free >= _ROOM:
-                    path = stack.enter_context(held_folder(place, prefix))
-                    break
-        else:
-            raise OSError(errno.ENOSPC, "no room to compile in", str(folder()))
-        yield path
+    for place in _places():
+        with suppress(OSError):
+            if shutil.disk_usage(place).free >= _ROOM:
+                made = tempfile.TemporaryDirectory(prefix=_MAKING, dir=place, ignore_cleanup_errors=True)
+                break
+    else:
+        raise OSError(errno.ENOSPC, "no room to compile in", str(folder()))
+    with made as path:
+        yield Path(path)
+
+
+def _places() -> Iterator[Path]:
+    """Folders in which temporary files can be: the user's, then the system's."""
+    with suppress(OSError):
+        _check_private(folder(), create=True)
+        yield folder()
+    yield from _temporary()
+
+
+def _temporary() -> Iterator[Path]:
+    import tempfile
+
+    with suppress(OSError):
+        yield Path(tempfile.gettempdir())
+    if (shared := Path("/dev/shm")).is_dir():  # in memory; what is made there is private
+        yield shared
+
+
+def _write_new(path: Path, content: bytes) -> None:
+    descriptor = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600)
+    try:
+        write_all(descriptor, content)
+    finally:
+        os.close(descriptor)
 
 
 # ---- reading
@@ -250,17 +262,15 @@ def _refuse(reason: str, where: str | None) -> None:
 def _write_failure(place: Path, name: str, content: bytes) -> str:
     """Write an entry; returns why that failed, or "" if it did not. With an empty name only test the folder."""
     stem, _, suffix = name.rpartition(".")
+    file = place / f"{_MAKING}{os.urandom(8).hex()}"
     try:
         _check_private(place, create=place == folder())
-        _sweep(place, _MAKING)
-        with held_folder(place, _MAKING) as temporary_folder:
-            descriptor = os.open(temporary_folder / "entry", os.O_WRONLY | os.O_CREAT, 0o600)
-            try:
-                write_all(descriptor, content)
-            finally:
-                os.close(descriptor)
+        try:
+            _write_new(file, content)
             if name:
-                (temporary_folder / "entry").replace(place / f"{stem}.{digest_of(content)}.{suffix}")
+                file.replace(place / f"{stem}.{digest_of(content)}.{suffix}")
+        finally:
+            file.unlink(missing_ok=True)
     except OSError as error:
         return error.strerror or str(error)
     return ""
@@ -268,24 +278,22 @@ def _write_failure(place: Path, name: str, content: bytes) -> str:
 
 def _put_in_private_folder(name: str, content: bytes) -> str | None:
     """Create a private folder for this run and write an entry there; returns its path, None if that fails."""
-    for root in temporary():
-        stack = ExitStack()
+    import shutil
+    import tempfile
+
+    for root in _temporary():
         with suppress(OSError):
-            _sweep(root, TEMPORARY)
-            place = stack.enter_context(held_folder(root, TEMPORARY))
-            if not _write_failure(place, name, content):
-                os.environ[_PRIVATE] = str(place)
-                atexit.register(_leave, stack, os.getpid())
-                return str(place)
-        stack.close()
+            place = tempfile.mkdtemp(prefix="wetdoublet-cache-", dir=root)
+            if not _write_failure(Path(place), name, content):
+                os.environ[_PRIVATE] = place
+                atexit.register(_leave, place, os.getpid())
+                return place
+            shutil.rmtree(place, ignore_errors=True)
     return None
 
 
-def _leave(stack: ExitStack, owner: int) -> None:
+def _leave(place: str, owner: int) -> None:
+    import shutil
+
     if os.getpid() == owner:  # not a forked child
-        stack.close()
-
-
-@cache
-def _sweep(place: Path, prefix: str) -> None:
-    sweep(place, prefix)
+        shutil.rmtree(place, ignore_errors=True)

@@ -161,14 +161,14 @@ if sys.argv[1:]:
 
 @posix
 def test_a_full_disk(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
-    """Entries go to a private folder that workers share, one line says so; it ends with the process, or is swept."""
+    """Entries go to a private folder that workers share, one line says so; it ends with the process, but for a kill."""
     temporary = tmp_path / "temporary"
     temporary.mkdir()
     monkeypatch.setenv("TMPDIR", str(temporary))
     with small_disk(tmp_path / "disk", 1 << 18) as disk:
         fill(disk)
         monkeypatch.setenv("WETDOUBLET_CACHE", str(disk / "cache"))
-        for killed in (["killed"], []):
+        for killed in ([], ["killed"]):
             done = subprocess.run([sys.executable, "-c", _FULL, *killed], capture_output=True, text=True, check=False)
             size, place = done.stdout.split()
             assert (done.returncode, size) == (-signal.SIGKILL if killed else 0, "100000")
