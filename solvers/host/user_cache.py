@@ -29,7 +29,7 @@ Loaded = TypeVar("Loaded")
 
 _NAMED = "WETDOUBLET_CACHE"
 _PRIVATE = "WETDOUBLET_PRIVATE_CACHE"  # environment variable that passes the folder of this run to workers
-_MAKING = ".making-"  # prefix of temporary files and folders
+_MAKING = ".new-"  # prefix of temporary files and folders; `.making-` is what older versions remove
 _DIGITS = 32  # hexadecimal digits of the digest in a name
 _LARGEST = 1 << 28  # bytes; larger than any entry
 _ROOM = 16 << 20  # bytes; ample for a compilation

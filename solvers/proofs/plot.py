@@ -1,6 +1,5 @@
 """A proved map as a figure: cells by outcome, and in black what is undecided."""
 
-from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -11,12 +10,13 @@ from matplotlib.patches import Patch
 from ...generated.automaton import OUTCOMES
 from ..formatting import ticks
 from ..formatting.style import FILLS, INK, LETTERS, picture, plain_text, title
-from .cells import UNDECIDED, Cell
+from .proved_map import UNDECIDED, ProvedMap
 
 
 @picture
-def draw(name: str, cells: Sequence[Cell], shares: Mapping[str, float]) -> Figure:
+def draw(proved: ProvedMap) -> Figure:
     """Draw the cells over impact angle and Stokes number."""
+    cells, shares = proved.cells, proved.shares
     figure = Figure(figsize=(6.4, 5.2), layout="constrained")
     axes = figure.add_subplot()
     handles = []
@@ -36,7 +36,7 @@ def draw(name: str, cells: Sequence[Cell], shares: Mapping[str, float]) -> Figur
     axes.set_ylim(*(end(c.stokes[k] for c in cells) for k, end in enumerate((min, max))))
     axes.set_xlabel("impact angle $\\theta_0$ (deg)")
     axes.set_ylabel("Stokes number $St_n$")
-    title(figure, f"{plain_text(name)}: outcomes proved, cell by cell")
+    title(figure, f"{plain_text(proved.scene.name)}: outcomes proved, cell by cell")
     figure.legend(handles=handles, loc="outside lower center", ncols=2)
     return figure
 

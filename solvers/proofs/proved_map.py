@@ -19,11 +19,11 @@ from ..engines.interval.call import BOX, enclose
 from ..engines.interval.inputs import Inputs
 from ..errors import ComputationError, InputError
 from ..host.cores import usable_cores
+from ..host.pictures import Drawn
 from ..many.collide_many import collide_many
 from ..results import outcome_attributes
 from ..scene.origin import Recorded, provenance
 from ..scene.scene import Scene
-from .cells import UNDECIDED, Cell
 
 if TYPE_CHECKING:
     import xarray
@@ -32,10 +32,28 @@ DEPTH = 12  # halvings of a cell
 _POINTS = 6  # collisions along each side of a cell that say where a proof is worth a try
 _BOUNDED = 1.01  # narrower boxes are followed in steps at once
 _ROTATE = OUTCOMES.index(ROTATE)
+UNDECIDED = -1
+
+
+class Cell(NamedTuple):
+    """A box of Stokes numbers and angles (rad), and the outcome of all its collisions by number; -1 is undecided."""
+
+    stokes: tuple[float, float]
+    angle: tuple[float, float]
+    outcome: int
+
+    @property
+    def area(self) -> float:
+        """Its area over the logarithm of the Stokes number, and the angle."""
+        return math.log(self.stokes[1] / self.stokes[0]) * (self.angle[1] - self.angle[0])
+
+    def to_dict(self) -> dict[str, Any]:
+        """As in the JSON object of a map: the outcome in words, null for one that is undecided."""
+        return self._asdict() | {"outcome": None if self.outcome == UNDECIDED else OUTCOMES[self.outcome]}
 
 
 @dataclass(frozen=True)
-class ProvedMap(Recorded):
+class ProvedMap(Recorded, Drawn):
     """Cells that cover a rectangle of Stokes numbers and angles, each with one proved outcome, or undecided.
 
     Attributes:
@@ -48,6 +66,7 @@ class ProvedMap(Recorded):
         1.0
     """
 
+    _picture = "proofs.plot.draw"
     _keys = "shares undecided_area proofs cells"
 
     scene: Scene
@@ -88,17 +107,6 @@ class ProvedMap(Recorded):
     def __str__(self) -> str:
         lines = [f"{100 * share:8.3f} %  {name}" for name, share in self.shares.items()]
         return "\n".join([f"{len(self.cells)} cells, {self.proofs} boxes enclosed; shares of the area:", *lines])
-
-    def plot(self, path: str | Path | None = None) -> Any:
-        """Draw the cells; returns the matplotlib Figure.
-
-        Arguments:
-            path: file to write (.png, .pdf or .svg); None only draws.
-        """
-        from ..host.pictures import saved
-        from .plot import draw
-
-        return saved(lambda: draw(self.scene.name, self.cells, self.shares), path)
 
 
 def prove_map(
