@@ -126,11 +126,11 @@ def room() -> Iterator[Path]:
     for place in _places():
         with suppress(OSError):
             if shutil.disk_usage(place).free >= _ROOM:
-                made = tempfile.TemporaryDirectory(prefix=_MAKING, dir=place, ignore_cleanup_errors=True)
+                private = tempfile.TemporaryDirectory(prefix=_MAKING, dir=place, ignore_cleanup_errors=True)
                 break
     else:
         raise OSError(errno.ENOSPC, "no room to compile in", str(folder()))
-    with made as path:
+    with private as path:
         yield Path(path)
 
 
