@@ -24,7 +24,7 @@ SMALL = sample.Extent(audited=16, grid_angles=(30, 75), grid_points=6)
 @pytest.mark.parametrize("name", ["granulation", "pendulum", "granulation-dry-bridge"])
 def test_every_law_holds_on_the_presets(name: str) -> None:
     """Every law has a finding on every preset that has its subject, and none fails."""
-    found = {finding.name: finding for finding in verify.numeric(Scene.load(name), extent=SMALL)}
+    found = {finding.name: finding for finding in numeric(Scene.load(name), extent=SMALL)}
     strings = name == "pendulum"
     expected = LAWS + ["swinging"] * strings
     assert sorted(found) == sorted(expected)
