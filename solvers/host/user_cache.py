@@ -99,9 +99,8 @@ def loaded(content: bytes, opened: Callable[[str], Loaded]) -> Loaded:
     """
     failure: Exception = OSError(errno.ENOSPC, "no room to load from", str(folder()))
     for place in _places():
-        copy = (
-            place / f"{_MAKING}{os.urandom(8).hex()}.so"
-        )  # the loader returns the old library for a path opened before
+        # a new name: the loader returns the old library for a path opened before
+        copy = place / f"{_MAKING}{os.urandom(8).hex()}.so"
         try:
             _write_new(copy, content)
             return opened(str(copy))
