@@ -9,7 +9,8 @@
 #include <math.h>
 #include <string.h>
 
-enum { DEEPEST = 48 };
+enum { DEEPEST = 200 };
+static const double NARROWEST = 4e-15; /* interval, relative to its end: a step may be much longer than the time to a root */
 static const double NO_ROOT = 2.0;
 
 /* The single root in [low, high]; the polynomial has opposite signs at the ends. */
@@ -51,7 +52,7 @@ static double isolated(const double *a, int order, const double *b, double low, 
         return NO_ROOT;
     if (variations == 1)
         return refined(a, order, low, high, b[0] > 0.0 || (b[0] == 0.0 && sign < 0));
-    if (depth == DEEPEST)
+    if (depth == DEEPEST || high - low <= NARROWEST*high)
         return NO_ROOT; /* touches zero to rounding: not counted as a root */
     double left[TERMS + 1], right[TERMS + 1];
     memcpy(right, b, sizeof(double)*(size_t)(order + 1));

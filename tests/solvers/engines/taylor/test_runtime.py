@@ -202,3 +202,11 @@ def test_a_graze_is_decided(runtime: ctypes.CDLL, above: float, meets: bool):
     assert (found < 1.0) == meets
     if meets:
         assert found == pytest.approx(0.5 - math.sqrt(-above), rel=1e-6)
+
+
+@pytest.mark.parametrize("digits", [30, 47, 60])
+def test_two_roots_are_found_in_a_step_of_any_length(runtime: ctypes.CDLL, digits: int):
+    """A parabola that rises, and falls again, at once after the start of a step: 1 and 2 over 2^digits."""
+    scale = 2.0**digits
+    a = np.array([2.0, -3.0 * scale, scale**2])
+    assert runtime.first(_pointer(a), 2) == pytest.approx(1 / scale, rel=1e-12, abs=0.0)
