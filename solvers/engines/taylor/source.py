@@ -28,9 +28,9 @@ RUNTIME = Path(__file__).resolve().parent / "runtime"
 _LINE = re.compile(r'#(?<![^\n]#)(?:pragma once\n|include "([^"]+)"\n)')  # a search for "#" is faster than for lines
 _ONCE = "#pragma once"
 # What only kernels of some models contain is taken out of the others' text and digest.
-_OWN_EVENTS, _OWN_TERMS, _KINKS, _NO_MOMENTUM = (
+_OWN_EVENTS, _OWN_TERMS, _KINKS, _STOPPED = (
     re.compile(rf"#if {name}\n.*?^#endif /\* {name} \*/\n", re.MULTILINE | re.DOTALL)
-    for name in ("OWN_EVENTS", "OWN_TERMS", "KINKS", "!FILM_MOMENTUM && !OWN_EVENTS")
+    for name in ("OWN_EVENTS", "OWN_TERMS", "KINKS", r"\(KINKS \|\| !FILM_MOMENTUM\) && !OWN_EVENTS")
 )
 _GUARDS = re.compile(r"^#define (\w+)_kinks\(s\) (.*)$", re.MULTILINE)
 _STRUCT, _MEMBER = re.compile(r"typedef struct \{([^}]*)\} series;"), re.compile(r"\b(\w+)_series (\w+);")
@@ -191,4 +191,5 @@ def resolved(source: str, texts: Mapping[str, str]) -> str:
         return _LINE.sub(put, text)
 
     whole = _LINE.sub(put, source)
-    return whole if "#define FILM_MOMENTUM 0" in whole else _NO_MOMENTUM.sub("", whole)
+    may_stop = "#define FILM_MOMENTUM 0" in whole or "#define KINKS_OF" in whole
+    return whole if may_stop else _STOPPED.sub("", whole)

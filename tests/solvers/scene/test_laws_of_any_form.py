@@ -150,3 +150,33 @@ def test_a_film_alone_stops_head_on_what_its_momentum_does_not_prove(resistance:
     taken = 0.02 * (1.0 if "Piecewise" in resistance else math.pi / 4)  # St int dw/(1 + w^2), as the film takes it
     gap = float(found.trajectory.gap[-1]) / dict(own.si)["liquid.film_thickness"]
     assert -math.log(gap) - 2 * (1 - gap) + (1 - gap**2) / 2 == pytest.approx(taken, rel=1e-6)
+
+
+ENDS = (
+    'cut = quantity("cut", unit="m", default="12 um")\n'
+    'law("bridge", "ending", force=4*pi*a*sigma*Piecewise((1, x < cut), (0, True)))'
+)
+BEADS = {"particles__diameter": "300 um", "liquid__viscosity": 0.0185, "liquid__coating_thickness": "2 um"}
+
+
+def test_a_constant_force_ends_at_its_step(tmp_path: Path):
+    """Beyond the film, where steps have no end: impacts at one speed differ by the work between their steps."""
+    own, work = scene(tmp_path, ENDS, "glass-beads-water", **BEADS), []
+    pull = 4 * math.pi * own.particles.reduced_radius * own.bridge.surface_tension
+    for speed in (0.52, 0.53, 0.54, 0.55, 0.56, 0.6):
+        squares = []
+        for cut in ("10 um", "12 um"):
+            found = collide(own.with_entries({"custom.cut": cut}), speed=speed, angle=0, engine="taylor", rtol=1e-11)
+            assert (found.outcome, found.steps < 200) == ("bounce", True)
+            squares.append((found.restitution * found.speed) ** 2)
+        work.append(own.particles.reduced_mass * (squares[0] - squares[1]) / 2)
+    assert work == pytest.approx([pull * 2e-6] * len(work), rel=1e-7)
+
+
+def test_what_the_film_stops_beyond_the_step_of_a_force_sticks(tmp_path: Path):
+    """Where no force is left but what rounding leaves: it stays where it has stopped, beyond the gap of the step."""
+    own = scene(tmp_path, ENDS, "glass-beads-water", **BEADS | {"liquid__coating_thickness": "20 um"})
+    for speed in (0.842457, 0.842466, 0.84256, 0.8428, 0.8435):
+        found = collide(own, relative_speed=speed, angle=0, engine="taylor", trajectory=True)
+        assert (found.outcome, found.certified, found.steps < 300) == ("stick", False, True)
+        assert 12e-6 < float(found.trajectory.gap[-1]) < 20e-6

@@ -94,11 +94,11 @@ static void end_sticks(queue *q, lanes *l, fixed *f)
     EACH_OF(lane, bits(stays & provable(q, l->closing)))
         sticks_for_good(q, l, f, lane, CHATTER_PROVES);
 #endif
-#if !FILM_MOMENTUM && !OWN_EVENTS
+#if (KINKS || !FILM_MOMENTUM) && !OWN_EVENTS
     mask stopped = stopped_for_good(l, f);
     EACH_OF(lane, bits(stopped) ? bits(stopped & provable(q, l->closing)) : 0)
         sticks_for_good(q, l, f, lane, 0);
-#endif /* !FILM_MOMENTUM && !OWN_EVENTS */
+#endif /* (KINKS || !FILM_MOMENTUM) && !OWN_EVENTS */
 #if SPACE && PROOF_BY_ENERGY
     mask doubled = ((l->steps & (l->steps + 1)) == 0) & (l->steps > 8); /* soon and ever more rarely, then at intervals */
     mask late = l->alive & (doubled | ((l->steps & (INTERVAL - 1)) == INTERVAL - 1));

@@ -28,16 +28,23 @@ static int ended_at_rest(queue *q, lanes *l, fixed *f, mask still)
 }
 #endif
 
-#if !FILM_MOMENTUM && !OWN_EVENTS
+#if (KINKS || !FILM_MOMENTUM) && !OWN_EVENTS
+/* Over m v0^2/x0: of a bridge that has ended at a step, what the rounding of kinks leaves (derive/user/kinks.py). */
+static const double NO_FORCE = 1e-12;
+
 /* Lanes that the film has stopped where no force acts: an equilibrium. Decides a stick, but is no certificate: that velocity
- * has been rounded to zero. With a force proportional to it, the film's momentum proves such sticks before they move.
+ * has been rounded to zero. With a force proportional to it, the film's momentum proves such sticks before they move, but
+ * beside no bridge.
  */
 static mask stopped_for_good(const lanes *l, const fixed *f)
 {
     mask still = l->alive & NOT(l->resting) & (l->y[NORMAL_VELOCITY] == 0.0);
-    return bits(still) ? still & (inward_force(&f->c, l->y) == 0.0) : still;
+    if (!bits(still))
+        return still;
+    vec inward = inward_force(&f->c, l->y);
+    return still & (inward >= 0.0) & (inward <= NO_FORCE);
 }
-#endif /* !FILM_MOMENTUM && !OWN_EVENTS */
+#endif /* (KINKS || !FILM_MOMENTUM) && !OWN_EVENTS */
 #if OWN_EVENTS
 /* In x0/v0, and rad: a doublet that has rested and turned for so long counts as a stick, without proof. */
 static const double LONGEST_REST = 1e12, FARTHEST_TURN = 6300.0;
