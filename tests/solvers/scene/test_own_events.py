@@ -276,3 +276,56 @@ def test_no_stick_is_proved_before_the_second_of_two_events(tmp_path: Path):
         outcomes[name] = collide_many(own, stokes=np.linspace(0.005, 0.06, 23), angle=ANGLE)["outcome"].values
     assert (outcomes["alone"] > 0).all()
     assert all((outcomes[name] == outcomes["alone"]).all() for name in ("behind", "marked"))
+
+
+# Equal spheres whose liquid turns to glass again and again, ever deeper in the film, while the bridge holds them.
+CHATTERS = {
+    "particles.reduced_radius": 8.4368e-06, "particles.density": 5920.68, "particles.roughness": 2.28375e-11,
+    "particles.dry_restitution": 0.3, "liquid.viscosity": 0.0013101, "liquid.film_thickness": 1.45882e-07,
+    "liquid.glass_transition_pressure": 286324.0, "bridge.surface_tension": 0.571652, "bridge.volume": 0.00792969,
+    "bridge.contact_angle": 1.29799, "impact.stokes": 1.85967, "impact.angle": 0.729151,
+}  # fmt: skip
+
+
+def test_chatter_below_the_barrier_is_a_proved_stick_beside_an_event(tmp_path: Path):
+    """The event needs a speed beyond the film, where the energy that is left does not lead."""
+    path = tmp_path / "snap.py"
+    path.write_text(
+        '"""x"""\nfrom wetdoublet.derive.user import *\n'
+        'rate = quantity("rate", unit="1/s", default="1 1/s", meaning="of snapping")\n'
+        'event("snap", guard=rate - u/x, where="opening beyond the film", ends="separated")\n'
+    )
+    plain = Scene("chatters", tuple(CHATTERS.items()))
+    own = plain.with_model(path)
+    own = own.with_entries({"custom.rate": 0.1 * own.need_impact()[0] / own.liquid.film_thickness})
+    found, longer = collide(own, engine="taylor"), 20 * own.liquid.film_thickness / own.need_impact()[0]
+    assert (found.outcome, found.certified) == ("stick", True)
+    assert found.until < longer
+    assert found.steps < 200
+    for scene in (plain, own):  # chatter goes on, and does not lead there
+        followed = collide(scene, engine="taylor", until=0.1 * longer)
+        assert "film edge" not in [event.kind for event in followed.events]
+
+
+def test_a_guard_that_swings_is_not_passed_while_the_doublet_creeps(tmp_path: Path):
+    """A gap below height cos(rate t): within one period after the gap has fallen below the height, for good."""
+    path = tmp_path / "shaken.py"
+    path.write_text(
+        '"""x"""\nfrom wetdoublet.derive.user import *\n'
+        'height = quantity("height", unit="m", default="1 um", meaning="amplitude")\n'
+        'rate = quantity("rate", unit="1/s", default="0 1/s", bounds=">= 0", meaning="of the oscillation")\n'
+        'event("touch", guard=x - height*cos(rate*t), where="closing", jump={u: u + v0/100}, releases=m*v0**2)\n'
+    )
+    entries = {
+        "particles.reduced_radius": 0.000400493, "particles.density": 4136.17, "particles.roughness": 5.95141e-10,
+        "particles.dry_restitution": 0.3, "liquid.viscosity": 4.39362, "liquid.film_thickness": 4.68712e-07,
+        "liquid.glass_transition_pressure": 1632150000.0, "bridge.surface_tension": 0.0699936,
+        "bridge.volume": 0.000182508, "bridge.contact_angle": 0.0, "impact.stokes": 0.0166261, "impact.angle": 0.925123,
+    }  # fmt: skip
+    own = Scene("creeps", tuple(entries.items())).with_model(path)
+    film, times = own.liquid.film_thickness, []
+    for rate in (0.0, 10.0 * own.need_impact()[0] / film):
+        found = collide(own.with_entries({"custom.height": 0.3 * film, "custom.rate": rate}), engine="taylor")
+        [touch] = [event.time for event in found.events if event.kind == "touch"]
+        times.append(touch)
+    assert times[0] < times[1] < times[0] + 2 * math.pi / rate

@@ -73,6 +73,19 @@ OUTLINE void rates_at(slow *w, const vec *y, vec *rate)
 #endif
 }
 
+#if OWN_EVENTS
+/* The series of a motion with these rates for good. */
+static const series *along_rates(series *s, const vec *y, const vec *rate)
+{
+    vec (*a)[TERMS] = (vec (*)[TERMS])s;
+    for (int state = 0; state < STATES; state++) {
+        memset(a[state], 0, sizeof a[state]);
+        a[state][0] = y[state];
+        a[state][1] = rate[state];
+    }
+    return s;
+}
+#endif /* OWN_EVENTS */
 /* Central differences: extrapolation does not remove an error of the Jacobian from the stiff part. */
 static void find_rates(slow *w, const vec *y)
 {
@@ -300,6 +313,9 @@ OUTLINE void crawl(queue *q)
         h = vec_min(h, MOST_TURNED/w.turning.rate);
 #endif
         rates_at(&w, l.y, rate);
+#if OWN_EVENTS
+        h = guards_resolved(along_rates(&w.s, l.y, rate), &l, &f, h);
+#endif /* OWN_EVENTS */
         find_rates(&w, l.y);
         vec error = extrapolated(&w, &l, &f, rate, h, change, &clear);
         mask taken = busy & clear & (error <= 1.0);

@@ -66,7 +66,7 @@ enum { OWN_PARTS = 24 }; /* of the film, and as many beyond it, within which the
 static inline vec gap_of_part(vec start, vec end, int k)
 {
     double part = (double)(k < OWN_PARTS ? k : k - OWN_PARTS)/OWN_PARTS;
-    return k < OWN_PARTS ? start*vec_exp(vec_log(start)*-part) : 1.0 + (end - 1.0)*part;
+    return k < OWN_PARTS ? start*vec_exp(vec_log(start)*-part) : vec_exp(vec_log(end)*part);
 }
 
 /* The rise of the effective potential from one gap to the next. */
@@ -114,9 +114,12 @@ static mask own_events_excluded(const constants *c, const vec *y, vec energy, ma
     memcpy(there, y, sizeof there);
     for (int k = 1; k <= 2*OWN_PARTS && bits(excluded); k++) {
         vec next = gap_of_part(start, end, k), above = height + risen(c, y, last, next);
-        /* rotation falls and attraction rises: their sum may have a minimum in between */
+        /* rotation falls and attraction rises: their sum may have a minimum in between, attraction alone where its force may rise */
         vec turning = energy_at(c, y, next), pulled = above - turning;
-        vec least = vec_min(rotating, turning) + vec_min(attracted, pulled) - vec_abs(pulled - attracted);
+        vec least = vec_min(rotating, turning) + vec_min(attracted, pulled);
+#if (BRIDGE && !defined(BRIDGE_FORCE_FALLS)) || (ATTRACTION && !defined(ATTRACTION_FORCE_FALLS))
+        least -= vec_abs(pulled - attracted);
+#endif
         mask reached = energy > least;
         vec speed = vec_sqrt(2.0*vec_max(energy - least, splat(0.0)));
         for (int which = 0; which < OWN_EVENTS; which++) {
