@@ -31,7 +31,7 @@ def earlier(file: Path) -> UserModel:
 
 
 def changed(before: UserModel, after: UserModel) -> list[str]:
-    """Lines on the terms of the equations that differ, and on laws, groups, events and invariants that came or went."""
+    """Lines on the terms of the equations that differ, and on what is declared that came or went."""
     models = (before, after)
     laws = tuple(dict.fromkeys((law.slot, law.name) for model in reversed(models) for law in model.laws))
     slots, spread = {slot for slot, _ in laws}, any(law.spread for model in models for law in model.laws)
@@ -39,7 +39,7 @@ def changed(before: UserModel, after: UserModel) -> list[str]:
     changes = compare(*(equations(_texts(model, shape, laws)) for model in models))
     lines = [f"Against {before.name}, {count(changes)}" + (":" if changes else "."), *in_lines(changes), ""]
     old, new = (list(_listed(model)) for model in models)
-    for kind in ("law", "term", "group", "event", "criterion", "conserved"):
+    for kind in ("law", "quantity", "term", "group", "event", "criterion", "conserved"):
         rows = [("removed", text) for heading, text in old if heading == kind and (heading, text) not in new]
         rows += [("added", text) for heading, text in new if heading == kind and (heading, text) not in old]
         lines += [f"{kind:<10} {word:<8} {text}".rstrip() for word, text in rows or [("as before", "")]]
@@ -65,6 +65,9 @@ def _law(model: UserModel, slot: str, name: str) -> Law | None:
 
 def _listed(model: UserModel) -> Iterator[tuple[str, str]]:
     yield from (("law", f"{law.slot} {law.name}") for law in model.laws)
+    for item in model.declarations.quantities.values():
+        default = "" if item.default is None else f", default {item.default}"
+        yield "quantity", f"{item.symbol} [{item.unit}] {item.bounds.text}{default}"
     yield from (("term", f"energy {energy}") for energy in model.declarations.energies)
     yield from (("term", f"force on the {on}: {force}") for on, force in model.declarations.forces)
     yield from (("criterion", f"{criterion.word}: at a gap of {criterion.gap}") for criterion in model.criteria)

@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 
 from ...generated.automaton import OUTCOMES
 from ..formatting.markdown import aligned
+from ..scene.scenefile import written
+from ..scene.schema import MEETING
 from .differences import Differences, OnMap
 
 _SHORT = dict(zip(OUTCOMES, ("S", "SRS", "B"), strict=True))
@@ -19,11 +22,24 @@ def as_text(differences: Differences) -> str:
     changes = differences.changes
     lines = [f"A: {differences.names[0]}", f"B: {differences.names[1]}", ""]
     lines += [count(changes) + (":" if changes else ""), *in_lines(changes)]
+    if entries := list(_entries(differences)):
+        lines += ["", "entries that differ:", "", *aligned([("entry", "A", "B"), *entries])]
     if differences.probes:
         lines += ["", *aligned([_HEADS, *_rows(differences)]), "", *_lines(differences)]
     if differences.on_map:
         lines += ["", _on_map(differences.on_map)]
     return "\n".join(lines)
+
+
+def _entries(differences: Differences) -> Iterator[tuple[str, str, str]]:
+    """Name and both values of entries that differ, as the scenes give them, but for the impact, of which there are many."""
+    given = [dict(scene.given) for scene in differences.scenes]
+    values = [scene.entries for scene in differences.scenes]
+    for name in dict.fromkeys(name for side in values for name in side):
+        first, other = (side.get(name) for side in values)
+        if first != other and name not in MEETING:
+            cells = ("-" if name not in side else str(written(name, side[name])) for side in given)
+            yield (name, *cells)
 
 
 def _on_map(what: OnMap) -> str:

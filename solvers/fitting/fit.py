@@ -18,7 +18,7 @@ from ..model.validity import warn
 from ..scene.scene import Scene
 from .ends import End
 from .examine import examine
-from .free_entries import IDENTIFIED, NOT_AT_ALL, FreeEntries, Prior, combinations
+from .free_entries import IDENTIFIED, NOISE, NOT_AT_ALL, FreeEntries, Prior, combinations
 from .joint import Joint, Part, problem, worded
 from .likelihood import KNEE, Evaluation
 from .measurements import UNKNOWN, Measurements
@@ -255,9 +255,12 @@ def _remarks(
         misfits = residual[np.isfinite(residual)]
         if misfits.size and chi2.sf(float((misfits**2).sum()), misfits.size) < _UNLIKELY:
             rms = float(np.sqrt((misfits**2).mean()))
+            factor = f"{NOISE}{name}"
+            is_free = any(factor in member.entries for member in parts)
+            advice = f"{factor} is free, and goes no further" if is_free else f"free {factor} estimates the noise"
             remarks.append(
                 f"Residuals of {name} are {rms:.2g} times what scatter and noise allow: the model does not fit, or "
-                f"they are larger than given. The intervals are then too narrow; free noise.{name} estimates the noise."
+                f"the noise is larger than given. The intervals are then too narrow; {advice}."
             )
     if not abs(error) < _COARSE:
         remarks.append(

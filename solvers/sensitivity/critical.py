@@ -240,7 +240,7 @@ def _of_material(
             sentences = [f"no derivatives: {slopes.reason}"] if slopes.reason else []
             sentences += [text for name in names if wrt != "all" for text in _extremes(scene, row, name, rtol)]
             row = replace(row, gradient=gradient, elasticity=elasticity, sentences=(*row.sentences, *sentences))
-        rows.append(row)
+        rows.append(replace(row, sentences=(*row.sentences, *[material.remark] * bool(material.remark))))
     return rows
 
 

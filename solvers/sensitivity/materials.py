@@ -18,11 +18,12 @@ _TABLE = "a CSV file whose first line names the columns, such as particles.diame
 
 @dataclass(frozen=True)
 class Material:
-    """A scene with its name in the table, and standard deviations of its entries by dotted name."""
+    """A scene with its name in the table, standard deviations of its entries by dotted name, and a remark if any."""
 
     label: str
     scene: Scene
     uncertainty: Mapping[str, Any] = field(default_factory=dict)
+    remark: str = ""
 
 
 def materials_of(source: Any, changes: Mapping[str, Any] | None = None) -> list[Material]:
@@ -71,7 +72,9 @@ def materials_of(source: Any, changes: Mapping[str, Any] | None = None) -> list[
         except InputError as error:
             where = f"{table}, {label}{f' (line {line})' * bool(names)}, {error.field}"
             raise InputError(where, error.value, error.accepted, error.problem) from None
-        rows.append(Material(label, scene, spread))
+        empty = ", ".join(name for name, value in cells.items() if name in FIELDS and value is None)
+        remark = f"empty in the table and left as in {cells.get('scene') or 'a scene without it'}: {empty}"
+        rows.append(Material(label, scene, spread, remark if empty else ""))
     return rows
 
 

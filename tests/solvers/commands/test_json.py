@@ -9,6 +9,8 @@ import numpy as np
 import pytest
 import xarray
 from wetdoublet.solvers import Scene, collide
+from wetdoublet.solvers.export.differences import Differences
+from wetdoublet.solvers.export.text import as_text
 from wetdoublet.solvers.results import UNITS
 
 from ...helpers.command import run
@@ -92,6 +94,15 @@ def test_differences_as_an_object() -> None:
         own = collide("granulation", stokes=probe["stokes"], angle=probe["angle"])
         assert own.outcome == outcome
         assert own.restitution == pytest.approx(restitution, rel=1e-8)
+
+
+def test_differences_name_entries(mine: Path) -> None:
+    """The default of a model's quantity, and what is changed; the speeds compared are those of both sides."""
+    scene = Scene.load("granulation", model=mine)
+    text = as_text(Differences(("A", "B"), (), (), (), None, (scene, scene.with_entries({"custom.yield_stress": 5}))))
+    assert "entries that differ:\n\nentry                A     B\ncustom.yield_stress  0 Pa  5.0 Pa" in text
+    text = as_text(Differences(("A", "B"), (), (), (), None, (scene, scene.with_entries({"liquid.viscosity": 3}))))
+    assert "impact" not in text
 
 
 def test_a_collision_can_be_repeated_from_its_object() -> None:

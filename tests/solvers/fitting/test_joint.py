@@ -96,6 +96,18 @@ def test_noise_is_that_of_the_residuals():
     assert found.log_likelihood == pytest.approx(normal.sum(), abs=0.01)
 
 
+@pytest.mark.parametrize("free", [VISCOSITY, NOISE])
+def test_larger_noise_than_may_be_free_is_not_asked_to_be_freed_again(free):
+    """Residuals of eight standard deviations: the remark names the noise to free, or that it goes no further."""
+    speed, zero = np.linspace(0.5, 1.0, 12), np.zeros(12)
+    exact = collide_many("pendulum", speed=speed, angle=zero).restitution.values
+    off = 0.04 * (-1.0) ** np.arange(12)
+    seen = {"restitution": (exact + off, np.full(12, 0.005))}
+    data = Measurements(speed, zero, 1e-7 * speed, np.full(12, 1e-7), np.full(12, 2), seen)
+    [remark] = [text for text in fit("pendulum", data, free, starts=0).remarks if text.startswith("Residuals")]
+    assert (f"free {NOISE} estimates" in remark, "goes no further" in remark) == (free != NOISE, free == NOISE)
+
+
 @pytest.mark.slow
 @pytest.mark.usefixtures("optimized")
 def test_command(tables, tmp_path):

@@ -90,8 +90,11 @@ def test_generate_says_what_has_changed(mine: Path, tmp_path: Path):
     assert "events, lost\n  added    2 - normal_velocity\n" in done
     assert "group      as before\nevent      added    lost: watched always; cut off: a stick\n" in done
     assert "conserved  removed  angular momentum L" in done and f"written  {folder / 'laws/arm_surface.py'}\n" in done
+    later = later.replace('default="0 Pa"', 'default="12 Pa"')
     (tmp_path / "mine.py").write_text("import numpy\n" + later)  # may read anything
-    assert "\nlaw        removed  arm surface\nterm       as before\ngroup      as before\n" in run(*arguments).output
+    done = run(*arguments).output
+    assert "\nlaw        removed  arm surface\nquantity   removed  yield_stress [Pa] >= 0, default 0 Pa\n" in done
+    assert "\nquantity   added    yield_stress [Pa] >= 0, default 12 Pa\nterm       as before\ngroup      as" in done
     assert not run(*arguments).output.startswith("nothing")
 
 

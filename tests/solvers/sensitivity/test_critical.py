@@ -106,8 +106,18 @@ def test_a_table_of_materials(tmp_path: Path) -> None:
     [alone] = critical(Scene.load("lactose-pvp").with_entries(entries), angle=math.radians(20)).rows
     assert rows[3]["relative_speed"] == pytest.approx(alone.relative_speed, rel=1e-7)
     assert [each["interval"] is None for each in rows] == [False, False, True, True]
+    assert not rows[3]["sentences"]  # a standard deviation may be left out
     assert plot.stat().st_size > 10_000
     assert "coarse" in run("critical", tmp_path / "materials.csv").stdout
+
+
+def test_an_empty_cell_is_said() -> None:
+    """The row has the scene's own value, and a sentence names the entry and the scene."""
+    table = {"scene": ["granulation"] * 2, "liquid.viscosity": ["1 Pa s", ""], "grade": ["thin", "as it is"]}
+    thin, plain = critical(table, angle=0.0).rows
+    [own] = critical("granulation", angle=0.0).rows
+    assert (plain.relative_speed, thin.sentences) == (own.relative_speed, ())
+    assert plain.sentences == ("empty in the table and left as in granulation: liquid.viscosity",)
 
 
 def test_a_table_may_have_an_angle_for_each_row(tmp_path: Path) -> None:
