@@ -32,7 +32,7 @@ def as_text(differences: Differences) -> str:
 
 
 def _entries(differences: Differences) -> Iterator[tuple[str, str, str]]:
-    """Name and both values of entries that differ, as the scenes give them, but for the impact, of which there are many."""
+    """Name and both values of entries that differ, as the scenes give them; impacts apart."""
     given = [dict(scene.given) for scene in differences.scenes]
     values = [scene.entries for scene in differences.scenes]
     for name in dict.fromkeys(name for side in values for name in side):

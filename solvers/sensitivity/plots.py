@@ -12,6 +12,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from ..collision.text import name_of
+from ..formatting import ticks
 from ..formatting.style import LONGEST, NOTE, broken, picture, plain_text, title
 from ..results import BY_DEFAULT, DEFINITIONS
 from ..scene.held import AXIS_LABELS
@@ -24,6 +25,9 @@ _COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9")
 _MOST = 16  # most bars in a panel
 _SEEN = 0.005  # shortest bar, relative to a panel's longest
 _LONG = 6  # most columns of panels
+_WIDE = 4  # largest speed over the smallest, from which the axis is logarithmic
+_BAR: Any = {"linewidth": 3, "alpha": 0.4}  # of an interval
+_LABEL = 30  # most characters of a material's name on the axis
 _CURVES, _PANELS, _ACROSS = 4, 6, 3  # panels of results over impacts; of changes of outcome, and side by side
 _NAMES = {
     "impact.speed": "normal speed, Stokes",
@@ -191,24 +195,35 @@ def draw_critical(critical: Any) -> Figure:
     """Relative speed up to which impacts stick, over the angle; by material where each has one angle."""
     lines = critical.rows
     labels = list(dict.fromkeys(row.material for row in lines))
-    by_material = len(labels) == len(lines) > 1
+    by_material, several = len(labels) == len(lines) > 1, len(labels) > 1
+    spread = [row.interval is not None and None not in row.interval for row in lines]
+    above = [row.bounces_above if row.bounces_above != row.relative_speed else None for row in lines]
     figure = Figure(figsize=(6.4, 4.0), layout="constrained")
-    axes = figure.subplots()
+    axes, speeds = figure.subplots(), []
     for label in [""] if by_material else labels:
-        rows = [row for row in lines if by_material or row.material == label]
-        x = [float(k) if by_material else math.degrees(row.angle) for k, row in enumerate(rows)]
-        y = [math.nan if row.relative_speed is None else row.relative_speed for row in rows]
-        (line,) = axes.plot(x, y, "o" if by_material else "o-", label=label or None)
-        for at, row in zip(x, rows, strict=True):
-            ends = [end for end in row.interval or () if end is not None]
-            if len(ends) == 2:
-                axes.plot([at, at], ends, "-", color=line.get_color(), linewidth=3, alpha=0.4)
-            if row.bounces_above not in (None, row.relative_speed):
-                axes.plot(at, row.bounces_above, "^", color=NOTE, markersize=4)
+        places = [k for k, row in enumerate(lines) if by_material or row.material == label]
+        x = [float(k) if by_material else math.degrees(lines[k].angle) for k in places]
+        y = [math.nan if lines[k].relative_speed is None else lines[k].relative_speed for k in places]
+        named = plain_text(label) if several and not by_material else None
+        (line,) = axes.plot(x, y, "o" if by_material else "o-", label=named)
+        for at, k in zip(x, places, strict=True):
+            if spread[k]:
+                axes.plot([at, at], lines[k].interval, "-", color=line.get_color(), **_BAR)
+            if above[k] is not None:
+                axes.plot(at, above[k], "^", color=NOTE, markersize=4)
+            speeds += [speed for speed in (above[k], *(lines[k].interval or ()), lines[k].relative_speed) if speed]
+    axes.plot([], [], "o", color=NOTE, label="sticks up to")
+    if any(spread):
+        axes.plot([], [], "-", color=NOTE, label="95 % interval", **_BAR)
+    if any(speed is not None for speed in above):
+        axes.plot([], [], "^", color=NOTE, markersize=4, label="bounces above")
+    axes.legend()
     if by_material:
-        axes.set_xticks(range(len(labels)), labels, rotation=30, ha="right")
-    elif len(labels) > 1:
-        axes.legend()
-    axes.set(yscale="log", xlabel="" if by_material else "impact angle (deg)", ylabel="relative speed (m/s)")
-    axes.set_title("sticks up to (circles, bars: 95 % interval); bounces above (triangles)", fontsize=9)
+        words = [plain_text(textwrap.shorten(label, _LABEL)) for label in labels]
+        axes.set_xticks(range(len(labels)), words, rotation=30, ha="right")
+        axes.margins(x=0.5 / len(labels))
+    axes.set(xlabel="" if by_material else "impact angle (deg)", ylabel="relative speed (m/s)")
+    if speeds and max(speeds) > _WIDE * min(speeds):
+        axes.set_yscale("log")
+        ticks.plain(axes.yaxis)
     return figure

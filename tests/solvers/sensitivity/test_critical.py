@@ -1,12 +1,16 @@
 """The speed up to which particles stick."""
 
+import io
 import json
 import math
+import re
 from pathlib import Path
 
 import numpy as np
 import pytest
 from wetdoublet.solvers import InputError, Scene, collide, critical
+from wetdoublet.solvers.sensitivity.critical_speeds import Critical, CriticalSpeed
+from wetdoublet.solvers.sensitivity.plots import draw_critical
 
 from tests.helpers.command import run
 
@@ -109,6 +113,34 @@ def test_a_table_of_materials(tmp_path: Path) -> None:
     assert not rows[3]["sentences"]  # a standard deviation may be left out
     assert plot.stat().st_size > 10_000
     assert "coarse" in run("critical", tmp_path / "materials.csv").stdout
+
+
+def test_where_the_model_ends_is_said() -> None:
+    """The sentences of a collision just above the speed, once for all angles that have them."""
+    thick = Scene.load("granulation").with_entries({"liquid.film_thickness": "30 um"})
+    found = critical(thick, angle=["0 deg", "40 deg"])
+    for row in found.rows:
+        faster = collide(thick, relative_speed=1.001 * row.relative_speed, angle=row.angle, ledger=False)
+        assert row.validity == faster.validity
+    assert str(found).count("\nthroughout: x0/a = 0.6 is above 0.2: ") == 1
+    assert critical("granulation", angle=0.0).rows[0].validity == ()
+
+
+def test_the_picture_names_its_marks() -> None:
+    """Speeds are plain numbers on the axis, a legend says what circles, bars and triangles are, names are whole."""
+    rows = tuple(
+        CriticalSpeed(name, 0.0, (0.1, 1.0), relative_speed=v, interval=(0.9 * v, 1.1 * v), bounces_above=2 * v)
+        for name, v in (("$a$_1", 1.0), ("b", 1.3), ("c", 9.0))
+    )
+    for shown, scale in ((rows, "log"), (rows[:2], "linear")):
+        figure = draw_critical(Critical(shown, None, 1e-9))
+        figure.savefig(io.BytesIO())
+        [axes] = figure.axes
+        assert axes.get_yscale() == scale
+        assert all(re.fullmatch(r"[\d.]*", text.get_text()) for text in axes.get_yticklabels())
+        words = [text.get_text() for text in axes.get_legend().get_texts()]
+        assert words == ["sticks up to", "95 % interval", "bounces above"]
+        assert axes.get_xticklabels()[0].get_text() == r"\$a\$_1"
 
 
 def test_an_empty_cell_is_said() -> None:
