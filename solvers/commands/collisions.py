@@ -18,7 +18,18 @@ from ..scene.held import NAMES
 from ..scene.schema import FIELDS
 from . import texts
 from .bar import Bar
-from .options import Entries, Impact, Request, SceneRequest, Shown, Varied, Written, dataset_text, refuse
+from .options import (
+    Entries,
+    Impact,
+    Request,
+    SceneRequest,
+    Shown,
+    Varied,
+    Written,
+    check_one_speed,
+    dataset_text,
+    refuse,
+)
 from .signature import command, passed
 
 if TYPE_CHECKING:
@@ -203,33 +214,36 @@ def prove(
 
     Options:
         --stokes VALUE: Stokes number; edges of the cells of a map, LO:HI:N or log:LO:HI:N; LO:HI of a boundary.
-        --speed VALUE: Normal speed instead, as "0.4 m/s", of a single proof.
-        --relative-speed VALUE: Magnitude of the relative velocity instead, of a single proof.
+        --speed VALUE: Normal speed instead, as "0.4 m/s", or edges of the cells; not of a boundary.
+        --relative-speed VALUE: Magnitude of the relative velocity instead, or edges of the cells; not of a boundary.
         --angle VALUE: Impact angle in degrees; edges of the cells of a map, LO:HI:N, from 0 on.
         --within REL|NAME=RANGE: Prove it for a box: a relative uncertainty of the impact, or of an entry NAME=REL, or
             both its ends NAME=LO:HI, as the scene gives it; repeatable.
         --map (cells): Prove a map cell by cell; --plot draws it.
         --boundary: Find two Stokes numbers of opposite proved outcomes, as near as they get.
-        --depth N: Halvings of a cell of the map that is not proved [12].
+        --depth N: Halvings of a cell of the map that is not proved [12]; more leave less undecided.
     """
-    mapped = cells or boundary
+    mapped, by = cells or boundary, "stokes"
     refuse({"--boundary": "--map" * (cells and boundary)}, "one of the two", "is asked for, too")
     refuse({"--within": mapped and within}, "a single proof", "is given together with a map or a boundary")
     refuse({"--depth": not cells and depth}, "--depth with --map")
-    if mapped:
+    if cells:
+        check_one_speed(impact)
+        by = next((name for name in impact if name != "angle"), by)
+    elif boundary:
         speeds = {texts.flag(name): impact.get(name) for name in ("speed", "relative_speed")}
         refuse(speeds, "Stokes numbers, --stokes")
-        ends = ("LO:HI:N or log:LO:HI:N", "LO:HI:N in degrees") if cells else ("LO:HI", "an angle in degrees")
-        for name, accepted in zip(("stokes", "angle"), ends, strict=True):
-            if name not in impact:
-                raise InputError(f"--{name}", None, accepted)
+    ends = ("LO:HI:N or log:LO:HI:N", "LO:HI:N in degrees") if cells else ("LO:HI", "an angle in degrees")
+    for name, accepted in zip((by, "angle"), ends, strict=True) if mapped else ():
+        if name not in impact:
+            raise InputError(texts.flag(name), None, accepted)
     if cells:
         edges: dict[str, Any] = {
-            name: texts.entry_range(FIELDS[f"impact.{name}"], impact[name], f"--{name}") for name in impact
+            name: texts.entry_range(FIELDS[f"impact.{name}"], impact[name], texts.flag(name)) for name in impact
         }
-        for name, accepted in zip(("stokes", "angle"), ends, strict=True):
+        for name, accepted in zip((by, "angle"), ends, strict=True):
             if len(edges[name]) < 2:
-                raise InputError(f"--{name}", impact[name], accepted, "is one edge, and a cell has two")
+                raise InputError(texts.flag(name), impact[name], accepted, "is one edge, and a cell has two")
         scene = request.scene()
 
         from ..proofs.proved_map import prove_map

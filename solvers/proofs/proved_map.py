@@ -15,13 +15,14 @@ import numpy as np
 
 from ...generated.automaton import OUTCOMES, ROTATE
 from ..engines.interval.build import NotProvable
-from ..engines.interval.call import BOX, enclose
-from ..engines.interval.inputs import Inputs
+from ..engines.interval.call import BOX, Range, enclose
+from ..engines.interval.inputs import COMPUTED, Inputs, outward
 from ..errors import ComputationError, InputError
 from ..host.cores import usable_cores
 from ..host.pictures import Drawn
 from ..many.collide_many import collide_many
 from ..results import outcome_attributes
+from ..scene.held import AXIS_LABELS
 from ..scene.origin import Recorded, provenance
 from ..scene.scene import Scene
 
@@ -36,27 +37,42 @@ UNDECIDED = -1
 
 
 class Cell(NamedTuple):
-    """A box of Stokes numbers and angles (rad), and the outcome of all its collisions by number; -1 is undecided."""
+    """A box of impacts, and the outcome of all its collisions by number; -1 is undecided.
 
-    stokes: tuple[float, float]
-    angle: tuple[float, float]
+    Arguments:
+        speed: low and high of what `by` names: "stokes", "speed" or "relative_speed" (m/s).
+        angle: low and high, rad.
+    """
+
+    speed: Range
+    angle: Range
     outcome: int
+    by: str = "stokes"
 
     @property
     def area(self) -> float:
-        """Its area over the logarithm of the Stokes number, and the angle."""
-        return math.log(self.stokes[1] / self.stokes[0]) * (self.angle[1] - self.angle[0])
+        """Its area over the logarithm of the Stokes number or the speed, and the angle."""
+        return math.log(self.speed[1] / self.speed[0]) * (self.angle[1] - self.angle[0])
+
+    def stokes(self, per_speed: float) -> Range:
+        """A range of Stokes numbers that holds those of all impacts, from St over the normal speed."""
+        if self.by == "stokes":
+            return self.speed
+        steep, flat = (math.cos(angle) if self.by == "relative_speed" else 1.0 for angle in reversed(self.angle))
+        return outward(self.speed[0] * steep * per_speed, self.speed[1] * flat * per_speed, COMPUTED)
 
     def to_dict(self) -> dict[str, Any]:
         """As in the JSON object of a map: the outcome in words, null for one that is undecided."""
-        return self._asdict() | {"outcome": None if self.outcome == UNDECIDED else OUTCOMES[self.outcome]}
+        word = None if self.outcome == UNDECIDED else OUTCOMES[self.outcome]
+        return {self.by: self.speed, "angle": self.angle, "outcome": word}
 
 
 @dataclass(frozen=True)
 class ProvedMap(Recorded, Drawn):
-    """Cells that cover a rectangle of Stokes numbers and angles, each with one proved outcome, or undecided.
+    """Cells that cover a rectangle of Stokes numbers or speeds, and angles, each with one proved outcome, or undecided.
 
     Attributes:
+        depth: halvings of a cell.
         cells: of any size, as far as they had to be halved.
         proofs: collisions in a box that were enclosed.
 
@@ -72,10 +88,11 @@ class ProvedMap(Recorded, Drawn):
     scene: Scene
     cells: tuple[Cell, ...]
     proofs: int
+    depth: int = DEPTH
 
     @property
     def shares(self) -> dict[str, float]:
-        """The part of the area with each outcome, and "undecided"; over the logarithm of St, and the angle."""
+        """The part of the area with each outcome, and "undecided"; over ln(St), or that of the speed, and the angle."""
         areas: Counter[int] = Counter()
         for cell in self.cells:
             areas[cell.outcome] += cell.area  # type: ignore[assignment] # counts of a real measure
@@ -93,12 +110,13 @@ class ProvedMap(Recorded, Drawn):
         return np.array([cell.outcome for cell in self.cells], dtype=np.int8)
 
     def to_dataset(self) -> xarray.Dataset:
-        """A Dataset over `cell`: `outcome`, the ends of `stokes` and `angle` (rad); attribute `undecided_area`."""
+        """A Dataset over `cell`: `outcome`, ends of `stokes` or the speed, and `angle` (rad); `undecided_area`."""
         import xarray
 
+        by = self.cells[0].by
         ends = {
-            name: (("cell", "end"), np.array([getattr(cell, name) for cell in self.cells]), {"units": unit})
-            for name, unit in (("stokes", "1"), ("angle", "rad"))
+            name: (("cell", "end"), np.array([cell.to_dict()[name] for cell in self.cells]), {"units": unit})
+            for name, unit in ((by, "1" if by == "stokes" else "m/s"), ("angle", "rad"))
         }
         outcome = ("cell", self.outcome, outcome_attributes("proved outcome", "undecided"))
         attributes = provenance(self.scene, undecided_area=self.undecided_area)
@@ -106,14 +124,19 @@ class ProvedMap(Recorded, Drawn):
 
     def __str__(self) -> str:
         lines = [f"{100 * share:8.3f} %  {name}" for name, share in self.shares.items()]
-        return "\n".join([f"{len(self.cells)} cells, {self.proofs} boxes enclosed; shares of the area:", *lines])
+        lines = [f"{len(self.cells)} cells, {self.proofs} boxes enclosed; shares of the area:", *lines]
+        if self.undecided_area:
+            lines.append(f"undecided cells were halved {self.depth} times; a larger depth leaves less undecided")
+        return "\n".join(lines)
 
 
 def prove_map(
     scene: Scene | str | Path,
     *,
-    stokes: Sequence[float],
+    stokes: Sequence[float] | None = None,
     angle: Sequence[float],
+    speed: Sequence[float] | None = None,
+    relative_speed: Sequence[float] | None = None,
     depth: int = DEPTH,
     progress: Callable[[int, int], None] | None = None,
 ) -> ProvedMap:
@@ -125,6 +148,8 @@ def prove_map(
         scene: a Scene, a path to a scene file, or a preset's name; its impact is not used.
         stokes: edges of the cells, rising Stokes numbers.
         angle: edges of the cells, rising angles from 0 on, rad; a cell from 0 on holds head-on impacts, too.
+        speed: edges of the cells in place of Stokes numbers, rising normal speeds, m/s.
+        relative_speed: edges in their place, rising magnitudes of the relative velocity.
         progress: called with the numbers of finished and of all cells.
 
     Raises:
@@ -138,28 +163,35 @@ def prove_map(
         >>> few.shares["undecided"] < 0.2
         True
     """
-    for name, edges in (("stokes", stokes), ("angle", angle)):
+    given = {name: edges for name, edges in zip(AXIS_LABELS, (speed, stokes, relative_speed)) if edges is not None}
+    if len(given) != 1:
+        raise InputError("stokes", list(given) or None, "edges of one of stokes, speed, relative_speed")
+    [(by, speeds)] = given.items()
+    for name, edges in ((by, speeds), ("angle", angle)):
         if len(edges) < 2 or any(not low < high for low, high in itertools.pairwise(edges)):
             raise InputError(name, list(edges), "at least two rising edges")
     if isinstance(depth, bool) or not isinstance(depth, int) or not 0 <= depth <= 40:
         raise InputError("depth", depth, "a whole number from 0 to 40")
-    loaded = Scene.load(scene).with_impact(stokes=float(stokes[-1]), angle=float(angle[-1]))
-    loaded.with_impact(stokes=float(stokes[0]), angle=float(angle[0]))
+    loaded = Scene.load(scene)
+    for k in (0, -1):
+        admissible = loaded.with_impact(angle=float(angle[k]), **{by: float(speeds[k])})
+    loaded, per_speed = loaded.with_impact(stokes=admissible.stokes, angle=admissible.angle), loaded.stokes_per_speed
     inputs = Inputs.of(loaded, {"impact.stokes": 1e-6, "impact.angle": 1e-6})
     try:
         engine = inputs.engine()
     except NotProvable as error:
         raise ComputationError(f"not provable here: {error}") from None
     if progress is not None:
-        progress(0, (len(stokes) - 1) * (len(angle) - 1))
-    guide = _Guide.of(loaded, stokes, angle)
+        progress(0, (len(speeds) - 1) * (len(angle) - 1))
+    guide = _Guide.of(loaded, by, speeds, angle)
     asked = 0
 
     def decided(cell: Cell, levels: int) -> Iterator[tuple[Cell, bool]]:
         expected, spread = guide.expected(cell), ""
         if expected is not None or not levels:
-            ranges = inputs.ranges | {"stokes": cell.stokes, "angle": cell.angle}  # type: ignore[operator]
-            narrow = cell.stokes[1] < cell.stokes[0] * _BOUNDED
+            stokes = cell.stokes(per_speed)
+            ranges = inputs.ranges | {"stokes": stokes, "angle": cell.angle}  # type: ignore[operator]
+            narrow = stokes[1] < stokes[0] * _BOUNDED
             settings = BOX._replace(funnels=1) if narrow or expected == _ROTATE else BOX
             if expected is not None and levels:
                 settings = settings._replace(expected=expected + 1)
@@ -177,8 +209,8 @@ def prove_map(
     def whole(cell: Cell) -> list[tuple[Cell, bool]]:
         return list(decided(cell, depth))
 
-    pairs = [list(zip(map(float, edges), map(float, edges[1:]), strict=False)) for edges in (stokes, angle)]
-    start = [Cell(span, other, UNDECIDED) for span in pairs[0] for other in pairs[1]]
+    pairs = [list(zip(map(float, edges), map(float, edges[1:]), strict=False)) for edges in (speeds, angle)]
+    start = [Cell(span, other, UNDECIDED, by) for span in pairs[0] for other in pairs[1]]
     cells: list[Cell] = []
     with ThreadPoolExecutor(usable_cores()) as pool:  # the engine is called without the interpreter's lock
         for done, decisions in enumerate(pool.map(whole, start), 1):
@@ -186,29 +218,28 @@ def prove_map(
             cells += [cell for cell, decides in decisions if decides]
             if progress is not None:
                 progress(done, len(start))
-    return ProvedMap(loaded, tuple(cells), asked)
+    return ProvedMap(loaded, tuple(cells), asked, depth)
 
 
 class _Guide(NamedTuple):
     """Outcomes of collisions on a grid; they prove nothing, but no box is tried that holds two of them."""
 
-    stokes: np.ndarray
+    speed: np.ndarray
     angle: np.ndarray
     outcome: np.ndarray
 
     @classmethod
-    def of(cls, scene: Scene, stokes: Sequence[float], angle: Sequence[float]) -> _Guide:
+    def of(cls, scene: Scene, by: str, speeds: Sequence[float], angle: Sequence[float]) -> _Guide:
         parts = (np.arange(_POINTS) + 0.5) / _POINTS
-        rows = np.exp([a + (b - a) * parts for a, b in itertools.pairwise(np.log(stokes))]).ravel()
+        rows = np.exp([a + (b - a) * parts for a, b in itertools.pairwise(np.log(speeds))]).ravel()
         columns = np.concatenate([a + (b - a) * parts for a, b in itertools.pairwise(angle)])
-        return cls(
-            rows, columns, collide_many(scene, stokes=rows[:, None], angle=columns, of=("outcome",)).outcome.values
-        )
+        outcome = collide_many(scene, angle=columns, of=("outcome",), **{by: rows[:, None]}).outcome
+        return cls(rows, columns, outcome.values)
 
     def expected(self, cell: Cell) -> int | None:
         """The outcome of the grid's points in a cell, or of the one next to it; None where there are two."""
         (low, high), (left, right) = (
-            np.searchsorted(grid, ends) for grid, ends in ((self.stokes, cell.stokes), (self.angle, cell.angle))
+            np.searchsorted(grid, ends) for grid, ends in ((self.speed, cell.speed), (self.angle, cell.angle))
         )
         last, end = (size - 1 for size in self.outcome.shape)
         inside = self.outcome[min(low, last) : max(high, low + 1), min(left, end) : max(right, left + 1)]
@@ -217,11 +248,11 @@ class _Guide(NamedTuple):
 
 def _halves(cell: Cell, spread: str) -> tuple[Cell, Cell]:
     """Both halves, across the side that spreads trajectories more; unless it is known, by St and tan^2 of the angle."""
-    (low, high), (flat, steep) = cell.stokes, cell.angle
+    (low, high), (flat, steep) = cell.speed, cell.angle
     middle = 0.5 * (flat + steep)
     wider = math.log(high / low) * math.sin(middle) * math.cos(middle) > 2 * (steep - flat)
-    by_stokes = wider if not spread else spread == "stokes"
-    if by_stokes:
+    by_speed = wider if not spread else spread == "stokes"
+    if by_speed:
         between = math.sqrt(low * high)
-        return cell._replace(stokes=(low, between)), cell._replace(stokes=(between, high))
+        return cell._replace(speed=(low, between)), cell._replace(speed=(between, high))
     return cell._replace(angle=(flat, middle)), cell._replace(angle=(middle, steep))

@@ -21,7 +21,7 @@ Within = float | Mapping[str, float | tuple[float | str, float | str]]
 MOST = 6  # entries of a box, and quantities that they move
 _ACCEPTED = "LO and HI of one unit, LO below HI, or a relative uncertainty such as 1e-4"
 _READ = 2.0**-50  # above the rounding of an end that is read, relative
-_COMPUTED = 2.0**-48  # above that of a quantity that is computed from entries
+COMPUTED = 2.0**-48  # above that of a quantity that is computed from entries
 
 
 @dataclass(frozen=True)
@@ -129,11 +129,11 @@ def _ends(scene: Scene, name: str, width: object) -> Range:
         low, high = value - away, value + away
         if not low < high or not (field.range.holds(low) and field.range.holds(high)):
             raise InputError(label, width, f"{field.accepts}, at both ends", "is no range around " + repr(value))
-    low, high = _outward(low, high, _READ)
+    low, high = outward(low, high, _READ)
     return max(low, field.range.low), min(high, field.range.high)
 
 
-def _outward(low: float, high: float, relative: float) -> Range:
+def outward(low: float, high: float, relative: float) -> Range:
     """The ends moved outward by a part of them; zero, which nothing rounds, stays."""
     below, above = low - abs(low) * relative, high + abs(high) * relative
     return low and math.nextafter(below, -math.inf), high and math.nextafter(above, math.inf)
@@ -142,7 +142,7 @@ def _outward(low: float, high: float, relative: float) -> Range:
 def _hull(values: Sequence[float]) -> Range:
     """The range of a quantity with these values at the corners."""
     low, high = min(values), max(values)
-    return (low, high) if low == high else _outward(low, high, _COMPUTED)
+    return (low, high) if low == high else outward(low, high, COMPUTED)
 
 
 def _relative(width: object, label: str) -> float:

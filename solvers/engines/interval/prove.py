@@ -80,8 +80,12 @@ class Proof(Recorded):
             low, high = self.restitution
             lines = [f"proved: {self.outcome}"]
             lines += [f"restitution e_n between {low:.17g} and {high:.17g}"] if high > 0 else []
-            lines += [f"{self.rebounds} rebounds, {self.steps} steps of the enclosure"]
-        lines += [f"for every {name} between {low:.10g} and {high:.10g} (SI)" for name, (low, high) in self.box.items()]
+            counts = ((self.rebounds, "rebound"), (self.steps, "step"))
+            lines += [", ".join(f"{n} {word}{'s' * (n != 1)}" for n, word in counts) + " of the enclosure"]
+        for name, ends in self.box.items():
+            is_angle = self.scene.fields[name].unit == "rad"
+            low, high = map(math.degrees, ends) if is_angle else ends
+            lines.append(f"for every {name} between {low:.10g} and {high:.10g} {'deg' if is_angle else '(SI)'}")
         if self.box:
             lines += [_HELD[name.partition(".")[2]].format(value) for name, value in self.held.items()]
         return "\n".join(lines)

@@ -34,7 +34,7 @@ def test_cells_cover_the_rectangle_and_hold_for_their_points(tmp_path: Path) -> 
     random = np.random.default_rng(1)
     for cell in (found.cells[k] for k in random.integers(0, len(found.cells), 20)):
         if cell.outcome >= 0:
-            stokes, angle = random.uniform(*cell.stokes), random.uniform(*cell.angle)
+            stokes, angle = random.uniform(*cell.speed), random.uniform(*cell.angle)
             assert collide("granulation", stokes=stokes, angle=angle, ledger=False).outcome == OUTCOMES[cell.outcome]
     found.to_dataset().to_netcdf(tmp_path / "cells.nc")
     data = xr.load_dataset(tmp_path / "cells.nc")
@@ -42,6 +42,30 @@ def test_cells_cover_the_rectangle_and_hold_for_their_points(tmp_path: Path) -> 
     assert area.sum() == pytest.approx(whole)
     assert data.undecided_area == pytest.approx(area[data.outcome.values == -1].sum() / area.sum())
     assert found.to_dict()["undecided_area"] == data.undecided_area == pytest.approx(found.shares["undecided"])
+
+
+@pytest.mark.parametrize("by", ["speed", "relative_speed"])
+def test_cells_of_speeds_hold_for_their_points(by: str) -> None:
+    """As those of Stokes numbers do; the same impacts as a map of Stokes numbers has are proved."""
+    scene, angle = Scene.load("granulation"), np.radians([20, 24])
+    edges = [scene.speed_of(stokes) / (math.cos(angle[0]) if by == "relative_speed" else 1) for stokes in (0.1, 0.13)]
+    found = prove_map(scene, **{by: edges}, angle=angle, depth=8)
+    assert (found.cells[0].speed[0], max(cell.speed[1] for cell in found.cells)) == tuple(edges)
+    assert {"stick", "bounce"} <= {name for name, share in found.shares.items() if share > 0.2}
+    random = np.random.default_rng(2)
+    for cell in (found.cells[k] for k in random.integers(0, len(found.cells), 40)):
+        impact = {by: random.uniform(*cell.speed), "angle": random.uniform(*cell.angle)}
+        if cell.outcome >= 0:
+            assert collide(scene, **impact, ledger=False).outcome == OUTCOMES[cell.outcome]
+    assert found.to_dataset()[by].units == "m/s"
+    assert "were halved 8 times; a larger depth leaves less undecided" in str(found)
+
+
+def test_a_box_of_angles_is_printed_in_degrees() -> None:
+    """With singular and plural."""
+    text = str(prove("granulation", stokes=0.3, angle="20 deg", within={"impact.angle": ("19.9 deg", "20.1 deg")}))
+    assert "\nfor every impact.angle between 19.9 and 20.1 deg\n" in text
+    assert "\n1 rebound, " in text
 
 
 @pytest.mark.slow
