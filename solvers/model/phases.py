@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
-from casadi import SX, Function, cross, densify, fabs, fmin, horzcat, if_else, jtimes, vertcat
+from casadi import SX, Function, cross, densify, fabs, fmax, fmin, horzcat, if_else, jtimes, vertcat
 
 from ...generated.automaton import CLOSING, EVENTS, VOID_WITHOUT
 from ...generated.automaton import Event as Row
@@ -126,14 +126,18 @@ def expressions(flow: Flow) -> Expressions:
 def extra_units(model: Model, names: Sequence[str], p: Any) -> list[Any]:
     """Units of a flow's extras in a ledger's m v0^2, for groups `p`.
 
-    That of an energy that is lost is the sum of the approach, the sliding, and the work of the strings over x0. Entries
-    of an implicit integrator's matrix that are much larger than those of the motion spoil the motion's digits.
+    That of an energy that is lost is the sum of the approach, the sliding, and the work of the strings over x0; the
+    shear loses the sliding's, which may be far less. Entries of an implicit integrator's matrix that are much larger
+    than those of the motion spoil the motion's digits.
     """
     group = {name: p[k] for k, name in enumerate(model.groups)}
-    lost = 1 + group.get("obliquity", 0.0) ** 2
+    sliding = group.get("obliquity", 0.0) ** 2
+    lost = 1 + sliding
     if model.strings:
         lost += group["weight"] * group["aspect"] / group["string_ratio"]
-    return [1.0 if name == "rotation" or name in model.works else lost for name in names]
+    sheared = lost if model.strings else fmax(sliding, _NEGLIGIBLE)
+    units = {"rotation": 1.0, **dict.fromkeys(model.works, 1.0), "tangential_lubrication": sheared}
+    return [units.get(name, lost) for name in names]
 
 
 def _precessing(model: Model, state: dict[str, SX], rates: dict[str, SX]) -> tuple[dict[str, SX], SX]:

@@ -142,11 +142,12 @@ def results(course: Course, p: MX, end: End, tolerance: Tolerance) -> dict[str, 
     model = course.model
     size = len(model.state)
     y = end.y[:size]
-    outputs, before, after = (
-        model.function("outputs")(y, p),
-        *(model.function("energies")(s, p) for s in (end.start, y)),
-    )
-    named = dict(zip(model.names("outputs"), (outputs[k] for k in range(outputs.numel())), strict=True))
+    before, after = (model.function("energies")(s, p) for s in (end.start, y))
+    symbols = (model.column, model.parameters)
+    outputs = model.function("outputs")(*symbols)
+    # a function each: head-on the slope of a tangential restitution is infinite, and zero times it no number
+    functions = {name: Function(name, symbols, [outputs[k]]) for k, name in enumerate(model.names("outputs"))}
+    named = {name: function(y, p) for name, function in functions.items()}
     energies = {name: (before[k], after[k]) for k, name in enumerate(model.names("energies"))}
     named |= {"contact_time": end.time, "smallest_gap": end.smallest_gap}
     named |= {"energy.dry_contact": end.lost[0], "energy.own_events": end.lost[2]}

@@ -152,3 +152,15 @@ def test_parameters_are_the_files_own() -> None:
     assert found["particles.radius"] == pytest.approx(expected, rel=1e-8)
     with pytest.raises(InputError, match="particles.reduced_radius"):
         sensitivities(other, wrt=["particles.reduced_radius"])
+
+
+@pytest.mark.parametrize("engine", ["rosenbrock", "cvodes"])
+def test_the_loss_of_a_hardly_oblique_impact_has_its_derivatives(engine: str) -> None:
+    """At small angles the shear takes a part tan^2(angle) of the energy: elasticities are 2, and those of any angle."""
+    of, wrt = ["energy.tangential_lubrication"], ["impact.angle", "liquid.viscosity"]
+    one, other = (sensitivities(GRANULATION, of, wrt, stokes=0.2, angle=a, engine=engine) for a in (1e-3, 1e-8))
+    assert other.value[of[0]] == pytest.approx(one.value[of[0]] * 1e-10, rel=1e-5)
+    assert other.elasticity[of[0]]["impact.angle"] == pytest.approx(2, rel=1e-7)
+    assert other.elasticity[of[0]]["liquid.viscosity"] == pytest.approx(
+        one.elasticity[of[0]]["liquid.viscosity"], rel=1e-5
+    )
