@@ -180,7 +180,9 @@ def _finite(model: UserModel, law: Law, label: str) -> Check:
         for at in _samples(model, law, function):
             count += 1
             if math.isnan(_value(compiled, at)):
-                return Check(name, statement, False, f"{function.name} is not a finite number at {_at(at)}")
+                own = " and ".join(group.quantity.name for group in model.groups if group.symbol in at)
+                hint = f": bounds= of {own} say which values to expect" if own else ""
+                return Check(name, statement, False, f"{function.name} is not a finite number at {_at(at)}{hint}")
     return Check(name, statement, True, f"{count} states")
 
 

@@ -201,7 +201,9 @@ class _Smoothing:
             branches = sp.piecewise_fold(sine.rewrite(sp.Piecewise)).args
             if any(value**2 == 1 for value, _ in branches):  # constant there, where the root is 0 and its slope is not
                 return self(sp.Piecewise(*((node.func(value), condition) for value, condition in branches)))
-        arcsine = 2 * self(sp.atan(sine / (1 + sp.sqrt(1 - sine**2))))
+        named = self._named("sine", self(sine))  # whose slope then stands once, and keeps its digits
+        self.written.setdefault(named, sine)
+        arcsine = 2 * self(sp.atan(named / (1 + sp.sqrt(1 - named**2))))
         return arcsine if isinstance(node, sp.asin) else sp.pi / 2 - arcsine
 
     def _piecewise(self, node: sp.Piecewise) -> sp.Expr:

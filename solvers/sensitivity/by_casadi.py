@@ -27,9 +27,9 @@ from .problem import NEAR, SHARPEST, Problem, Query, Slopes
 from .trajectory import course_of, quadratures, trajectory
 
 # Steps of Rosenbrock are controlled for the states alone, and with a power law its derivatives are far less accurate
-# than its values: they are computed again at tolerances finer by `_FINER` until two differ by no more than `_RESOLVED`
-# of the largest elasticity. CVODES controls both.
-_FINER, _RESOLVED, _TINY = 1e-2, 1e-5, np.finfo(float).tiny
+# than its values. CVODES controls both, but its errors grow where a doublet creeps apart. Such derivatives are computed
+# again at tolerances finer by `_FINER` until two differ by no more than `_RESOLVED` of the largest elasticity.
+_FINER, _RESOLVED, _TINY = 1e-2, {"rosenbrock": 1e-5, "cvodes": 1e-3}, np.finfo(float).tiny
 _SHARPEST_CVODES = 3e-12  # smallest tolerance of CVODES with sensitivities; below it some integrations fail
 # Largest landing relative to its phase, and that wanted of a trajectory that amplifies errors. The error of a
 # derivative is its square times the amplification, near a saddle one over the distance. Beyond `_LOST` no correction
@@ -168,31 +168,35 @@ class Replayable:
                 derivatives are not resolved.
         """
         z, dz, along = self._at_tolerance(query)
-        if self.plugin != "rosenbrock" or self.choice.package is None:
-            return z, dz, along
-        while True:
-            coarse, rtol = dz @ along, query.rtol
-            query = replace(query, rtol=max(rtol * _FINER, SHARPEST))
+        doubtful = self.choice.package is not None if self.plugin == "rosenbrock" else 0 < self.parting < NEAR
+        error, resolved = 0.0, _RESOLVED[self.plugin]
+        while doubtful:
+            coarse, before = dz @ along, self._sharp(query)
+            query = replace(query, rtol=max(query.rtol * _FINER, SHARPEST))
+            if self._sharp(query) == before:
+                if error > resolved:
+                    message = (
+                        f"{self.plugin} does not resolve the derivatives: down to a tolerance of {before:.1g} they"
+                    )
+                    raise ComputationError(f"{message} change by {error:.1g} of the largest", advice="another --engine")
+                break
             z, dz, along = self._at_tolerance(query)
             fine = dz @ along
             error = np.max(np.abs(fine - coarse) / (np.abs(fine).max(axis=1, keepdims=True) + _TINY), initial=0.0)
-            if error <= _RESOLVED:
-                return z, dz, along
-            if query.rtol <= SHARPEST:
-                raise ComputationError(
-                    f"rosenbrock does not resolve the derivatives: between tolerances {rtol:.1g} and {query.rtol:.1g} "
-                    f"they change by {error:.1g} of the largest",
-                    advice="another --rtol, or CVODES where it can be chosen",
-                )
+            doubtful = error > resolved
+        return z, dz, along
+
+    def _sharp(self, query: Query) -> float:
+        """The tolerance of a query as the engine has it."""
+        sharp = query.sharpened(self.parting)
+        return max(sharp, _SHARPEST_CVODES) if self.plugin == "cvodes" else sharp
 
     def _at_tolerance(self, query: Query) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """`differentiated` at the tolerance that the query has."""
-        choice, plugin, sharp, near = self.choice, self.plugin, query.sharpened(self.parting), query.near
-        if plugin == "cvodes":
-            if query.amplified and near is not None and near.boundary == SADDLE:
-                message = "no derivative by cvodes: its steps do not follow those of a trajectory that lies at the"
-                raise ComputationError(f"{message} {near}, nearer than {NEAR:g}", advice="--engine rosenbrock")
-            sharp = max(sharp, _SHARPEST_CVODES)
+        choice, plugin, sharp, near = self.choice, self.plugin, self._sharp(query), query.near
+        if plugin == "cvodes" and query.amplified and near is not None and near.boundary == SADDLE:
+            message = "no derivative by cvodes: its steps do not follow those of a trajectory that lies at the"
+            raise ComputationError(f"{message} {near}, nearer than {NEAR:g}", advice="--engine rosenbrock")
         try:
             path, replay = replayed(self.record, choice, quadratures(load(choice), query.of), plugin, sharp)
         except Stopped as stopped:

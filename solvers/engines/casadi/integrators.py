@@ -127,7 +127,7 @@ def tolerance_for(rtol: float, plugin: str, groups: Mapping[str, float]) -> Tole
     )  # by the requested tolerance, not by a tightened one
     centrifugal = groups["obliquity"] ** 2 * groups["aspect"] / 16
     absolute = 1e-3
-    if "capillary" not in groups and "weight" not in groups and 0 < centrifugal < 1e-6:
+    if "capillary" not in groups and "weight" not in groups and 0 < centrifugal < 1e-4:
         absolute = 10.0 ** max(4 * math.floor(math.log10(centrifugal) / 4) - 3, -200)
     if "weight" in groups:  # the least value of stiffness over string_ratio is 1
         centrifugal -= groups["weight"] * groups["aspect"] / groups["string_ratio"]

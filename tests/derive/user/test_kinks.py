@@ -99,6 +99,15 @@ def test_an_arc_may_stay_at_the_end_of_its_domain(factor: str):
     assert [check.figure for check in model_checks(Path("mine.py"), HEAD + body)[1] if not check.ok] == []
 
 
+@pytest.mark.parametrize("bounds", ["0 to 1", "> 0"])
+def test_an_arc_of_a_bounded_quantity(bounds: str):
+    """The least of a quantity and a length over x may be far above 1 beside it; without a bound it may be itself."""
+    body = f'k = quantity("k", default=0.5, bounds="{bounds}")\n'
+    body += 'law("bridge", "mine", force=pi*R*sigma*(1 + asin(Min(k, x0/x))))'
+    failing = [check.figure for check in model_checks(Path("mine.py"), HEAD + body)[1] if not check.ok]
+    assert failing == [] if bounds == "0 to 1" else "bounds= of k say which values to expect" in failing[0]
+
+
 def test_several_kinks_below_a_fraction():
     """The emitted slope of a law stays short: each extreme is a part, which no expansion multiplies out."""
     factor = "1 + 1/(1 + Min((x/x0)**2, Abs(x/x0 - 0.5), 0.371)**2)"
