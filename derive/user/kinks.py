@@ -202,7 +202,8 @@ class _Smoothing:
             if any(value**2 == 1 for value, _ in branches):  # constant there, where the root is 0 and its slope is not
                 return self(sp.Piecewise(*((node.func(value), condition) for value, condition in branches)))
         named = self._named("sine", self(sine))  # whose slope then stands once, and keeps its digits
-        self.written.setdefault(named, sine)
+        if named not in sine.free_symbols:
+            self.written.setdefault(named, sine)
         arcsine = 2 * self(sp.atan(named / (1 + sp.sqrt(1 - named**2))))
         return arcsine if isinstance(node, sp.asin) else sp.pi / 2 - arcsine
 
