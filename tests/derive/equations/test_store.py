@@ -68,7 +68,8 @@ law("bridge", "mine", force=2 * pi * a * sigma * normal_force() / (mu * a * u))
 """
 
 
-@pytest.mark.parametrize("indirect", [False, pytest.param(True, marks=pytest.mark.slow)])
+@pytest.mark.slow
+@pytest.mark.parametrize("indirect", [False, True])
 def test_a_model_file_may_import_laws_that_come_from_the_store(indirect: bool, tmp_path: Path) -> None:
     """Imported by the model file alone, or a module that it imports, they still are the library's: it has its own."""
     environment = os.environ | {"WETDOUBLET_CACHE": str(tmp_path / "cache"), "PYTHONPATH": str(tmp_path)}

@@ -123,6 +123,7 @@ def test_a_scene_without_an_impact_is_refused():
         explore(Scene("", given))
 
 
+@pytest.mark.slow
 def test_a_liquid_by_its_name_has_a_knob_in_pascal_seconds():
     """Its text has a space and no unit."""
     pytest.importorskip("CoolProp")

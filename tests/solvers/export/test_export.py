@@ -176,6 +176,7 @@ def test_exported_c_is_the_model(tmp_path: Path):
     np.testing.assert_allclose([float(word) for word in found], expected, rtol=1e-13)
 
 
+@pytest.mark.slow
 def test_each_kernel_of_a_law_has_its_own_table_of_declared_events(tmp_path: Path):
     """Head-on and oblique kernels stand in one file: a name that both define would not compile."""
     snap = 'event("snap", guard=limit - u/x, where="opening beyond the film", ends="separated")\n'

@@ -68,7 +68,12 @@ mine = SimpleNamespace(name="mine", source=path.read_text())
 
 
 @pytest.mark.parametrize(
-    "asked", ["Scene.load('granulation', model=path)", "next(findings({}))", "next(of_the_model(mine))"]
+    "asked",
+    [
+        "Scene.load('granulation', model=path)",
+        pytest.param("next(findings({}))", marks=pytest.mark.slow),
+        pytest.param("next(of_the_model(mine))", marks=pytest.mark.slow),
+    ],
 )
 def test_the_derivation_is_imported_by_one_thread_at_a_time(asked: str, tmp_path: Path):
     """Two that import its modules from different sides may each find one of the other's half made: an ImportError."""

@@ -103,7 +103,7 @@ def reference(given: Scene, lagrangian: str, forces: dict[str, str]) -> np.ndarr
     return np.array([last[1], *last[3:], found.t_events[0][0] * time])
 
 
-SLOW = ("angle", "inertia")  # much sympy
+SLOW = ("angle", "inertia", "rotation")  # much sympy
 
 
 @pytest.mark.parametrize("case", [pytest.param(name, marks=[pytest.mark.slow] * (name in SLOW)) for name in CASES])
