@@ -35,7 +35,8 @@ if TYPE_CHECKING:
     from .proofs.proved_map import ProvedMap, prove_map
     from .scene.scene import Scene
     from .sensitivity.boundaries import BoundarySensitivities, boundary_sensitivities
-    from .sensitivity.critical import Critical, critical
+    from .sensitivity.critical import critical
+    from .sensitivity.critical_speeds import Critical
     from .sensitivity.gradients_many import gradients_many
     from .sensitivity.pair_gradients import pair_gradients
     from .sensitivity.result import Sensitivities
@@ -69,7 +70,8 @@ _NAMES = {
     "proofs.proved_map": "ProvedMap prove_map",
     "scene.scene": "Scene",
     "sensitivity.boundaries": "BoundarySensitivities boundary_sensitivities",
-    "sensitivity.critical": "Critical critical",
+    "sensitivity.critical": "critical",
+    "sensitivity.critical_speeds": "Critical",
     "sensitivity.gradients_many": "gradients_many",
     "sensitivity.pair_gradients": "pair_gradients",
     "sensitivity.result": "Sensitivities",

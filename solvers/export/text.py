@@ -38,8 +38,8 @@ def _entries(differences: Differences) -> Iterator[tuple[str, str, str]]:
     for name in dict.fromkeys(name for side in values for name in side):
         first, other = (side.get(name) for side in values)
         if first != other and name not in MEETING:
-            cells = ("-" if name not in side else str(written(name, side[name])) for side in given)
-            yield (name, *cells)
+            before, after = ("-" if name not in side else str(written(name, side[name])) for side in given)
+            yield name, before, after
 
 
 def _on_map(what: OnMap) -> str:

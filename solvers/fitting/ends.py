@@ -98,8 +98,8 @@ def end_by_newton(
         to[k] += sign * step
         to[others] += shift + follow * sign * step
         possible = bool(((to >= free.low) & (to <= free.high)).all())
-        near = abs(goal - root) < _NEAR * goal and gain < WITHIN * goal**2
-        if possible and near and abs(step) < _LAST * abs(at[k] - best[k]):
+        close = abs(goal - root) < _NEAR * goal and gain < WITHIN * goal**2
+        if possible and close and abs(step) < _LAST * abs(at[k] - best[k]):
             return None if after is not None and sign * (to[k] - after[k]) < 0 else End(to, False)
     return None
 

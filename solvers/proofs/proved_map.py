@@ -233,8 +233,8 @@ class _Guide(NamedTuple):
         parts = (np.arange(_POINTS) + 0.5) / _POINTS
         rows = np.exp([a + (b - a) * parts for a, b in itertools.pairwise(np.log(speeds))]).ravel()
         columns = np.concatenate([a + (b - a) * parts for a, b in itertools.pairwise(angle)])
-        outcome = collide_many(scene, angle=columns, of=("outcome",), **{by: rows[:, None]}).outcome
-        return cls(rows, columns, outcome.values)
+        impacts: dict[str, Any] = {by: rows[:, None], "angle": columns}
+        return cls(rows, columns, collide_many(scene, of=("outcome",), **impacts).outcome.values)
 
     def expected(self, cell: Cell) -> int | None:
         """The outcome of the grid's points in a cell, or of the one next to it; None where there are two."""

@@ -209,8 +209,8 @@ def draw_critical(critical: Any) -> Figure:
         for at, k in zip(x, places, strict=True):
             if spread[k]:
                 axes.plot([at, at], lines[k].interval, "-", color=line.get_color(), **_BAR)
-            if above[k] is not None:
-                axes.plot(at, above[k], "^", color=NOTE, markersize=4)
+            if (bounce := above[k]) is not None:
+                axes.plot(at, bounce, "^", color=NOTE, markersize=4)
             speeds += [speed for speed in (above[k], *(lines[k].interval or ()), lines[k].relative_speed) if speed]
     axes.plot([], [], "o", color=NOTE, label="sticks up to")
     if any(spread):

@@ -60,17 +60,17 @@ def argument(data: Sample) -> Iterator[Finding]:
         yield note("e_n^2 - 1: identity", statement, "its terms are those of equal spheres")
         return
     figure_of = {id(run): abs(_excess(run)) / _size(run) for run in parted}
-    figure, run = worst_of(parted, lambda run: figure_of[id(run)])
+    error, run = worst_of(parted, lambda run: figure_of[id(run)])
     # the ledger's residual, bounded relative to the whole initial energy, not to v0^2 alone
     bound = RESIDUAL * (1 + first_rotation(run)) / _size(run)
     rounding = max(abs(_excess(run) - dict(run.budget or ())["residual"]) / _size(run) for run in parted)
     about_all = f"  {len(parted)} points that separate; with the ledger's residual in it: {rounding:.0e}"
-    yield bounded("e_n^2 - 1: identity", statement, figure, bound, where(run), about_all)
+    yield bounded("e_n^2 - 1: identity", statement, error, bound, where(run), about_all)
     if data.scene.pendulum is None and data.scene.law_has("arm", "balanced"):
-        figure, run = worst_of(parted, lambda run: run.restitution**2 - ceiling(run))
+        error, run = worst_of(parted, lambda run: run.restitution**2 - ceiling(run))
         statement = "e_n^2 <= 1 + [E_rot(0) - L^2/(2 I(x_f)) - W_c]/(m v0^2/2): the largest of left less right"
         largest = max(1 + first_rotation(run) for run in data.all)
-        yield bounded("e_n^2: ceiling", statement, figure, RESIDUAL * largest, where(run))
+        yield bounded("e_n^2: ceiling", statement, error, RESIDUAL * largest, where(run))
     else:
         why = "with strings or an arm of one's own there is no closed form"
         yield note("e_n^2: ceiling", "e_n^2 <= its closed-form ceiling", why)
