@@ -41,7 +41,8 @@ def read(path: Path, most: int) -> bytes:
     try:
         if stat.S_ISFIFO(os.fstat(descriptor).st_mode) and path.parts[:2] != ("/", "dev"):
             raise NotRead("is a named pipe")
-        os.set_blocking(descriptor, True)
+        if hasattr(os, "O_NONBLOCK"):  # elsewhere nothing was opened so, and files cannot be set
+            os.set_blocking(descriptor, True)
         content = b""
         while len(content) <= most and (chunk := os.read(descriptor, _PART)):
             content += chunk

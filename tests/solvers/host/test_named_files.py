@@ -115,6 +115,14 @@ def test_pipes(tmp_path):
         read(Path("/dev/zero"), 10)
 
 
+def test_a_system_without_files_that_do_not_wait(tmp_path, monkeypatch):
+    """Where `os.set_blocking` refuses a file, as on Windows, it is read."""
+    (tmp_path / "scene.toml").write_text(TEXT)
+    monkeypatch.delattr(os, "O_NONBLOCK", raising=False)
+    monkeypatch.delattr(os, "set_blocking", raising=False)
+    assert read(tmp_path / "scene.toml", 10_000) == TEXT.encode()
+
+
 @posix
 @pytest.mark.parametrize("name", ["pipe", "/dev/zero", "link.py", "nowhere.py", "a" * 300 + ".py", "a\0.py", "junk"])
 def test_models_that_are_none(tmp_path, monkeypatch, name):
