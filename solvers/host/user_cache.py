@@ -142,12 +142,15 @@ def _places() -> Iterator[Path]:
 
 
 def _temporary() -> Iterator[Path]:
+    """The system's folders for temporary files, but for those in which others could replace what is made there."""
     import tempfile
 
-    with suppress(OSError):
-        yield Path(tempfile.gettempdir())
-    if (shared := Path("/dev/shm")).is_dir():  # in memory; what is made there is private
-        yield shared
+    for named in (tempfile.gettempdir, lambda: "/dev/shm"):  # the latter is in memory
+        with suppress(OSError):
+            place = Path(named())
+            status = place.stat()
+            if _alone(status) or status.st_mode & stat.S_ISVTX:
+                yield place
 
 
 def _write_new(path: Path, content: bytes) -> None:

@@ -124,6 +124,7 @@ def test_a_library_outlives_its_file(shelf: Path):
         name, source = f"answer{added}.so", large.replace("ADDED", str(added))
         content = cache.fetch(name, lambda source=source: library(source, ("-shared", "-fPIC")))
         found.append(cache.loaded(content, ctypes.CDLL))
+    assert not list(shelf.glob(".*"))
     for path in shelf.glob("*.so"):
         os.truncate(path, 0)
     assert [one.answer() for one in found] == [7, 42]
@@ -142,6 +143,20 @@ def test_a_folder_that_others_can_write_to_is_refused(mode: int, shelf: Path):
     assert len(done.stderr.splitlines()) == 1
     assert not list(shelf.iterdir())
     assert not Path(done.stderr.partition(" is kept in ")[2].removesuffix(" while this runs\n")).exists()
+
+
+@posix
+def test_nothing_is_compiled_or_loaded_where_others_can_replace_it(shelf: Path, tmp_path: Path):
+    """A folder for temporary files that others can write to serves if only owners can remove what is there."""
+    shelf.mkdir()
+    shelf.chmod(0o777)
+    temporary = tmp_path / "temporary"
+    temporary.mkdir()
+    program = f"{_CACHE}; print(cache.loaded(b'', str))\nwith cache.room() as place:\n    print(place)"
+    for mode, serves in ((0o777, False), (0o1777, True), (0o700, True)):
+        temporary.chmod(mode)
+        done = in_process(program, TMPDIR=str(temporary))
+        assert [Path(line).parent == temporary for line in done.stdout.split()] == [serves] * 2, done.stderr
 
 
 _FULL = """
