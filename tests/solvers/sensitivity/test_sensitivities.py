@@ -4,7 +4,7 @@ import math
 from functools import cache
 
 import pytest
-from wetdoublet.solvers import InputError, Scene, Sensitivities, collide
+from wetdoublet.solvers import ComputationError, InputError, Scene, Sensitivities, collide
 from wetdoublet.solvers.sensitivity.parameters import parameters_of
 
 from ...helpers.reference import sensitivities
@@ -175,3 +175,11 @@ def test_cvodes_resolves_a_restitution_that_is_nearly_nothing() -> None:
     )
     expected = kernel.elasticity["restitution"]["impact.angle"]  # it was off by 1 to 2 %
     assert found.elasticity["restitution"]["impact.angle"] == pytest.approx(expected, rel=3e-4)
+
+
+@pytest.mark.parametrize("rtol", [1e-9, 1e-10])
+def test_cvodes_compares_its_derivatives_at_any_tolerance(rtol: float) -> None:
+    """At e_n = 1e-4 two tolerances differ by more than 1e-3, also if what is asked for is finer than CVODES can be."""
+    impact = {"stokes": 0.08, "angle": 0.004}
+    with pytest.raises(ComputationError, match="does not resolve the derivatives"):
+        sensitivities("granulation-dry-bridge", ["restitution"], ["impact.angle"], **impact, engine="cvodes", rtol=rtol)
