@@ -12,7 +12,7 @@ class NotebookTable:
 
     def _repr_html_(self) -> str:
         name, lines = getattr(getattr(self, "scene", None) or self, "name", ""), str(self).splitlines()
-        heading = [] if lines[0].startswith(name or " ") else [name]
+        heading = [] if lines[0].startswith(name) else [name]
         rest = [f"{len(lines) - _LINES} more lines"] if len(lines) > _LINES else []
         return f"<table>{''.join(map(_row, [*heading, *lines[:_LINES], *rest]))}</table>"
 

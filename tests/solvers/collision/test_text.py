@@ -153,6 +153,10 @@ def test_a_notebook_shows_a_small_escaped_table(kind: str) -> None:
     assert len(shown) < 12_000
 
 
+def test_a_scene_without_a_name_has_no_empty_heading() -> None:
+    assert "unnamed scene" in Scene("", SCENE.given)._repr_html_().partition("</tr>")[0]
+
+
 def test_a_printed_scene_is_a_table() -> None:
     """Each entry with the unit it was given in, defaults and assumptions marked, and the impact both ways."""
     scene = Scene.load("granulation").with_entries({"liquid.viscosity": 3.0})
