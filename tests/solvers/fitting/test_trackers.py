@@ -140,6 +140,7 @@ SPELT: dict[str, tuple[str, Callable[[Film], str]]] = {
         "napari", lambda film: napari_points(film, {"frame": "axis-0", "z": "axis-1", "y": "axis-2", "x": "axis-3"})
     ),
     "trackmate": ("TrackMate", trackmate),
+    "trackmate-micron": ("TrackMate", lambda film: trackmate(film, "micron", 1e6 * PIXEL)),
     "trackmate-mm": ("TrackMate", lambda film: trackmate(film, "mm", 1e3 * PIXEL)),
     "trackmate-sec": ("TrackMate", lambda film: trackmate(film, clock="sec", step=1 / RATE)),
     "trackmate-uncalibrated": ("TrackMate", lambda film: trackmate(film, clock="sec")),
