@@ -71,7 +71,8 @@ def _with_lines_there(likelihood: Joint, free: FreeEntries, best: np.ndarray, en
     def again(k: int, sign: float, end: End) -> End:
         if end.open:
             return end
-        return end_by_newton(objective, best, k, sign, None, end.inner) or end
+        newton = end_by_newton(objective, best, k, sign, None, end.inner)
+        return newton or _followed(objective, best, k, sign, None)
 
     return [[again(k, sign, end) for sign, end in zip((-1.0, 1.0), both, strict=True)] for k, both in enumerate(ends)]
 
