@@ -43,11 +43,11 @@ def filmed(
     return {"frame": np.arange(time.size), **dict(zip(("x1", "y1", "x2", "y2"), both.T, strict=True))}
 
 
-def bounce() -> dict[str, np.ndarray]:
-    """A bounce of 0.818 m/s on `lactose-pvp` that moves by 4.2 px per frame, tracked to 0.2 px."""
+def bounce(rate: float = RATE, seed: int = 1) -> dict[str, np.ndarray]:
+    """A bounce of 0.818 m/s on `lactose-pvp` that moves by 4.2 px per frame at the usual rate, tracked to 0.2 px."""
     scene = Scene.load("lactose-pvp")
     one = collide(scene, stokes=12, angle=math.radians(40), trajectory=True)
-    return filmed(scene, one, RATE, PIXEL, 0.2, np.random.default_rng(1))
+    return filmed(scene, one, rate, PIXEL, 0.2, np.random.default_rng(seed), frames=round(25 * rate / RATE))
 
 
 def read(source: object, **settings: object) -> Any:

@@ -71,6 +71,8 @@ def test_a_closed_curve_is_cut_at_its_folds(labels: Labels) -> None:
     """Two parts with x ascending, whose chords are refined; below the lower one is outside."""
     (arc,), meetings = cells(labels).curves()
     assert np.hypot(*(arc.points - 0.5).T) == pytest.approx(RADIUS, abs=1e-8)
+    steps = np.hypot(*np.diff(arc.points, axis=0).T)  # points on the edges of cells, and between them
+    assert steps.max() < math.hypot(1 / 32, 1 / 48) / 2
     assert not meetings
     parts, folds = monotone(Square(circle), arc)  # type: ignore[arg-type]  # a plane of known curves
     assert sorted(place[0] for place in folds) == pytest.approx([0.2, 0.8], abs=1e-9)

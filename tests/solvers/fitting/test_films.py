@@ -65,6 +65,14 @@ def test_what_would_be_measured_wrong_is_refused(film: dict[str, np.ndarray]) ->
     assert read(flat).to_csv() == read(film).to_csv()
 
 
+def test_whole_pixels_may_repeat_in_contact() -> None:
+    """Centres that hardly move are written alike in frames that follow each other: these are two pictures."""
+    whole = {name: np.round(cells) for name, cells in bounce(2 * RATE, seed=0).items()}
+    apart = np.stack([whole["x2"] - whole["x1"], whole["y2"] - whole["y1"]])
+    assert (np.diff(apart) == 0).all(axis=0).any()
+    assert read(whole, rate=2 * RATE).columns["speed"] == pytest.approx([0.818], rel=0.01)
+
+
 def test_films_in_one_table_have_their_own_clocks(film: dict[str, np.ndarray]) -> None:
     """One begins between two frames of the other: a rate beside the times is that of each, and not of both together."""
     places = {name: np.tile(film[name], 2) for name in ("x1", "y1", "x2", "y2")}

@@ -125,6 +125,8 @@ def test_character_map(unlucky):
     assert "     0.3  BBB" in result.stdout.splitlines()
     assert "     0.1  !!!" in result.stdout.splitlines()
     assert result.stdout.splitlines()[-1].split() == ["deg", "10", "to", "80"]
+    large = run("map", "granulation", "--stokes", "0.1:0.3:40", "--angle", "10:80:2").stdout
+    assert "\nshown: 32 of 40 rows\n" in large and len(re.findall(r"^ +[0-9.]+  [SRB!]{2}$", large, re.M)) == 32
 
 
 @pytest.mark.parametrize("count", [2, 8, 12, 38, 60])

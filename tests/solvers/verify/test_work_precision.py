@@ -5,6 +5,7 @@ from dataclasses import replace
 import pytest
 from wetdoublet.solvers import Scene, collide
 from wetdoublet.solvers.verify.work_precision import Row, WorkPrecision, work_precision
+from wetdoublet.solvers.verify.work_precision_report import draw
 
 RTOLS = (1e-5, 1e-8)
 PENDULUM = Scene.load("pendulum")
@@ -37,7 +38,7 @@ def test_errors_are_those_of_collisions_asked_for_one_by_one(measured: WorkPreci
 
 @pytest.mark.slow
 def test_every_engine_is_measured_at_every_tolerance(measured: WorkPrecision) -> None:
-    """All outcomes right; errors fall with the tolerance, and stay above the references' own."""
+    """All outcomes right; errors fall with the tolerance, are above the references' own, and fill the picture."""
     assert [(row.engine, row.rtol) for row in measured.rows] == [(e, rtol) for e in measured.engines for rtol in RTOLS]
     assert {"cvodes", "rosenbrock"} <= set(measured.engines)
     for loose, tight in zip(measured.rows[::2], measured.rows[1::2], strict=True):
@@ -46,6 +47,9 @@ def test_every_engine_is_measured_at_every_tolerance(measured: WorkPrecision) ->
         assert tight.error is not None
         assert loose.error > tight.error > measured.uncertainty
         assert tight.single > 0
+    left, right = draw(measured, wanted := 1e-6).axes[0].get_xlim()
+    assert 1 < left / max(row.error or 0 for row in measured.rows) < 10
+    assert 0.1 < right / min(wanted, measured.uncertainty) < 1
 
 
 def _row(engine: str, rtol: float, error: float | None, cost: float, **more: int) -> Row:
