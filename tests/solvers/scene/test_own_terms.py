@@ -173,6 +173,18 @@ def test_a_stick_is_proved_with_a_potential_and_a_drag(tmp_path: Path):
     assert (held.outcome, held.certified) == ("stick", True)
 
 
+@pytest.mark.parametrize("engine", ["taylor", "rosenbrock"])
+def test_chatter_takes_what_moves_alone(engine: str, tmp_path: Path):
+    """A doublet with an added mass comes to rest at a height: its potential stays, and the ledger closes."""
+    (tmp_path / "mine.py").write_text(HEAD + PULL + "energy(pull*x)\n" + MASS)
+    given = Scene.load("granulation", model=tmp_path / "mine.py").with_entries(
+        {"particles.roughness": "4 um", "particles.dry_restitution": 0.3}
+    )
+    found = collide(given, stokes=0.05, angle="40 deg", engine=engine, until="10 ms")
+    assert found.events[-1].kind == "rests"
+    assert abs(found.energy.residual) < 1e-9 * found.energy.largest
+
+
 def test_a_criterion_is_a_roughness_of_its_own_name(tmp_path: Path):
     """The gap of a soft layer takes the roughness's place to the last bit, with its derivative, under its own word."""
     text = FREE.replace("stokes = 0.6", "stokes = 4")
