@@ -95,6 +95,12 @@ def test_events_and_ledger_are_those_of_the_result(collisions):
     assert row(text, "engine") == f"{collisions['escapes'].engine}, {collisions['escapes'].steps} steps"
 
 
+@pytest.mark.parametrize(("restitution", "given"), [(1.0, False), (1.001, True)])
+def test_what_rotation_has_given_is_said_beyond_one(collisions, restitution, given):
+    shown = row(table(replace(collisions["bounces"], restitution=restitution)), "restitution e_n")
+    assert shown.startswith(f"{restitution:g}") and ("rotation has given it energy" in shown) == given
+
+
 def test_spins_before_and_after(collisions):
     """Both spheres' spins at initial contact and at separation; none before where the scene gives none."""
     lines = table(collisions["spins"]).splitlines()
