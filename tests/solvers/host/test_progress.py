@@ -1,6 +1,7 @@
 """Forecasts and progress of long computations."""
 
 import io
+import threading
 from contextlib import redirect_stderr
 
 import numpy as np
@@ -8,6 +9,7 @@ import pytest
 from wetdoublet.solvers import collide_many, collision_averages, design, fit
 from wetdoublet.solvers.commands.bar import Bar
 from wetdoublet.solvers.host.progress import forecast
+from wetdoublet.solvers.host.remarks import say_after
 
 SPEEDS = [0.3, 0.8, 1.2, 1.6, 1.9, 2.2, 2.5, 3.0]
 DATA = {"speed": SPEEDS, "angle": [0.0] * 8, "outcome": ["stick"] * 5 + ["bounce"] * 3}
@@ -70,6 +72,16 @@ def test_a_bar_on_a_terminal_forecasts_once(counts, said, capsys):
     assert terminal.getvalue().count(" more: ") == 1 and said in terminal.getvalue()
     counted(Clock(), counts)
     assert capsys.readouterr() == ("", "")
+
+
+def test_a_wait_is_explained_on_a_terminal():
+    """What takes longer says why, there alone; what does not says nothing."""
+    for stream, patience, said in ((Terminal(), 0.0, "a\n"), (io.StringIO(), 0.0, ""), (Terminal(), 1e3, "")):
+        with redirect_stderr(stream), say_after(patience, said.strip() or "b"):
+            for each in threading.enumerate():
+                if isinstance(each, threading.Timer) and each.interval == 0:
+                    each.join()
+        assert stream.getvalue() == said
 
 
 @pytest.mark.usefixtures("optimized")
