@@ -3,6 +3,7 @@
 import math
 
 import numpy as np
+import pint
 import pytest
 from wetdoublet.solvers import InputError, Scene, collide, collide_many, gradients_many, sensitivities
 from wetdoublet.solvers.sensitivity.uncertainty import deviations
@@ -117,6 +118,13 @@ def test_a_coating_says_what_is_assumed():
     assert any(
         "(assumed: 0.5 of the sphere's coating and the wall's layer beneath the sphere, " in line for line in wall
     )
+
+
+def test_a_volume_is_kept_as_it_was_given():
+    """Text with its unit in the unit that it has, a quantity of pint's as text in SI."""
+    for volume, kept in (("5e-5 mm^3", "5e-5 mm^3"), (pint.Quantity(1e-13, "m^3"), "1e-13 m^3")):
+        given = Scene.load("granulation").with_entries({"bridge.volume": volume})
+        assert f'volume = "{kept}"' in given.to_toml().splitlines()
 
 
 def test_a_volume_varies_in_either_way():
