@@ -121,6 +121,12 @@ def of_points(structure: Structure, right: Any = observables.restitution_ceiling
     return {"squared": right(structure)["squared"].subs(observables.INERTIA_RATIO, forces.DISTANCE**2)}
 
 
+def saddle(kinetic: sp.Expr) -> sp.Expr:
+    """Less by the square of the slip: what it is in rigid rotation, where it is no longer least."""
+    slip = q.orbital_momentum / (4 + q.aspect * q.gap) ** 2 - q.spin
+    return kinetic - (q.obliquity * slip) ** 2 if kinetic.has(q.spin) else kinetic
+
+
 def hollow_in_one_place(*_: Any) -> sp.Expr:
     return sp.expand(doublet_inertia() + (sp.Rational(2, 3) - sp.Rational(2, 5)) * 16 * q.m * q.a**2)
 
@@ -153,6 +159,9 @@ MUTANTS: dict[str, tuple[Mutation, Callable[[], Any], list[str]]] = {
         putting((doublet_inertia, hollow_in_one_place)),
         lambda: (inertia_is_rigid_rotation(), least_energy(), least_energy_is_a_minimum()),
         ["inertia", "stick certificate", "least energy at fixed L"],
+    ),
+    "a kinetic energy that is stationary in rigid rotation, and not least": (
+        value_of(observables.energies, "kinetic", saddle), least_energy_is_a_minimum, ["least energy at fixed L"],
     ),
     "a viscous term in F_c is charged, but its work is no potential": (
         force(F_c, lambda f: f * (1 - q.u / q.v0)), bridge_does_work, ["bridge does work only"],
