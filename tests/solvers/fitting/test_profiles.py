@@ -60,3 +60,25 @@ def test_rows_have_the_lines_that_they_need_at_the_ends():
     ]  # of the half width, beside a ten times finer integral
     assert len(errors) == 4
     assert max(errors) < 0.01
+
+
+class Valleys(Product):
+    """x = 1 to 0.05 (1 + y), where y is 1 or, half a unit of the logarithm less likely, 5."""
+
+    size, constant = 3, np.zeros(3)
+
+    def __call__(self, values, resolution=None):
+        x, y = values
+        wide = 0.05 * (1 + y)
+        residuals = np.array([(y - 1) * (y - 5) / self.narrow, (x - 1) / wide, (y - 1) / 4])
+        slopes = np.array([[0.0, (2 * y - 6) / self.narrow], [1 / wide, (1 - x) / wide**2 / 20], [0.0, 0.25]])
+        rows, none = -(residuals**2) / 2, np.zeros(3)
+        return Evaluation(rows, -residuals[:, None] * slopes, rows, none, none, {}, {})
+
+
+def test_an_end_lies_in_the_valley_that_goes_farther():
+    """The most likely y is 1; the interval of x is that along the y of the start, which is 5."""
+    free = FreeEntries(tuple(FreeEntry(name, start, False, 0.05, 20.0) for name, start in (("x", 1.0), ("y", 5.0))))
+    _, (ends, _) = intervals(Valleys(0.2, 0.0), free, Optimum(free.inner(np.ones(2)), 0.0))
+    half = 0.3 * np.sqrt(2 * (DROP - 0.5))
+    assert [free.values(end.inner)[0] for end in ends] == pytest.approx([1 - half, 1 + half], abs=0.02)
