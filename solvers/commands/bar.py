@@ -11,7 +11,7 @@ from contextlib import suppress
 from typing import Any, ClassVar, Self
 
 from ..host.progress import duration, forecast
-from ..host.remarks import say
+from ..host.remarks import say, underway
 
 _FIRST = 10.0  # s
 
@@ -104,11 +104,12 @@ class AtWork:
         passed = self.clock() - self._began
         if passed >= self._next:
             bar = Bar.latest
+            slow = "".join(f": {line}" for line in underway[:1])
             if bar is None:
-                say(f"at work for {duration(passed)}")
+                say(f"at work for {duration(passed)}{slow}")
             elif bar.shown is None:
                 count = f"{bar.done} {'' if bar.total is None else f'of {bar.total} '}{bar.unit}"
-                say(f"at work for {duration(passed)}: {bar.forecast() or count}")
+                say(f"at work for {duration(passed)}{slow or f': {bar.forecast() or count}'}")
             while self._next <= passed:
                 self._next *= 2
         return self._next - passed

@@ -43,9 +43,10 @@ def tracks(film: str | None, scale_sd: _Share, request: Entries, output: Written
     The columns are frame,x1,y1,x2,y2 in pixels, or time [s] and units of length; `impact` tells several films apart.
     Tables of trackpy, TrackMate (CSV, XML), Tracker, DLTdv, ImageJ, LapTrack and napari are read as they are.
     SCENE gives radii, film thickness and rupture gap. With -o FILE.csv the table is written as `fit` reads it.
+    The two may stand in either order.
 
     Example:
-      wetdoublet tracks film.csv scene.toml --rate 4000 --scale "12.5 um" -o impacts.csv
+      wetdoublet tracks scene.toml film.csv --rate 4000 --scale "12.5 um" -o impacts.csv
 
     Options:
         FILM.csv (film):

@@ -15,6 +15,9 @@ from ..errors import one_line
 
 _HUSHED = "WETDOUBLET_HUSHED"
 
+underway: list[str] = []
+"""What `say_after` waits for at present."""
+
 
 def say(line: str, only_here: bool = False) -> None:
     """Write a remark; ignored if standard error cannot be written.
@@ -38,9 +41,11 @@ def say_after(seconds: float, line: str) -> Iterator[None]:
     timer = threading.Timer(seconds, remark)
     timer.daemon = True  # an interrupt is not held up by it
     timer.start()
+    underway.append(line)
     try:
         yield
     finally:
+        underway.remove(line)
         timer.cancel()
 
 

@@ -7,7 +7,7 @@ from contextlib import redirect_stderr
 import numpy as np
 import pytest
 from wetdoublet.solvers import collide_many, collision_averages, design, fit
-from wetdoublet.solvers.commands.bar import Bar
+from wetdoublet.solvers.commands.bar import AtWork, Bar
 from wetdoublet.solvers.host.progress import forecast
 from wetdoublet.solvers.host.remarks import say_after
 
@@ -119,3 +119,25 @@ def test_an_interrupted_fit_says_what_is_most_likely_so_far():
     seen = {"speed": SPEEDS, "angle": angle, "outcome": words}
     with pytest.raises(KeyboardInterrupt, match=r"most likely are liquid\.viscosity = \S+ Pa s"):
         fit("granulation", seen, "liquid.viscosity", progress=interrupt)
+
+
+@pytest.mark.parametrize("counted_too", [False, True])
+def test_a_line_in_a_pipe_says_what_is_waited_for(counted_too):
+    """While a kernel is compiled it names that, with or without a count; before and behind it does not."""
+    clock, pipe = Clock(), io.StringIO()
+    at_work = AtWork(clock)
+
+    def lines(now):
+        clock.now = now
+        with redirect_stderr(pipe):
+            at_work.look()
+        return pipe.getvalue().splitlines()[-1]
+
+    with Bar("impacts", clock=clock) as bar:
+        bar.shown = None
+        Bar.latest = bar if counted_too else None
+        before = ": 0 of 0 impacts" if counted_too else ""
+        assert lines(10.0) == f"at work for 10 s{before}"
+        with say_after(60, "a kernel is compiled"):
+            assert lines(20.0) == "at work for 20 s: a kernel is compiled"
+        assert lines(40.0) == f"at work for 40 s{before}"
