@@ -74,7 +74,8 @@ export function eventWords(before: number, after: number, strings: boolean): str
     if (to === 5) return "cannot be followed further";
     if (to === 2) return "rests in contact";
     if (from === 2) return "released";
-    return to === 1 ? "gap begins to open" : "gap closes again";
+    // the code holds the first criterion only, so that a further rough contact looks as a gap that turns
+    return to !== 1 ? "gap closes again" : digit(after, 1000) ? "gap opens again" : "gap begins to open";
   }
   if (digit(before, 100) !== digit(after, 100)) return digit(after, 100) ? "into the film" : "out of the film";
   return "certain to stick";
