@@ -120,7 +120,9 @@ class Package:
             entry = ENTRIES.get(slot, "")
             if entry.partition(".")[0] not in present:
                 table = entry.partition(".")[0] or slot
-                raise InputError("--model", str(self.folder), f"a scene with a [{table}] table", f"has a {slot} law")
+                raise InputError(
+                    "--model", str(self.folder), f"a scene with a [{table}] table", f"has a law in the slot {slot}"
+                )
             if entry in FIELDS and entries.get(entry) not in self.laws(slot):
                 result[entry] = self.laws(slot)[0]
         return result
