@@ -93,7 +93,8 @@ def in_words(model: UserModel) -> tuple[str, ...]:
         lines = [f"Angular momentum is not conserved: d/dt of L over its scale is {torque(model)}."]
     lines += _of_terms(model)
     takers = "Mechanical energy is not conserved: film and shear take it, the solids' dry contact as well"
-    lines.append(f"{takers}; the bridge stores it (its force depends on the gap alone).")
+    marks = ", and on the marks of events that it reads" if model.events else ""
+    lines.append(f"{takers}; the bridge stores it (its force depends on the gap alone{marks}).")
     groups = model.derived(BRIDGED).groups
     new = {group.symbol: group for group in model.groups}
     names = ", ".join(symbol.name for symbol in groups if symbol not in new)
