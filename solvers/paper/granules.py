@@ -18,7 +18,7 @@ from ..many.collide_many import collide_many
 from ..scene.scene import Scene
 from . import report
 from .printed import CURVES, DOUBLED, PRINTED
-from .report import Comparison, Part, degrees, draw_map, number, picture, sheet, table
+from .report import Comparison, Part, degrees, draw_map, number, sheet, table
 
 _REACH = 0.26  # St at the right edge
 _STEEPEST, _FIRST = math.radians(89.0), math.radians(0.5)  # the lowest oblique line without a bridge
@@ -27,11 +27,9 @@ _PRESSURE = "liquid.glass_transition_pressure"
 _OUT_OF_REACH = 1e9  # factor on the glass-transition pressure
 _INSET = (0.61, 0.135, 0.36, 0.5)  # of Fig. 4a: left, bottom, width and height, as parts of its axes
 _BLUE, _ORANGE = "#0072B2", "#D55E00"
-_SHOWN = 0.25  # St at the right edge
-_POINTS = 1500  # of a curve
-_BESIDE = 1e-6  # relative distance from a boundary at which a curve ends
-_MOST_CE = 20.0  # range of the inset
-_COLOURS = (INK, "#56B4E9", "#009E73", "#0072B2", "#D55E00", "#CC79A7")  # Okabe-Ito
+_SHOWN, _MOST_CE = 0.25, 20.0  # St at the right edge of Fig. 4b, and Ce of its inset
+_POINTS, _BESIDE = 1500, 1e-6  # of a curve; relative distance from a boundary at which it ends
+_COLOURS = (INK, "#56B4E9", "#009E73", _BLUE, _ORANGE, "#CC79A7")  # Okabe-Ito
 _LINES: Sequence[Any] = ("-", (0, (4, 1.2)), "-", "-", "-", "-")
 _ROTATES, _BOUNCES = OUTCOMES.index(ROTATE), OUTCOMES.index(BOUNCE)
 
@@ -43,23 +41,26 @@ def fig4a(folder: Path) -> Part:
         atlas(setup, span=(first, _STEEPEST), stokes=(1e-3 * _REACH, _REACH))
         for setup, first in ((scene, 0.0), (dry, _FIRST))
     )
-    stokes, centrifugal = report.critical_stokes(scene), report.critical_centrifugal(scene, _AT)
+    head_on, *ends = report.ends_of_sticking(scene, 0.0, *_OBLIQUE)
+    [dry_line] = report.changes_at(dry, 0.0)
+    stokes, at_45 = head_on.stokes, ends[_OBLIQUE.index(_AT)]
+    centrifugal = at_45.centrifugal or math.nan
     with sheet(folder / "fig4a.png", 7.6) as figure:
         axes = figure.add_subplot()
         draw_map(axes, whole, covered=_INSET)
-        _draw_critical(axes, centrifugal, report.end_of_sticking(scene, _AT).stokes * math.tan(_AT), 1.15 * stokes)
-        _draw_dry(axes, dry_oblique, report.critical_stokes(dry))
+        _draw_critical(axes, centrifugal, at_45.stokes * math.tan(_AT), 1.15 * stokes)
+        _draw_dry(axes, dry_oblique, dry_line[0].stokes)
     sides = {dry_oblique.background}.union(*((curve.before, curve.after) for curve in dry_oblique.curves))
-    only_head_on = STICK not in sides and STICK in report.outcomes(report.changes_at(dry, 0.0))
+    only_head_on = STICK not in sides and STICK in report.outcomes(dry_line)
     why_stokes = "St* follows from p_gt alone: lever arm, tangential cut-off and bridge law have next to no part in it"
-    used, dry_used = report.described(scene), report.described(dry)
-    over_angles = ", ".join(f"{number(report.critical_centrifugal(scene, at))} at {degrees(at)}" for at in _OBLIQUE)
+    used = report.described(scene)
+    over_angles = ", ".join(f"{number(end.centrifugal)} at {degrees(at)}" for at, end in zip(_OBLIQUE, ends))
     why_centrifugal = (
         f"at {degrees(_AT)}; the paper has one number for all angles. Ours: {over_angles}. With the "
         "leading-order lever arm of the tangential force, which the paper may have used (a law of one's own, "
         "docs/reference/models.md): 4.27, 4.20, 4.15, 4.08 at 30, 45, 60, 75 deg"
     )
-    why_dry = "nothing holds a rotating doublet once lubrication has stopped it"
+    only, why_dry = "θ₀ = 0 only", "nothing holds a rotating doublet once lubrication has stopped it"
     caption = (
         f"Fig. 4a: regime map without strings. Black: traced boundaries. Blue: Ce = {number(centrifugal)}, "
         f"the S/SRS boundary at {degrees(_AT)}; orange, dashed: the paper's Ce* = {PRINTED['centrifugal'].text} "
@@ -68,18 +69,13 @@ def fig4a(folder: Path) -> Part:
     comparisons = [
         Comparison("stokes_4", stokes, used, why_stokes),
         Comparison("centrifugal", centrifugal, used, why_centrifugal),
-        Comparison("dry", "θ₀ = 0 only" if only_head_on else "others, too", dry_used, why_dry, only_head_on),
+        Comparison("dry", only if only_head_on else "others, too", report.described(dry), why_dry, only_head_on),
     ]
-    title, scenes = "Fig. 4a: regime map of granules", [report.BRIDGED, report.DRY]
-    return Part(title, picture("fig4a.png", caption), comparisons, ["fig4a.png"], scenes)
+    return Part.drawn("Fig. 4a: regime map of granules", "fig4a.png", caption, comparisons, report.BRIDGED, report.DRY)
 
 
 def _draw_critical(axes: Axes, centrifugal: float, tangential: float, largest: float) -> None:
-    """Draw our Ce* up to a Stokes number, and the paper's Ce* and St*.
-
-    Arguments:
-        tangential: St tan(theta0) at our Ce*; Ce is proportional to its square.
-    """
+    """Draw our Ce* up to a Stokes number, and the paper's; Ce is proportional to the square of St tan(theta0)."""
     printed_ce, printed_st = PRINTED["centrifugal"], PRINTED["stokes_4"]
     stokes = np.linspace(0, largest, 600)
     by_paper = tangential * math.sqrt(printed_ce.value / centrifugal)
@@ -112,7 +108,7 @@ def _draw_dry(axes: Axes, whole: Atlas, stokes: float) -> None:
 def fig4b(folder: Path) -> Part:
     """The curves between the boundaries, and their figure."""
     scene = Scene.load(report.BRIDGED)
-    lines = [report.changes_at(scene, angle) for angle in CURVES]
+    lines = report.changes_at(scene, *CURVES)
     edges = np.array([change.stokes for line in lines for change in line if change.stokes < _SHOWN])
     even = np.linspace(0, _SHOWN, _POINTS + 1)[1:]
     stokes = np.unique(np.concatenate([even, edges * (1 - _BESIDE), edges * (1 + _BESIDE)]))
@@ -123,17 +119,13 @@ def fig4b(folder: Path) -> Part:
         _against_stokes(axes, stokes, outcome, restitution)
         _against_centrifugal(axes, stokes, outcome, restitution, lines)
 
-    def highest(values: np.ndarray) -> tuple[float, float, float]:
-        """The largest value, its angle and Stokes number."""
-        angle, place = np.unravel_index(np.argmax(values), values.shape)
-        return float(values[angle, place]), CURVES[angle], float(stokes[place])
-
     both_bounce = (outcome[:2] == _BOUNCES).all(axis=0)
     apart = float(np.abs(np.diff(restitution[:2], axis=0)[0, both_bounce]).max())
-    largest, at, at_stokes = highest(restitution)
-    rotating, rotating_at, _ = highest(np.where(outcome == _ROTATES, restitution, 0.0))
+    angle, place = np.unravel_index(np.argmax(restitution), restitution.shape)
+    rotating = np.where(outcome == _ROTATES, restitution, 0.0).max(axis=1)
     used, at_15 = report.described(scene), report.outcomes(lines[1])
-    why_largest = f"in St up to {_SHOWN:g}; of those that rotate first {number(rotating)} at {degrees(rotating_at)}"
+    largest, rotating_at = float(restitution[angle, place]), degrees(CURVES[int(np.argmax(rotating))])
+    why_largest = f"in St up to {_SHOWN:g}; of those that rotate first {number(rotating.max())} at {rotating_at}"
     invisible = 0.05  # difference in a printed figure
     comparisons = [
         Comparison(
@@ -144,7 +136,8 @@ def fig4b(folder: Path) -> Part:
             "same_at_15", f"differs by {apart:.2g} at most", used, "in e_n, where both bounce", apart < invisible
         ),
         Comparison(
-            "above_one", f"{number(largest)} at {degrees(at)}, St {at_stokes:.3g}", used, why_largest, largest > 1
+            "above_one", f"{number(largest)} at {degrees(CURVES[angle])}, St {stokes[place]:.3g}", used, why_largest,
+            largest > 1,
         ),
     ]  # fmt: skip
     caption = (
@@ -157,8 +150,7 @@ def fig4b(folder: Path) -> Part:
         "that has just passed its barrier takes up speed until rupture, and one that just meets a criterion is sent "
         "back with what speed it still had."
     )
-    text = f"{words}\n\n{picture('fig4b.png', caption)}"
-    return Part("Fig. 4b: restitution", text, comparisons, ["fig4b.png"], [report.BRIDGED])
+    return Part.drawn("Fig. 4b: restitution", "fig4b.png", caption, comparisons, report.BRIDGED, words=words)
 
 
 def _against_stokes(axes: Axes, stokes: np.ndarray, outcome: np.ndarray, restitution: np.ndarray) -> None:
@@ -201,7 +193,8 @@ def factors(_folder: Path) -> Part:
     base = base.with_entries({_PRESSURE: _OUT_OF_REACH * float(base.entries[_PRESSURE])})
     entries = [entry for entry, _ in DOUBLED.values()]
     scenes = [base, *(base.with_entries({entry: 2 * float(base.entries[entry])}) for entry in entries)]
-    critical = np.array([[report.critical_centrifugal(scene, angle) for angle in _OBLIQUE] for scene in scenes])
+    ends = [report.ends_of_sticking(scene, *_OBLIQUE) for scene in scenes]
+    critical = np.array([[end.centrifugal for end in line] for line in ends], float)
     ratios, place = critical[1:] / critical[0], _OBLIQUE.index(_AT)  # by quantity and angle
     used = report.described(base) + ", p_gt out of reach"
     comparisons = [

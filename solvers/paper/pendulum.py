@@ -16,11 +16,10 @@ from ..formatting.style import LETTERS, NOTE
 from ..scene.scene import Scene
 from . import report
 from .printed import PRINTED, SHOT_ANGLE, SHOTS
-from .report import Comparison, Part, degrees, draw_map, number, picture, sheet
+from .report import Comparison, Part, degrees, draw_map, number, sheet
 
 _BEFORE, _AFTER = 1, 4  # frames of a shot before and after initial contact
-_REACH = 2.5  # St at the right edge of the map
-_STEEPEST = math.radians(89.0)
+_REACH, _STEEPEST = 2.5, math.radians(89.0)  # St at the right edge of the map, and its largest angle
 _MS = 1e3
 
 
@@ -41,7 +40,7 @@ def fig1(folder: Path) -> Part:
         "mass, to scale, at the paper's intervals. Before first touch and after rupture the spheres move on straight "
         "lines, strings left out. Lines: marks that met at touch."
     )
-    return Part("Fig. 1: three collisions", picture("fig1.png", caption), comparisons, ["fig1.png"], [report.PENDULUM])
+    return Part.drawn("Fig. 1: three collisions", "fig1.png", caption, comparisons, report.PENDULUM)
 
 
 def _end(seen: Collision) -> str:
@@ -78,11 +77,17 @@ def fig3(folder: Path) -> Part:
         axes.axvline(printed.value, color=NOTE, linestyle=(0, (4, 2)), linewidth=1, zorder=2)
         label = f"paper: $St_n^*$ = {printed.text}"
         axes.annotate(label, (printed.value, 4), (-4, 0), textcoords="offset points", fontsize=7.5, ha="right")
-    escapes = report.critical_stokes(scene)
-    met = _criterion_met(scene, escapes)
+    at_printed = math.radians(PRINTED["angle_3"].value)
+    head_on, oblique = report.ends_of_sticking(scene, 0.0, at_printed)
+    escapes, rotates = head_on.stokes, oblique.stokes
+
+    def reversal(stokes: float) -> float:
+        """Positive where a rebound criterion is met head-on: at most just above St*, where the doublet escapes."""
+        return 1.0 if collide(scene, stokes=stokes, angle=0.0, ledger=False).reversal else -1.0
+
+    met = float(bisect(reversal, 0.8 * escapes, (1 + 1e-6) * escapes, xtol=1e-6 * escapes))
     first = math.degrees(min(min(curve.x) for curve in whole.curves if curve.after == ROTATE))
     leaves = math.degrees(max(max(curve.x) for curve in whole.curves if curve.before == ROTATE))
-    rotates = report.changes_at(scene, math.radians(PRINTED["angle_3"].value))[0].stokes
     between = (
         f"a criterion is met from {number(met)} on; up to {number(escapes)} the doublet is reversed and still sticks. "
         "The printed number lies between; p_gt, on which it depends, was fitted to a measured St*"
@@ -100,14 +105,4 @@ def fig3(folder: Path) -> Part:
         Comparison("stokes_3", escapes, report.described(scene), between),
         Comparison("angle_3", first, report.described(scene), begins),
     ]
-    title = "Fig. 3: regime map of the pendulum"
-    return Part(title, picture("fig3.png", caption), comparisons, ["fig3.png"], [report.PENDULUM])
-
-
-def _criterion_met(scene: Scene, escapes: float) -> float:
-    """The Stokes number from which a rebound criterion is met head-on; at most just above St*, where it escapes."""
-
-    def met(stokes: float) -> float:
-        return 1.0 if collide(scene, stokes=stokes, angle=0.0, ledger=False).reversal else -1.0
-
-    return float(bisect(met, 0.8 * escapes, (1 + 1e-6) * escapes, xtol=1e-6 * escapes))
+    return Part.drawn("Fig. 3: regime map of the pendulum", "fig3.png", caption, comparisons, report.PENDULUM)

@@ -8,14 +8,7 @@ CITATION = "Donahue, Davis, Kantak and Hrenya, Phys. Rev. E 86, 021303 (2012), D
 
 @dataclass(frozen=True)
 class Printed:
-    """A number or a finding of the paper.
-
-    Arguments:
-        what: description.
-        text: the printed number, or a short form of the finding.
-        place: place in the paper.
-        quote: the quoted sentence.
-    """
+    """A number, or a short form of a finding, of the paper: what it is of, its place, and the sentence quoted."""
 
     what: str
     text: str

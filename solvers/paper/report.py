@@ -1,5 +1,7 @@
 """The report: printed numbers beside ours, each part with figures, equations and variants; what all parts read."""
 
+from __future__ import annotations
+
 import math
 import re
 from collections.abc import Iterator, Sequence
@@ -11,6 +13,7 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.layout_engine import ConstrainedLayoutEngine
 
 from ...generated.automaton import OUTCOMES, STICK
 from ..boundaries.boundary import boundary
@@ -24,7 +27,7 @@ from ..scene.schema import MEETING
 from .printed import CITATION, NOT_COMPARED, PRINTED
 
 TITLE = "Wet particles, oblique collisions: the paper and this model"
-COLUMN = 8.8  # cm, width of a printed column
+COLUMN, _DPI = 8.8, 300  # cm, width of a printed column
 STOKES, ANGLE = "Stokes number $St_n$", r"impact angle $\theta_0$ (deg)"
 _HEAD = ("quantity", "paper", "ours", "difference", "with (lever arm at mid-gap)", "why, and what goes with it")
 _ROWS, _COLUMNS = 541, 781  # of the raster of outcomes; their edges are drawn over by the curves
@@ -38,13 +41,9 @@ BRIDGED, DRY, PENDULUM = "granulation", "granulation-dry-bridge", "pendulum"
 
 @dataclass(frozen=True)
 class Comparison:
-    """A printed number or finding with ours.
+    """Our number or finding for an entry of PRINTED, with the variants used and why it differs.
 
     Arguments:
-        key: key of the printed entry.
-        ours: computed number, or the finding in words.
-        used: the variants used.
-        why: reason for a difference, or a comment.
         agrees: for a finding in words, True if it agrees with the paper.
     """
 
@@ -67,19 +66,21 @@ class Comparison:
 
 @dataclass(frozen=True)
 class Part:
-    """A part of the report.
-
-    Attributes:
-        text: Markdown.
-        pictures: files in the report's folder.
-        scenes: presets used.
-    """
+    """A part of the report: its text in Markdown, its pictures in the report's folder, and the presets used."""
 
     title: str
     text: str
     comparisons: Sequence[Comparison] = ()
     pictures: Sequence[str] = ()
     scenes: Sequence[str] = ()
+
+    @classmethod
+    def drawn(
+        cls, title: str, file: str, caption: str, comparisons: Sequence[Comparison], *scenes: str, words: str = ""
+    ) -> Part:
+        """A part with one picture, and words before it."""
+        text = "\n\n".join(filter(None, (words, picture(file, caption))))
+        return cls(title, text, comparisons, [file], scenes)
 
 
 def table(caption: str, head: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
@@ -138,11 +139,13 @@ def _inputs(presets: Sequence[str]) -> str:
 
 @contextmanager
 def sheet(file: Path, height: float, width: float = COLUMN) -> Iterator[Figure]:
-    """Context of a figure of the given size in cm, saved to `file` at the end."""
+    """Context of a figure of the given size in cm, saved to `file` at the end; drawn once, after its layout."""
     with styled(_STYLE):
-        figure = Figure(figsize=(width / 2.54, height / 2.54), layout="constrained")
+        figure = Figure(figsize=(width / 2.54, height / 2.54), dpi=_DPI)
         yield figure
-        save(figure, file, dpi=300)
+        if figure.axes:
+            ConstrainedLayoutEngine().execute(figure)
+        save(figure, file, dpi=_DPI)
 
 
 def draw_map(
@@ -177,35 +180,25 @@ def described(scene: Scene) -> str:
     return text if scene.pendulum is None else f"{text}; {scene.pendulum.law} strings, l = {scene.pendulum.length:g} m"
 
 
-def changes_at(scene: Scene, angle: float) -> tuple[Change, ...]:
-    """The changes of outcome at an angle (rad), by the Stokes number; ComputationError where they are not traced."""
-    traced = boundary(scene, angle=angle)
+def changes_at(scene: Scene, *angles: float) -> tuple[tuple[Change, ...], ...]:
+    """The changes of outcome at angles (rad), by the Stokes number; ComputationError where they are not traced."""
+    traced = boundary(scene, angle=list(angles))
     for at, reason in traced.failed:
         raise ComputationError(f"{scene.name} at {degrees(at)}: {reason}")
-    return traced.changes[0]
+    return traced.changes
 
 
 def outcomes(changes: Sequence[Change]) -> tuple[str, ...]:
     """The outcomes between changes, in order of St."""
-    return (changes[0].before, *(change.after for change in changes)) if changes else ()
+    return (*(change.before for change in changes[:1]), *(change.after for change in changes))
 
 
-def end_of_sticking(scene: Scene, angle: float = 0.0) -> Change:
-    """The change at which sticking ends: its Stokes number is St*, its centrifugal number Ce*."""
-    for change in changes_at(scene, angle):
-        if change.before == STICK:
-            return change
-    raise ComputationError("no boundary at which stick ends was found where the paper has one")
-
-
-def critical_stokes(scene: Scene) -> float:
-    """St* of head-on collisions."""
-    return end_of_sticking(scene).stokes
-
-
-def critical_centrifugal(scene: Scene, angle: float) -> float:
-    """Ce* of a scene with a bridge."""
-    return float(end_of_sticking(scene, angle).centrifugal or math.nan)
+def ends_of_sticking(scene: Scene, *angles: float) -> list[Change]:
+    """The change at which sticking ends at each angle: its Stokes number is St*, its centrifugal number Ce*."""
+    ends = [change for line in changes_at(scene, *angles) for change in line if change.before == STICK]
+    if len(ends) != len(angles):
+        raise ComputationError("no boundary, or several, at which stick ends, where the paper has one")
+    return ends
 
 
 def number(value: float | None) -> str:

@@ -7,9 +7,11 @@ import time
 from collections.abc import Callable, Sequence
 from importlib.metadata import version
 from itertools import groupby
+from operator import itemgetter
 from pathlib import Path
 
 from ..formatting.style import INK, NOTE
+from ..host.emitted import deriving
 from ..host.files import write
 from ..host.progress import Progress
 from ..scene.scene import Scene
@@ -28,11 +30,19 @@ def table1(folder: Path) -> Part:
     bridged, hung = Scene.load(BRIDGED), Scene.load(PENDULUM)
     assert bridged.bridge is not None
     assert hung.pendulum is not None
-    from ...derive.emit.document.theory import theory  # imports sympy
-
     model = bridged.model
     laws = {"arm": model.arm, "shear": model.tangential, "glass": model.glass}
-    equations = theory(laws | {"bridge": bridged.bridge.law, "strings": hung.pendulum.law})
+    laws |= {"bridge": bridged.bridge.law, "strings": hung.pendulum.law}
+
+    def lines_of_theory() -> list[tuple[str, str, str]]:
+        from ...derive.emit.document.theory import theory  # imports sympy
+
+        return [(line.group, line.latex, line.note) for line in theory(laws)]
+
+    with deriving():
+        from ...derive.equations.store import stored
+
+        equations = stored(f"theory-{'-'.join(laws.values())}", lines_of_theory)
     words = (
         "The equations of the model in SI, written by the derivation in the symbols of its vocabulary; nothing is "
         f"typed in. Laws: {described(bridged)}; {described(hung)}. The paper's own table is a picture that its text "
@@ -40,12 +50,12 @@ def table1(folder: Path) -> Part:
     )
     blocks = [words, picture("table1.png", "Table 1: theory; `wetdoublet export SCENE --to latex` writes a document.")]
     drawn: list[tuple[str, str]] = []  # formulas, and headings without one, beside their notes
-    for heading, lines in groupby(equations, key=lambda line: line.group):
+    for heading, lines in groupby(equations, key=itemgetter(0)):
         blocks.append(f"### {heading}")
         drawn.append(("", heading))
-        for line in lines:
-            blocks += [text for text in (f"$$ {line.latex} $$", line.note) if text]
-            drawn.append((line.latex.replace(r"\frac", r"\dfrac"), line.note))
+        for _, latex, note in lines:
+            blocks += [text for text in (f"$$ {latex} $$", note) if text]
+            drawn.append((latex.replace(r"\frac", r"\dfrac"), note))
     _draw(drawn, folder / "table1.png")
     return Part("Table 1: theory", "\n\n".join(blocks), pictures=["table1.png"])
 
@@ -54,7 +64,6 @@ def _draw(lines: list[tuple[str, str]], file: Path) -> None:
     """Draw formulas with their notes below each other, in columns."""
     rows = -(-len(lines) // _COLUMNS)
     with sheet(file, _LINE * (rows + 1), _WIDTH) as figure:
-        figure.set_layout_engine("none")
         for k, (latex, note) in enumerate(lines):
             x, y = k // rows / _COLUMNS, 1 - (k % rows + 1) / (rows + 1)
             if latex:
