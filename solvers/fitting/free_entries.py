@@ -147,6 +147,16 @@ class FreeEntries:
         """Derivatives of the values by the variables of the search."""
         return np.array([value if entry.log else 1.0 for entry, value in zip(self.entries, values, strict=True)])
 
+    def misfits(self, inner: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Distance of each entry from its prior's centre, in standard deviations, and its derivative; 0 without one."""
+        values = self.values(inner)
+        pairs = [
+            (0.0, 0.0) if entry.prior is None else entry.prior.misfit(float(value))
+            for entry, value in zip(self.entries, values, strict=True)
+        ]
+        misfits, slopes = np.array(pairs).T
+        return misfits, slopes * self.rates(values)
+
 
 def free_entries(
     scene: Scene,

@@ -72,7 +72,7 @@ class Objective:
         evaluation = self.at(inner)
         if evaluation is None:
             return np.full(self.likelihood.size + self.free.size, np.inf)
-        return np.concatenate([self._roots(evaluation), self._priors(inner)[0]])
+        return np.concatenate([self._roots(evaluation), self.free.misfits(inner)[0]])
 
     def _roots(self, evaluation: Evaluation) -> np.ndarray:
         roots: np.ndarray = np.sqrt(np.maximum(2 * (self.likelihood.constant - evaluation.rows), 0.0))
@@ -84,7 +84,7 @@ class Objective:
         root, rates = self._roots(evaluation)[:, None], self.free.rates(self.free.values(inner))
         with np.errstate(divide="ignore", invalid="ignore"):
             rows = np.where(root > _LEAST, -evaluation.scores * rates / root, 0.0)
-        return np.vstack([rows, np.diag(self._priors(inner)[1])])
+        return np.vstack([rows, np.diag(self.free.misfits(inner)[1])])
 
     def value(self, inner: np.ndarray) -> float:
         """The logarithm of likelihood times prior density, up to a constant; -inf where the scene is impossible."""
@@ -92,16 +92,16 @@ class Objective:
         if evaluation is None:
             return -np.inf
         offset = sum(entry.prior.offset for entry in self.free.entries if isinstance(entry.prior, Normalisation))
-        return evaluation.value + offset - float((self._priors(inner)[0] ** 2).sum()) / 2
+        return evaluation.value + offset - float((self.free.misfits(inner)[0] ** 2).sum()) / 2
 
     def log_likelihood(self, inner: np.ndarray) -> float:
         """The logarithm of the likelihood alone, with all constants of the densities, where the scene is possible."""
-        return self.value(inner) + sum(float(e) ** 2 for e, entry in zip(self._priors(inner)[0], self.free.entries)
+        return self.value(inner) + sum(float(e) ** 2 for e, entry in zip(self.free.misfits(inner)[0], self.free.entries)
                                        if isinstance(entry.prior, Prior)) / 2  # fmt: skip
 
     def gradient(self, inner: np.ndarray) -> np.ndarray:
         """Derivatives of `value`."""
-        misfits, slopes = self._priors(inner)
+        misfits, slopes = self.free.misfits(inner)
         rates = self.free.rates(self.free.values(inner))
         gradient: np.ndarray = self._possible(inner).scores.sum(axis=0) * rates - misfits * slopes
         return gradient
@@ -135,16 +135,6 @@ class Objective:
         if np.isfinite(height):
             slope = self.gradient(inner) / self.free.rates(self.free.values(inner))
         return height, dict(zip(self.free.names, slope.tolist(), strict=True))
-
-    def _priors(self, inner: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Distance of each entry from its prior's centre, in standard deviations, and its derivative; 0 without one."""
-        values = self.free.values(inner)
-        pairs = [
-            (0.0, 0.0) if entry.prior is None else entry.prior.misfit(float(value))
-            for entry, value in zip(self.free.entries, values, strict=True)
-        ]
-        misfits, slopes = np.array(pairs).T
-        return misfits, slopes * self.free.rates(values)
 
 
 def whitening(objective: Objective, inner: np.ndarray) -> np.ndarray:

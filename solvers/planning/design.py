@@ -1,6 +1,7 @@
 """`design()`: where the next impacts should be to learn most about entries of a scene."""
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -11,15 +12,14 @@ from ..engines.settings import check_rtol
 from ..errors import InputError
 from ..fitting.data_table import read_data
 from ..fitting.fit import RTOL, fit
-from ..fitting.free_entries import FreeEntries, free_entries
-from ..fitting.measurements import Measurements
+from ..fitting.free_entries import free_entries
 from ..host.arguments import check_function, check_name, check_whole
 from ..host.progress import Estimated, Progress
 from ..model.validity import warn
 from ..scene.scene import Scene
 from .information import information
 from .result import Design
-from .search import Criterion, search
+from .search import search, worth
 from .window import Scatter, Window, check_over
 
 _SPACING = 20  # candidates to begin with, to either side
@@ -81,19 +81,21 @@ def design(
     rtol = check_rtol(rtol)
     check_function(progress, "progress")
     loaded = Scene.load(scene)
-    key, speed, angle = check_over(over)
+    ends = check_over(over)
     size = check_whole(n, "n", 1, _MOST)
     table = None if data is None else read_data(data, loaded)
     default = Scatter() if table is None else Scatter.typical(table)
-    scatter = Scatter.checked(speed_sd, angle_sd, restitution_sd, default)
-    window = Window(loaded, key, speed, angle, scatter)
-    entries, before, scene_now = _known(loaded, free, table, prior, window, rtol)
+    window = Window(loaded, *ends, Scatter.checked(speed_sd, angle_sd, restitution_sd, default))
+    if table is None:
+        entries = free_entries(loaded, free, window.plan(np.zeros((1, 2))), prior, rtol)
+        values, before = entries.values(entries.start), np.diag(entries.misfits(entries.start)[1] ** 2)
+    else:
+        fitted = fit(loaded, table, free, prior=prior, rtol=rtol)
+        entries, window = fitted.free, replace(window, scene=fitted.scene)
+        values, before = entries.values(fitted.best), fitted.objective.information(fitted.best)
     single = None if target is None else check_name(target, entries.names, "target")
-    warn(scene_now)
-    window = Window(scene_now, key, speed, angle, scatter)
-    values = np.array([float(scene_now.entries[name]) for name in entries.names])
-    rates = np.outer(entries.rates(values), entries.rates(values))
-    first = window.candidates(_SPACING, rtol)
+    warn(window.scene)
+    first, number = window.candidates(_SPACING, rtol), None if single is None else entries.names.index(single)
     work = Estimated(progress, len(first) + _MORE + _PER_IMPACT * min(size, entries.size + 2))
     work.start()
 
@@ -101,13 +103,15 @@ def design(
         """The information of impacts, in the variables of the search."""
         totals = []
         for block in np.array_split(points, -(-len(points) // _AT_ONCE)):
-            totals.append(information(scene_now, entries.names, values, window.plan(block), rtol).total * rates)
+            totals.append(information(window.scene, entries.names, values, window.plan(block), rtol).total)
             work.add(len(block))
-        return np.concatenate(totals)
+        return np.concatenate(totals) * np.outer(entries.rates(values), entries.rates(values))
 
-    # the range of the search keeps the matrices from being singular; nothing is known beyond it
-    criterion = Criterion(None) if single is None else Criterion(entries.names.index(single), _OTHERS)
-    choice = search(evaluate, before + entries.vague, criterion, size, first, 1 / (_SPACING - 1))
+    def criterion(total: np.ndarray) -> np.ndarray:
+        """The range of the search keeps sums of information from being singular; beyond it nothing is known."""
+        return worth(before + entries.vague + total, number, _OTHERS)
+
+    choice = search(evaluate, criterion, size, first, 1 / (_SPACING - 1))
     most = np.einsum("cii->ci", choice.single).max(axis=0)  # information of an impact on each entry
     for name, information_of_one in zip(entries.names, most, strict=True):
         if single in (None, name) and information_of_one < _NOTHING:
@@ -118,17 +122,3 @@ def design(
     planned = Design.of(window, entries, values, before, choice, single, size, rtol, loaded)
     work.finish()
     return planned
-
-
-def _known(
-    scene: Scene, free: Sequence[str] | str, data: Measurements | None, prior: Mapping[str, str] | None, window: Window,
-    rtol: float,
-) -> tuple[FreeEntries, np.ndarray, Scene]:  # fmt: skip
-    """The free entries, the information of priors and data (in the variables of the search), the scene to plan for."""
-    if data is not None:
-        fitted = fit(scene, data, free, prior=prior, rtol=rtol)
-        return fitted.free, fitted.objective.information(fitted.best), fitted.scene
-    entries = free_entries(scene, free, window.plan(np.zeros((1, 2))), prior, rtol)
-    rates = entries.rates(entries.values(entries.start))
-    slopes = np.array([0.0 if entry.prior is None else entry.prior.misfit(entry.value)[1] for entry in entries.entries])
-    return entries, np.diag((slopes * rates) ** 2), scene

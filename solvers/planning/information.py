@@ -8,7 +8,7 @@ they are polynomials of e; the noise in them is integrated exactly. More of them
 there is.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -92,8 +92,7 @@ def _integrated(
     return Information(total, outcome, probability)
 
 
-_Points = tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]
-"""Weights, derivatives of their logarithms, restitutions, derivatives: (points,), (points, free entries), twice."""
+_Points = tuple[np.ndarray, ...]  # weights, derivatives of their logarithms, restitutions, derivatives
 
 
 def _points(
@@ -101,8 +100,7 @@ def _points(
 ) -> list[tuple[int, _Points]]:
     """Row and points of the scatter, for each of its outcomes; without trajectories that were not completed."""
     parts: dict[tuple[int, int], list[_Points]] = {}
-    exact = replace(resolution, approximate=False)
-    for which, mapping, value, slope in segments.results(experiment, lines, ends, (RESTITUTION,), exact):
+    for which, mapping, value, slope in segments.results(experiment, lines, ends, (RESTITUTION,), resolution):
         g = mapping.at_points
         for j, k in enumerate(which.tolist()):
             if np.isfinite(value[0, j]).all():

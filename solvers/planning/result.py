@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -15,18 +15,14 @@ from ..fitting.measurements import Measurements
 from ..formatting.markdown import aligned
 from ..host.pictures import Drawn
 from ..scene.held import NAMES
-from ..scene.origin import Recorded, origin, provenance
+from ..scene.origin import Recorded, origin
 from ..scene.scene import Scene
 from .information import information
 from .search import Choice
 from .window import Window
 
-if TYPE_CHECKING:
-    import xarray
-
 _QUANTILE = 1.959963984540054  # of a normal distribution, 97.5 %
 _FROM_RANGE = 1.2  # growth of a standard deviation with the range of the search, from which it says nothing
-_ALONG, _ACROSS = 40, 28  # impacts of a map
 
 
 @dataclass(frozen=True)
@@ -141,33 +137,6 @@ class Design(Drawn, Recorded):
     def plan(self) -> Measurements:
         """The impacts as rows of measurements; outcomes unknown, restitutions NaN with their standard deviation."""
         return self.window.plan(np.repeat(self.points, [impact.count for impact in self.impacts], axis=0))
-
-    def map(self, along: int = _ALONG, across: int = _ACROSS) -> xarray.Dataset:
-        """What a single impact tells of each entry over the window, in the variables of the fit (logarithms).
-
-        Arguments:
-            along, across: number of speeds and angles.
-
-        Returns:
-            Dataset over entry, angle and speed (by the window's name): `information`, and `by_outcome`, what the
-            outcome alone tells; `probability` of each outcome.
-        """
-        import xarray as xr
-
-        points, key = self.window.grid(along, across), self.window.key
-        single = information(self.window.scene, self.free.names, self.values, self.window.plan(points), self.rtol)
-        speed, angle = (axis.reshape(np.unique(points[:, 1]).size, -1) for axis in self.window.values(points))
-        of_entry, of_outcome = (("angle", key, name) for name in ("entry", "outcome"))
-        told = [
-            (np.einsum("cii->ci", matrix) * self.free.rates(self.values) ** 2).reshape(*speed.shape, -1)
-            for matrix in (single.total, single.outcome)
-        ]
-        return xr.Dataset(
-            {"information": (of_entry, told[0]), "by_outcome": (of_entry, told[1]),
-             "probability": (of_outcome, single.probability.reshape(*speed.shape, -1))},
-            {"entry": list(self.free.names), "outcome": list(OUTCOMES), "angle": angle[:, 0], key: speed[0]},
-            provenance(self.window.scene, name=self.window.scene.name),
-        ).transpose("entry", "outcome", ...)  # fmt: skip
 
     def to_dict(self) -> dict[str, Any]:
         """The JSON object of `wetdoublet design --json`."""

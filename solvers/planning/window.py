@@ -19,12 +19,11 @@ from ..scene.schema import FIELDS
 RESTITUTION = "restitution"
 SPEEDS = ("stokes", "speed", "relative_speed")
 _AXES = (*SPEEDS, "angle")
-_SPEED_SD = Field(
-    "speed_sd", "a part of the speed", '"2 %" or 0.02', Range("from 0 to below 0.33", 0.0, 1 / 3, low_open=False)
+_THIRD, _HALF = (
+    Range(f"from 0 to below {most}", 0.0, end, low_open=False) for most, end in (("0.33", 1 / 3), ("0.5 rad", 0.5))
 )
-_ANGLE_SD = Field(
-    "angle_sd", "an angle", '"1 deg"', Range("from 0 to below 0.5 rad", 0.0, 0.5, low_open=False), unit="rad"
-)
+_SPEED_SD = Field("speed_sd", "a part of the speed", '"2 %" or 0.02', _THIRD)
+_ANGLE_SD = Field("angle_sd", "an angle", '"1 deg"', _HALF, unit="rad")
 _NOISE = Field("restitution_sd", "a standard deviation", "0.02", words=("none",))
 _ALONG, _ACROSS = 96, 32  # outcomes that are looked at for their changes: speeds, angles
 _BESIDE = (-1.5, 0.0, 1.5)  # candidates beside a change of outcome, in standard deviations of the speed
@@ -129,16 +128,14 @@ class Window:
 
     def candidates(self, spacing: int, rtol: float) -> np.ndarray:
         """An even grid, and points beside the changes of outcome, which are narrower than its cells."""
-        grid = self.grid(spacing, spacing)
+        grid, fine = self.grid(spacing, spacing), self.grid(_ALONG, _ACROSS)
         if not self.extends[0]:
             return grid
-        fine = self.grid(_ALONG, _ACROSS)
-        lines = self.outcomes(fine, rtol).reshape(-1, _ALONG)
+        lines, places = self.outcomes(fine, rtol).reshape(-1, _ALONG), fine.reshape(-1, _ALONG, 2)
         line, k = np.nonzero(lines[:, 1:] != lines[:, :-1])
-        middle = (k + 0.5) / (_ALONG - 1)
+        middle = (places[line, k] + places[line, k + 1]) / 2
         sd = self.scatter.speed / math.log(self.speed[1] / self.speed[0])
-        across = fine.reshape(-1, _ALONG, 2)[line, 0, 1]
-        beside = [np.column_stack([np.clip(middle + off * sd, 0, 1), across]) for off in _BESIDE]
+        beside = [np.clip(middle + np.array([off * sd, 0.0]), 0, 1) for off in _BESIDE]
         return np.unique(np.vstack([grid, *beside]).round(9), axis=0)
 
 

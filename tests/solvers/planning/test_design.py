@@ -9,7 +9,7 @@ import pytest
 from wetdoublet.solvers import Design, Scene, design
 from wetdoublet.solvers.fitting.data_table import read_data
 from wetdoublet.solvers.planning.information import information
-from wetdoublet.solvers.planning.search import Choice, Criterion, search
+from wetdoublet.solvers.planning.search import Choice, search, worth
 
 FREE = ["liquid.viscosity", "liquid.film_thickness"]
 OVER = {"stokes": (0.06, 0.3), "angle": 0.0}
@@ -50,7 +50,7 @@ def summed(made: Choice, single: Callable[[np.ndarray], np.ndarray]) -> np.ndarr
 def test_quadratic_regression_is_measured_at_its_ends_and_middle() -> None:
     """The D-optimal design of a quadratic on an interval has a third of its points at either end and the middle."""
     first = np.column_stack([np.linspace(0, 1, 8), np.zeros(8)])  # without the middle
-    made = search(regression, 1e-9 * np.eye(3), Criterion(None), 9, first, 1 / 7)
+    made = search(regression, lambda total: worth(1e-9 * np.eye(3) + total), 9, first, 1 / 7)
     order = np.argsort(made.points[:, 0])
     assert made.points[order, 0] == pytest.approx([0, 0.5, 1], abs=0.02)
     assert made.counts[order].tolist() == [3, 3, 3]
@@ -59,7 +59,7 @@ def test_quadratic_regression_is_measured_at_its_ends_and_middle() -> None:
 def test_curvature_is_measured_half_in_the_middle() -> None:
     """For the quadratic coefficient alone: a quarter at either end, half in the middle (Elfving)."""
     first = np.column_stack([np.linspace(0, 1, 9), np.zeros(9)])
-    made = search(regression, 1e-6 * np.eye(3), Criterion(2), 8, first, 1 / 8)
+    made = search(regression, lambda total: worth(1e-6 * np.eye(3) + total, 2), 8, first, 1 / 8)
     order = np.argsort(made.points[:, 0])
     assert made.points[order, 0] == pytest.approx([0, 0.5, 1], abs=0.02)
     assert made.counts[order].tolist() == [2, 4, 2]
@@ -74,7 +74,8 @@ def test_another_entry_is_not_left_open() -> None:
 
     first, known = np.column_stack([np.linspace(0, 1, 9), np.zeros(9)]), 1e-4 * np.eye(2)
     alone, both = (
-        summed(search(line, known, one, 10, first, 1 / 8), line) for one in (Criterion(0), Criterion(0, 0.1))
+        summed(search(line, lambda total, share=share: worth(known + total, 0, share), 10, first, 1 / 8), line)
+        for share in (0.0, 0.1)
     )
     assert alone[1, 1] < 1e-5
     assert both[1, 1] > 0.1
