@@ -133,12 +133,17 @@ def room() -> Iterator[Path]:
         yield Path(path)
 
 
-def _places() -> Iterator[Path]:
-    """Folders in which temporary files can be: the user's, then the system's."""
+def _places() -> list[Path]:
+    """Folders in which temporary files can be: the user's, then the system's; last those where nothing may be run."""
+    places = [*_temporary()]
     with suppress(OSError):
         _check_private(folder(), create=True)
-        yield folder()
-    yield from _temporary()
+        places.insert(0, folder())
+    return sorted(places, key=_runs_nothing)
+
+
+def _runs_nothing(place: Path) -> bool:
+    return os.name == "posix" and bool(os.statvfs(place).f_flag & getattr(os, "ST_NOEXEC", 0))
 
 
 def _temporary() -> Iterator[Path]:

@@ -10,10 +10,10 @@ import pytest
 
 
 @contextmanager
-def small_disk(place: Path, size: int) -> Iterator[Path]:
+def small_disk(place: Path, size: int, *options: str) -> Iterator[Path]:
     """A file system of that many bytes at a new folder; the test is skipped where none may be mounted."""
     place.mkdir(mode=0o700)
-    command = ["mount", "-t", "tmpfs", "-o", f"size={size},mode=0700", "none", str(place)]
+    command = ["mount", "-t", "tmpfs", "-o", ",".join([f"size={size}", "mode=0700", *options]), "none", str(place)]
     try:
         done = subprocess.run(command, capture_output=True, check=False)
     except OSError:

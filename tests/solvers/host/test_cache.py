@@ -190,3 +190,19 @@ def test_a_full_disk(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
             said = "No space left on device; what is derived or compiled is kept in"
             assert done.stderr == f"{disk / 'cache'}: {said} {place} while this runs\n"
             assert [path.name for path in temporary.iterdir()] == ([Path(place).name] if killed else [])
+
+
+@posix
+@compiling
+def test_a_folder_from_which_nothing_may_be_run(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    """What is compiled stands there, and is tried and loaded elsewhere: the compiler is found."""
+    program = (
+        f"{_CACHE}; import ctypes; from wetdoublet.solvers.host.compiler import library\n"
+        "made = cache.fetch('a.so', lambda: library('int six(void) { return 6; }', ('-shared', '-fPIC')))\n"
+        "print(cache.loaded(made, ctypes.CDLL).six())"
+    )
+    with small_disk(tmp_path / "disk", 1 << 24, "noexec") as disk:
+        monkeypatch.setenv("WETDOUBLET_CACHE", str(disk))
+        done = in_process(program)
+        assert (done.stdout, done.stderr) == ("6\n", "")
+        assert sorted(path.suffix for path in disk.iterdir()) == [".so", ".txt"]
