@@ -37,4 +37,9 @@ def stored(name: str, make: Callable[[], T]) -> T:
         return pickle.dumps(results[0])
 
     entry = _PLACES[-1](name, content)
-    return results[0] if results else cast("T", pickle.loads(entry))
+    if results:
+        return results[0]
+    try:
+        return cast("T", pickle.loads(entry))
+    except Exception:  # noqa: BLE001 # whatever foreign bytes make of it; they are not of this derivation
+        return make()

@@ -2,6 +2,7 @@
 
 import json
 import os
+import pickle
 import subprocess
 import sys
 from collections.abc import Callable
@@ -42,6 +43,13 @@ def test_models_and_laws_come_back_as_they_were(models: dict[str, Model]) -> Non
         for name, law in laws.items():
             assert law_digest(back[slot][name]) == law_digest(law)
             assert law_module(back[slot][name]) == law_module(law)
+
+
+@pytest.mark.parametrize("entry", [b"", b"foreign bytes", b"cnowhere\nto_be_found\n.", pickle.dumps(LAWS)[:-9]])
+def test_an_entry_that_cannot_be_read_is_derived_anew(entry: bytes) -> None:
+    """Whatever stands under its name: a missing entry, other bytes, a class that is no more, a part of it."""
+    with opened(lambda name, make: entry):
+        assert stored("it", lambda: 1) == 1
 
 
 def test_a_closed_store_is_not_asked() -> None:
