@@ -12,6 +12,7 @@ go to a private temporary folder that is removed with the process, or to memory,
 import atexit
 import errno
 import hashlib
+import itertools
 import os
 import stat
 import threading
@@ -133,13 +134,22 @@ def room() -> Iterator[Path]:
         yield Path(path)
 
 
-def _places() -> list[Path]:
+def _places() -> Iterator[Path]:
     """Folders in which temporary files can be: the user's, then the system's; last those where nothing may be run."""
-    places = [*_temporary()]
+    last = []
+    for place in itertools.chain(_own(), _temporary()):
+        if _runs_nothing(place):
+            last.append(place)
+        else:
+            yield place
+    yield from last
+
+
+def _own() -> Iterator[Path]:
+    """The user's folder, made if need be, where others cannot write."""
     with suppress(OSError):
         _check_private(folder(), create=True)
-        places.insert(0, folder())
-    return sorted(places, key=_runs_nothing)
+        yield folder()
 
 
 def _runs_nothing(place: Path) -> bool:
