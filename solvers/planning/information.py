@@ -92,7 +92,8 @@ def _integrated(
     return Information(total, outcome, probability)
 
 
-_Points = tuple[np.ndarray, ...]  # weights, derivatives of their logarithms, restitutions, derivatives
+# weights, derivatives of their logarithms, restitutions, derivatives
+_Points = tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]
 
 
 def _points(

@@ -33,8 +33,10 @@ _OWN_EVENTS, _OWN_TERMS, _KINKS, _STOPPED = (
     for name in ("OWN_EVENTS", "OWN_TERMS", "KINKS", r"\(KINKS \|\| !FILM_MOMENTUM\) && !OWN_EVENTS")
 )
 # What a model or the options of its kernel may have: 0 without.
-_OPTIONAL = ("FRICTION", "KINKS", "OWN_EVENTS", "OWN_TERMS")
-_OPTIONAL += ("ATTRACTION_MARGINS", "ORBITAL_MARGINS", "PENDULUM_MARGINS", "SPIN_DOWN_MARGINS")
+_OPTIONAL = (
+    "FRICTION", "KINKS", "OWN_EVENTS", "OWN_TERMS",
+    "ATTRACTION_MARGINS", "ORBITAL_MARGINS", "PENDULUM_MARGINS", "SPIN_DOWN_MARGINS",
+)  # fmt: skip
 _GUARDS = re.compile(r"^#define (\w+)_kinks\(s\) (.*)$", re.MULTILINE)
 _STRUCT, _MEMBER = re.compile(r"typedef struct \{([^}]*)\} series;"), re.compile(r"\b(\w+)_series (\w+);")
 
