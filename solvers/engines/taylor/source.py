@@ -32,11 +32,6 @@ _OWN_EVENTS, _OWN_TERMS, _KINKS, _STOPPED = (
     re.compile(rf"#if {name}\n.*?^#endif /\* {name} \*/\n", re.MULTILINE | re.DOTALL)
     for name in ("OWN_EVENTS", "OWN_TERMS", "KINKS", r"\(KINKS \|\| !FILM_MOMENTUM\) && !OWN_EVENTS")
 )
-# What a model or the options of its kernel may have: 0 without.
-_OPTIONAL = (
-    "FRICTION", "KINKS", "OWN_EVENTS", "OWN_TERMS",
-    "ATTRACTION_MARGINS", "ORBITAL_MARGINS", "PENDULUM_MARGINS", "SPIN_DOWN_MARGINS",
-)  # fmt: skip
 _GUARDS = re.compile(r"^#define (\w+)_kinks\(s\) (.*)$", re.MULTILINE)
 _STRUCT, _MEMBER = re.compile(r"typedef struct \{([^}]*)\} series;"), re.compile(r"\b(\w+)_series (\w+);")
 
@@ -116,7 +111,6 @@ def files(variant: Variant, emitted: tuple[str, ...]) -> dict[str, str]:
     }
     kinks, layout = _kinks(emitted), declarations(variant.ledger, books_own(variant.choice), variant.space)
     settings["READS_SERIES"] |= int(bool(kinks))
-    emitted += tuple(f"#if !defined({name})\n#define {name} 0\n#endif\n" for name in _OPTIONAL)
     return {
         **({} if own else {"own_events.h": ""}),
         **({} if kinks else {"kinks.h": ""}),
@@ -125,7 +119,7 @@ def files(variant: Variant, emitted: tuple[str, ...]) -> dict[str, str]:
         ),
         "layout.h": f'{_ONCE}\n#include "vector.h"\n{layout}\n',
         **automaton(variant.choice),
-        "model.h": "\n".join([_ONCE, '#include "series.h"', '#include "whole_series.h"', *kinks, *emitted]),
+        "model.h": "\n".join([_ONCE, '#include "series.h"', '#include "whole_series.h"', *emitted, *kinks]),
     }
 
 

@@ -253,8 +253,8 @@ static mask take_step(expansion *e, lanes *l, vec h, mask creeps, vec gap)
     l->steps += 1; /* before a lane may take another collision, which must not depend on this one */
     l->crept = only_whole(creeps, l->crept + 1);
     l->stride = h;
-    mask finite = vec_abs(l->y[GAP]) < HUGE_VAL;
-    finite &= vec_abs(l->y[NORMAL_VELOCITY]) < HUGE_VAL;
+    mask finite = vec_abs(l->y[GAP]) < INFINITY;
+    finite &= vec_abs(l->y[NORMAL_VELOCITY]) < INFINITY;
     return l->alive & NOT(finite);
 }
 
