@@ -99,7 +99,7 @@ def loaded(content: bytes, opened: Callable[[str], Loaded]) -> Loaded:
         OSError, RuntimeError: from `opened`, if the library cannot be loaded.
     """
     failure: Exception = OSError(errno.ENOSPC, "no room to load from", str(folder()))
-    for place in _places():
+    for place in _places(create=False):
         # a new name: the loader returns the old library for a path opened before
         copy = place / f"{_MAKING}{os.urandom(8).hex()}.so"
         try:
@@ -123,7 +123,7 @@ def room() -> Iterator[Path]:
     import shutil  # slow imports
     import tempfile
 
-    for place in _places():
+    for place in _places(create=True):
         with suppress(OSError):
             if shutil.disk_usage(place).free >= _ROOM:
                 private = tempfile.TemporaryDirectory(prefix=_MAKING, dir=place, ignore_cleanup_errors=True)
@@ -134,10 +134,10 @@ def room() -> Iterator[Path]:
         yield Path(path)
 
 
-def _places() -> Iterator[Path]:
+def _places(create: bool) -> Iterator[Path]:
     """Folders in which temporary files can be: the user's, then the system's; last those where nothing may be run."""
     last = []
-    for place in itertools.chain(_own(), _temporary()):
+    for place in itertools.chain(_own(create), _temporary()):
         if _runs_nothing(place):
             last.append(place)
         else:
@@ -145,10 +145,10 @@ def _places() -> Iterator[Path]:
     yield from last
 
 
-def _own() -> Iterator[Path]:
-    """The user's folder, made if need be, where others cannot write."""
+def _own(create: bool) -> Iterator[Path]:
+    """The user's folder, if it is there or shall be made, where others cannot write."""
     with suppress(OSError):
-        _check_private(folder(), create=True)
+        _check_private(folder(), create=create)
         yield folder()
 
 

@@ -88,7 +88,10 @@ class Scene(System, NotebookTable):
             InputError: no such file or preset (the nearest is named), broken TOML (file and line), bad entry.
         """
         if isinstance(source, Scene):
-            return source if model is None else source.with_model(model)
+            loaded = source if model is None else source.with_model(model)
+            if loaded.package is not None:
+                loaded.package.demand(loaded.entries)
+            return loaded
         text, origin = scenefile.read_text(source)
         if model is None:
             return _read(text, origin)

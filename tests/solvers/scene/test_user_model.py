@@ -178,21 +178,6 @@ def test_every_word_compiles(tmp_path: Path):
         assert subprocess.run(command, capture_output=True, text=True, check=False).stderr == ""
 
 
-def test_a_scene_takes_a_model_as_its_file_does(tmp_path: Path):
-    """A quantity without a default is demanded by a collision, not by the loading, from a file or a Scene."""
-    model = tmp_path / "pull.py"
-    model.write_text(
-        "from wetdoublet.derive.user import *\n"
-        'pull = quantity("pull", unit="N", meaning="a pull")\n'
-        'law("bridge", "pulling", force=pull * exp(-x / R))\n'
-    )
-    for source in ("granulation", Scene.load("granulation")):
-        scene = Scene.load(source, model=model)
-        with pytest.raises(InputError, match="custom.pull: missing"):
-            collide(scene)
-        assert Scene.load(scene).with_entries({"custom.pull": "1 uN"}).custom == {"pull": "1 uN"}
-
-
 def test_a_law_of_a_slot_without_a_table_names_the_slot(tmp_path: Path):
     """A model with a law of attraction on a scene without one is refused, with the table that is missing."""
     model = tmp_path / "near.py"
