@@ -1,5 +1,6 @@
 """Each property fails for a package with a fault of its kind."""
 
+import hashlib
 import json
 import os
 import shutil
@@ -49,6 +50,10 @@ def outcome(copy: Path) -> Iterator[Callable[[str], tuple[int, str]]]:
         process.stdin.close()
 
 
+def _digest(text: str) -> str:
+    return hashlib.sha256(text.encode()).hexdigest()
+
+
 @pytest.mark.parametrize("name", MUTANTS)
 def test_a_property_notices_its_mutant(name: str, copy: Path, outcome: Callable[[str], tuple[int, str]]) -> None:
     """It fails by an assertion, and of an error in one line by another kind of error."""
@@ -56,11 +61,15 @@ def test_a_property_notices_its_mutant(name: str, copy: Path, outcome: Callable[
     file = copy / mutant.file
     text = file.read_text(encoding="utf-8")
     assert mutant.old in text
-    file.write_text(text.replace(mutant.old, mutant.new), encoding="utf-8")
+    mutated, manifest = text.replace(mutant.old, mutant.new), copy / "generated" / "manifest.json"
+    listed = manifest.read_text(encoding="utf-8")  # lest a digest that disagrees is what is noticed
+    file.write_text(mutated, encoding="utf-8")
+    manifest.write_text(listed.replace(_digest(text), _digest(mutated)), encoding="utf-8")
     try:
         status, shown = outcome(f"{HERE / mutant.property}")
     finally:
         file.write_text(text, encoding="utf-8")
+        manifest.write_text(listed, encoding="utf-8")
     assert status == 1, shown[-2000:]
     assert "1 failed" in shown
     assert str(copy) in shown or "AssertionError" in shown or "DID NOT RAISE" in shown
