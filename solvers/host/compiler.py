@@ -14,15 +14,12 @@ import shutil
 import signal
 import subprocess
 import sys
-import threading
-from collections.abc import Collection, Sequence
-from contextlib import suppress
+from collections.abc import Sequence
 from importlib.util import find_spec
 from pathlib import Path
 from typing import NamedTuple
 
 from ..errors import InputError, install_extra
-from . import interrupts
 from . import user_cache as cache
 from .remarks import say
 from .thread_caches import once
@@ -41,8 +38,6 @@ _TRIAL = """#include <math.h>
 int main(int count, char **words) { return words[0] && sqrt(8.0 + count) == 3.0 ? 42 : 1; }
 """
 _ANSWER = 42
-_RUNNING: dict[subprocess.Popen[bytes], int] = {}  # running compilers, by the waiting thread
-_STOPPED: set[subprocess.Popen[bytes]] = set()
 
 
 class CannotCompile(Exception):
@@ -156,14 +151,6 @@ def more_flags() -> tuple[str, ...]:
     return tuple(shlex.split(os.environ.get("WETDOUBLET_CFLAGS", "")))
 
 
-def stop(threads: Collection[int]) -> None:
-    """Stop the compilers that these threads wait for, as an interrupt does."""
-    for process, waiting in list(_RUNNING.items()):
-        if waiting in threads:
-            _STOPPED.add(process)
-            _end(process)
-
-
 def _limit() -> float:
     """Time limit of a compilation, s."""
     text = os.environ.get(_SECONDS, "")
@@ -257,45 +244,17 @@ def _compiled(command: tuple[str, ...], flags: Sequence[str], place: Path, limit
 
 
 def _run(command: tuple[str, ...], limit: float, place: Path | None = None) -> tuple[int, str]:
-    """Run a command in its own process group; returns its status and output, errors last.
-
-    The whole group is killed if this raises.
+    """Run a command; returns its status and output, errors last.
 
     Raises:
         TimeoutExpired: the command exceeded its time.
         OSError: it cannot be run.
-        KeyboardInterrupt: it or this process was interrupted.
+        KeyboardInterrupt: it was interrupted.
     """
     environment = os.environ | {"LC_ALL": "C"} | ({"TMPDIR": str(place)} if place else {})
-    process: subprocess.Popen[bytes] | None = None
-    stopped = False
-    try:
-        with interrupts.held():
-            process = subprocess.Popen(
-                command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                env=environment, process_group=0 if os.name == "posix" else None,
-            )  # fmt: skip
-            _RUNNING[process] = threading.get_ident()
-        out, err = process.communicate(timeout=limit)
-    except BaseException:
-        if process is not None:
-            _end(process)
-            with suppress(subprocess.TimeoutExpired):  # descendants in other groups may keep its output open
-                process.communicate(timeout=1)
-        raise
-    finally:
-        if process is not None:
-            _RUNNING.pop(process, None)
-            stopped = process in _STOPPED
-            _STOPPED.discard(process)
-    if stopped or process.returncode in _INTERRUPTED:
+    run = subprocess.run(
+        command, stdin=subprocess.DEVNULL, capture_output=True, env=environment, timeout=limit, check=False
+    )
+    if run.returncode in _INTERRUPTED:
         raise KeyboardInterrupt
-    return process.returncode, (out + b"\n" + err).decode(errors="replace")
-
-
-def _end(process: subprocess.Popen[bytes]) -> None:
-    """Kill a process and its group."""
-    try:
-        os.killpg(process.pid, signal.SIGKILL)
-    except (AttributeError, OSError):
-        process.kill()
+    return run.returncode, (run.stdout + b"\n" + run.stderr).decode(errors="replace")

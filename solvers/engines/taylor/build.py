@@ -1,13 +1,12 @@
 """The kernel as a loaded library: source from emitted headers and the runtime, compiled once into the user's cache."""
 
 import ctypes
-import threading
 import time
 from collections.abc import Callable, Collection
 from functools import cache
 
 from ...errors import ComputationError
-from ...host.compiler import CannotCompile, compiler, key, stop
+from ...host.compiler import CannotCompile, compiler, key
 from ...host.compiler import library as compiled
 from ...host.cores import usable_cores
 from ...host.remarks import say_after
@@ -112,10 +111,7 @@ def compile_all(
     """
     from concurrent.futures import ThreadPoolExecutor  # slow import
 
-    threads: list[int] = []
-
     def compiled_here(variant: Variant) -> float | None:
-        threads.append(threading.get_ident())
         start = time.perf_counter()
         try:
             kernel(variant)
@@ -131,7 +127,7 @@ def compile_all(
                 if progress is not None:
                     progress(len(took), len(variants))
         except BaseException:
-            stop(threads)
+            pool.shutdown(wait=False, cancel_futures=True)  # those that run end, as an interrupt does with them
             raise
     return took
 
