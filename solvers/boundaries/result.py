@@ -234,7 +234,12 @@ class Atlas(Boundaries):
         }
         if self.unsettled:
             result["unsettled"] = [{"x": x, "stokes": stokes, "reason": why} for x, stokes, why in self.unsettled]
-        return result | self.origin(x=(self.scene.fields if self.scene else FIELDS)[self.over].unit or "1")
+        return result | self.origin(x=self._unit or "1")
+
+    @property
+    def _unit(self) -> str:
+        """Unit of x in SI; empty for a number."""
+        return (self.scene.fields if self.scene else FIELDS)[self.over].unit or ""
 
     def _speeds(self, x: Any, stokes: Any) -> dict[str, Any]:
         """Normal and relative speeds (m/s) of points of the plane, for JSON; empty without a scene."""
@@ -299,7 +304,7 @@ class Atlas(Boundaries):
 
     def __str__(self) -> str:
         angle = self.over == ANGLE
-        name, value = ("angle (deg)", math.degrees) if angle else (self.over, float)
+        name, value = ("angle (deg)", math.degrees) if angle else (f"{self.over} ({self._unit or 1})", float)
         lines = [f"{'curve':<42} {'kind':<16} {name} and St, from ... to"]
         for curve in self.curves:
             ends = " ... ".join(f"{value(curve.x[k]):.6g}, {curve.stokes[k]:.6g}" for k in (0, -1))
@@ -312,8 +317,8 @@ class Atlas(Boundaries):
         sought, spacing = self.sought, self.sought["line_spacing"]
         assert isinstance(spacing, float)
         text = (
-            f"{self.range_text}; from {len(self.at)} lines, {value(spacing):.3g} {'deg' if angle else '(SI)'} apart, "
-            f"sampled every {self.resolution:.2%} in St; "
+            f"{self.range_text}; from {len(self.at)} lines, {value(spacing):.3g} {'deg' if angle else self._unit or 1} "
+            f"apart, sampled every {self.resolution:.2%} in St; "
             f"{self.collisions} collisions; straight lines between the points of a curve are within "
             f"{sought['chord_stokes']:.1e} of St, relative"
         )
@@ -322,10 +327,7 @@ class Atlas(Boundaries):
     def to_dataset(self) -> xarray.Dataset:
         """The Dataset of the lines, with curves over (curve, vertex), points over point, and x of the lines."""
         data = super().to_dataset()
-        unit = "rad"
-        if self.over != ANGLE and self.scene is not None:
-            unit = self.scene.fields[self.over].unit or "1"
-        x: dict[str, Any] = {"units": unit, "long_name": self.over}
+        x: dict[str, Any] = {"units": self._unit or "1", "long_name": self.over}
         stokes = {"units": "1", "long_name": "Stokes number"}
         most = max((len(curve.x) for curve in self.curves), default=0)
         data["curve_x"] = ("curve", "vertex"), _padded([curve.x for curve in self.curves], most), x

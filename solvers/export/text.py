@@ -20,7 +20,9 @@ def as_text(differences: Differences) -> str:
     from ...derive.emit.compare import count, in_lines  # imports sympy
 
     changes = differences.changes
-    lines = [f"A: {differences.names[0]}", f"B: {differences.names[1]}", ""]
+    names = [scene.name for scene in differences.scenes] or [""] * 2
+    sides = zip("AB", differences.names, names, strict=True)
+    lines = [f"{side}: {model}" + f", in the scene {name}" * (name not in model) for side, model, name in sides] + [""]
     lines += [count(changes) + (":" if changes else ""), *in_lines(changes)]
     if entries := list(_entries(differences)):
         lines += ["", "entries that differ:", "", *aligned([("entry", "A", "B"), *entries])]

@@ -81,12 +81,13 @@ def _region(data: Sample, best: Collision) -> Finding:
     """Finding on angles and Stokes numbers with e_n > 1, and the largest e_n."""
     lines, degrees, numbers = [], [], list[float]()
     for angle, runs in groupby(data.all, key=lambda run: run.angle):
-        above = [run for run in runs if run.restitution > 1]
-        if above:
+        parts = [[*part] for above, part in groupby(runs, key=lambda run: run.restitution > 1) if above]
+        if parts:
             degrees.append(math.degrees(angle))
-            numbers += [run.stokes for run in above]
-            span, most = f"{above[0].stokes:.3g}..{above[-1].stokes:.3g}", max(run.restitution for run in above)
-            lines.append(f"  {degrees[-1]:4.0f} deg: e_n > 1 for St {span} (up to {most:.3f})")
+            numbers += [run.stokes for part in parts for run in part]
+            spans = ", ".join(f"{part[0].stokes:.3g}..{part[-1].stokes:.3g}" for part in parts)
+            most = max(run.restitution for part in parts for run in part)
+            lines.append(f"  {degrees[-1]:4.0f} deg: e_n > 1 for St {spans} (up to {most:.3f})")
     largest = f"largest {best.restitution:.4g} ({place(best.stokes, best.angle)})"
     at = (
         f"at {degrees[0]:.0f}..{degrees[-1]:.0f} deg, St {min(numbers):.3g}..{max(numbers):.3g}" if lines else "nowhere"
