@@ -122,10 +122,9 @@ def _criterion(criterion: Criterion) -> dict[str, str]:
     return {"word": criterion.word, "group": criterion.group.name, **texts}
 
 
-def _terms(terms: Terms) -> dict[str, object]:
+def _terms(terms: Terms) -> dict[str, bool]:
     """What a scene must not have beside the terms, and what the certificates may know of them."""
-    flags = {name: getattr(terms, name) for name in ("rotates", "drives", "admits_barrier")}
-    return {"forces": [on for on, _ in terms.forces], "inertia": terms.kinetic != 0, **flags}
+    return {name: getattr(terms, name) for name in ("rotates", "drives", "admits_barrier")}
 
 
 def _quantity(model: UserModel, name: str) -> dict[str, object]:

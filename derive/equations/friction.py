@@ -11,6 +11,7 @@ from ..physics.partners.vectors import dot, named
 from ..physics.scaling import DISTANCE
 from ..physics.structure import Structure
 from ..vocabulary import quantities as q
+from . import terms
 from .automaton import CREEP
 from .intermediates import ORBITAL_RATE, rates
 
@@ -65,7 +66,7 @@ def at_rebound(structure: Structure) -> dict[str, sp.Expr]:
     Where the doublet comes to rest instead (`rest_most`), the contact has stopped the approach only: the rebounds that
     are left out press as hard in the mean as resting contact, which begins at once.
     """
-    stopping = q.mu_f * rubbing(structure.partner).grip * -q.normal_velocity
+    stopping = q.mu_f * rubbing(structure.partner).grip * terms.mass(structure) * -q.normal_velocity
     return {
         "slip": DRY_SLIP,
         "sticking": (1 + q.beta_0) * DRY_SLIP / COMPLIANCE,

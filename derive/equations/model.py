@@ -130,7 +130,7 @@ def _definitions(structure: Structure) -> tuple[Definition, ...]:
         if structure.terms is None and certificate.admits(structure):
             definitions += certificate.definitions(structure)
     if structure.friction:
-        definitions += friction.definitions(structure, inward_force(structure))
+        definitions += friction.definitions(structure, terms.mass(structure) * inward_force(structure))
     return definitions
 
 

@@ -162,7 +162,7 @@ class Package:
     @cached_property
     def terms(self) -> Terms | None:
         entry = self.manifest.get("terms")
-        return None if entry is None else Terms(**entry | {"forces": tuple(entry["forces"])})
+        return None if entry is None else Terms(entry["rotates"], entry["drives"], entry["admits_barrier"])
 
     @cached_property
     def criteria(self) -> tuple[OwnCriterion, ...]:
@@ -190,9 +190,6 @@ class Package:
         if other is not None and terms.rotates:
             accepted = "equal spheres without friction in a plane, or terms of x and u on the gap"
             raise InputError("model", self.name, accepted, f"has terms on a rotation, which a {other} has not alone")
-        if other in ("space", "friction") and terms.inertia:
-            accepted = "a scene in a plane without friction, or a model without kinetic energy"
-            raise InputError("model", self.name, accepted, "adds inertia, which friction and space do not know")
 
     def events_in(self, structure: str) -> tuple[OwnEvent, ...]:
         """The events that a structure can have: it needs their rotations, and the spin as a state if they change it."""

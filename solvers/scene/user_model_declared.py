@@ -80,15 +80,11 @@ class Terms:
     """What a model adds to the equations of motion, by its entry in the manifest.
 
     Arguments:
-        forces: the coordinates on which a generalised force acts.
-        inertia: a kinetic energy is declared.
         rotates: they speak of a rotation, so that the angular momentum of the spheres is not conserved.
         drives: they turn what does not turn.
         admits_barrier: the energy certificate holds with them.
     """
 
-    forces: tuple[str, ...]
-    inertia: bool
     rotates: bool
     drives: bool
     admits_barrier: bool

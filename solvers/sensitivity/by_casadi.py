@@ -30,7 +30,8 @@ from .trajectory import course_of, quadratures, trajectory
 # than its values. CVODES controls both, but its errors grow where a doublet creeps apart. Such derivatives are computed
 # again at tolerances finer by `_FINER` until two differ by no more than `_RESOLVED` of the largest elasticity.
 # Where none is finer, the first is coarser by `_COARSER`.
-_FINER, _COARSER, _TINY = 1e-2, 10.0, np.finfo(float).tiny
+# A derivative is rounding below `_NONE` of its result, of which `_LEAST` is taken at least, in the scale of the states.
+_FINER, _COARSER, _NONE, _LEAST = 1e-2, 10.0, 1e-9, 1e-3
 _RESOLVED = {"rosenbrock": 1e-5, "cvodes": 1e-3}
 _SHARPEST_CVODES = 3e-12  # smallest tolerance of CVODES with sensitivities; below it some integrations fail
 # Largest landing relative to its phase, and that wanted of a trajectory that amplifies errors. The error of a
@@ -186,7 +187,8 @@ class Replayable:
                 break
             z, dz, along = self._at_tolerance(query)
             fine = dz @ along
-            error = np.max(np.abs(fine - coarse) / (np.abs(fine).max(axis=1, keepdims=True) + _TINY), initial=0.0)
+            largest = np.abs(fine).max(axis=1) + _NONE * np.maximum(np.abs(z), _LEAST)
+            error = np.max(np.abs(fine - coarse) / largest[:, None], initial=0.0)
             doubtful = error > resolved
         return z, dz, along
 

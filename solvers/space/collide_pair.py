@@ -88,9 +88,9 @@ def collide_pair(
         by inertia. Beside a wall a stick moves with the wall, and only its twist is left.
         The attribute `validity` has the sentences of `Collision.validity`, for all pairs together.
         With `ledger` also energy.initial, .final (kinetic energies of both particles, with all spins, relative to their
-        centre of mass or to the wall), .normal_lubrication, .tangential_lubrication, .capillary, .attraction (NaN
-        without), .dry_contact, .dry_friction (with friction) and .residual, J; of a stick up to `until`, where its
-        motion is not yet rigid.
+        centre of mass or to the wall), .normal_lubrication, .tangential_lubrication, .capillary, .attraction,
+        .dry_contact, .dry_friction, .own_terms (each where the scene has it) and .residual, J; of a stick up to
+        `until`, where its motion is not yet rigid.
 
     Raises:
         InputError: an invalid shape or scene. A collision that fails, as of a pair that does not approach, raises
@@ -134,8 +134,9 @@ def check_scene(scene: Scene) -> None:
         raise InputError("particles.friction", scene.particles.friction, "a scene without friction", problem)
     if scene.package is not None and scene.package.events:
         raise InputError("model", "declared events", "a model without events", "are of collisions in a plane")
-    if scene.package is not None and scene.package.terms is not None:
-        raise InputError("model", "declared terms", "a model without terms", "are of collisions in a plane")
+    if scene.package is not None and scene.package.terms is not None and scene.package.terms.rotates:
+        problem = "are of collisions in a plane"
+        raise InputError("model", "declared terms on a rotation", "a model with terms of x and u on the gap", problem)
     if not scene.wall and not scene.law_has("arm", "balanced"):
         problem = "does not conserve the angular momentum of a pair in space"
         raise InputError("model.arm", scene.model.arm, ", ".join(scene.laws_with("arm", "balanced")), problem)

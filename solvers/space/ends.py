@@ -8,16 +8,20 @@ import numpy as np
 
 from ...generated.automaton import OUTCOMES, STICK
 from ..collision.by_replay import terms_of
-from ..collision.outcome import open_beyond
+from ..collision.outcome import absent_terms, open_beyond
 from ..engines.casadi.replay import Replay
-from ..engines.taylor.layout import LEDGER
+from ..engines.taylor.layout import OWN_LEDGER
 from ..model.model import Model
 from ..results import TERMS as OF_KERNEL
 from ..scene.scene import Scene
 from .pairs import Bodies, Pairs, dot, length
 
-# no kernel in space has strings, or what a model declares
-TERMS = tuple(name for name, column in OF_KERNEL.items() if column in (LEDGER.names or ()) and name != "strings")
+# no kernel in space has strings or declared events
+TERMS = tuple(
+    name
+    for name, column in OF_KERNEL.items()
+    if column in (OWN_LEDGER.names or ()) and name not in ("strings", "own_events")
+)
 _INITIAL, _FINAL, _SHEAR = (TERMS.index(name) for name in ("initial", "final", "tangential_lubrication"))
 OPEN = "the energy ledger is open: try a smaller rtol, or another engine"
 GREW = "energy has grown: errors have added up over a long trajectory; try a smaller rtol, or another engine"
@@ -155,8 +159,10 @@ def gains_energy(pairs: Pairs, ends: Ends, rtol: float) -> np.ndarray:
     """Mask of ends with more energy than at initial contact, relative to the centre of mass or to the wall.
 
     Film, shear and rebounds only take energy, and so do attractions between contact and separation: such a trajectory
-    is wrong, as one is that was followed further than doubles reach.
+    is wrong, as one is that was followed further than doubles reach. Declared terms may give energy.
     """
+    if pairs.scene.package is not None and pairs.scene.package.terms is not None:
+        return np.zeros(pairs.size, bool)
     bodies = Bodies.of(pairs.scene) if not pairs.scene.wall else None
     mass = float(pairs.scene.material["reduced_mass"])
     inertia = np.array(
@@ -206,7 +212,7 @@ def of_kernel(ledgers: np.ndarray) -> np.ndarray:
 def of_replay(model: Model, replay: Replay, p: np.ndarray) -> np.ndarray:
     """The terms of one trajectory that is replayed."""
     terms = terms_of(model, replay, p)
-    return np.array([terms[name] for name in TERMS])
+    return np.array([terms.get(name, 0.0) for name in TERMS])
 
 
 def residual(terms: np.ndarray) -> np.ndarray:
@@ -225,7 +231,4 @@ def is_open(terms: np.ndarray, separated: np.ndarray, rtol: float) -> np.ndarray
 def named(scene: Scene, terms: np.ndarray) -> dict[str, np.ndarray]:
     """The terms by name, without those of forces that the scene does not have, and the residual."""
     result = {name: terms[:, k] for k, name in enumerate(TERMS)} | {"residual": residual(terms)}
-    for name, cause in (("attraction", scene.attraction), ("dry_friction", scene.particles.friction)):
-        if cause is None:
-            del result[name]
-    return result
+    return {name: values for name, values in result.items() if name not in absent_terms(scene)}

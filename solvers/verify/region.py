@@ -81,12 +81,12 @@ def _region(data: Sample, best: Collision) -> Finding:
     """Finding on angles and Stokes numbers with e_n > 1, and the largest e_n."""
     lines, degrees, numbers = [], [], list[float]()
     for angle, runs in groupby(data.all, key=lambda run: run.angle):
-        parts = [[*part] for above, part in groupby(runs, key=lambda run: run.restitution > 1) if above]
-        if parts:
+        ranges = [[*above] for gains, above in groupby(runs, key=lambda run: run.restitution > 1) if gains]
+        if ranges:
             degrees.append(math.degrees(angle))
-            numbers += [run.stokes for part in parts for run in part]
-            spans = ", ".join(f"{part[0].stokes:.3g}..{part[-1].stokes:.3g}" for part in parts)
-            most = max(run.restitution for part in parts for run in part)
+            numbers += [run.stokes for above in ranges for run in above]
+            spans = ", ".join(f"{above[0].stokes:.3g}..{above[-1].stokes:.3g}" for above in ranges)
+            most = max(run.restitution for above in ranges for run in above)
             lines.append(f"  {degrees[-1]:4.0f} deg: e_n > 1 for St {spans} (up to {most:.3f})")
     largest = f"largest {best.restitution:.4g} ({place(best.stokes, best.angle)})"
     at = (

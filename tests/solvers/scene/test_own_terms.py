@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 import sympy as sp
 from scipy.integrate import solve_ivp
-from wetdoublet.solvers import InputError, Scene, collide, collide_many, sensitivities
+from wetdoublet.solvers import InputError, Scene, collide, collide_many, collide_pair, pair_gradients, sensitivities
 from wetdoublet.solvers.export.hybrid import equations
 from wetdoublet.solvers.export.law.kernels import kernels
 
@@ -149,7 +149,6 @@ def test_terms_are_in_the_functions_to_build_on(tmp_path: Path):
         (TORQUE, {"impact.angle": "0 deg"}, "impact.angle"),
         (TORQUE, {"partner.wall": True}, "a wall has not alone"),
         (SPRING, {"partner.radius": "150 um", "partner.density": "2500 kg/m^3"}, "a pair has not alone"),
-        (MASS, {"particles.friction": 0.2}, "adds inertia, which friction and space do not know"),
     ],
 )
 def test_scenes_that_cannot_have_the_terms(body: str, entries: dict[str, object], said: str, tmp_path: Path):
@@ -163,7 +162,60 @@ def test_a_law_is_exported_with_terms_on_the_gap_only(tmp_path: Path):
     """The spheres of an exported law have spins of their own, of which a torque on both does not speak."""
     with pytest.raises(InputError, match="has terms on a rotation, and the spheres of an exported law have spins"):
         kernels(scene(tmp_path, TORQUE), 1e-9)
-    assert len(kernels(scene(tmp_path, GAS), 1e-9)) == 2  # head-on and in a plane, none in space
+    assert len(kernels(scene(tmp_path, GAS), 1e-9)) == 3  # head-on, in a plane and in space
+
+
+def test_friction_presses_with_the_added_mass(tmp_path: Path):
+    """A rebound that slides gives each sphere mu_f (1 + e) (m + M) u r/2 over its inertia, in a film that does nothing.
+
+    The speed of approach u is that of energy and angular momentum.
+    """
+    text = FREE.replace('"0.5 Pa s"', '"1e-10 Pa s"').replace("stokes = 0.6", 'speed = "1 m/s"')
+    heavy = MASS.replace("8e-10 kg", "3e-9 kg")
+    found = collide(scene(tmp_path, heavy, text).with_entries({"particles.friction": 0.1}), rtol=1e-11)
+    a, m, added, first, last = 50e-6, 5.2e-9, 3e-9, 4 * 50e-6 + 8e-6, 4 * 50e-6 + 0.2e-6
+    pressed = m + added * 8 / 8.2
+    swept = first**2 * math.tan(found.angle) / (4 * a)
+    square = (m + added / 2 + m * swept**2 * (1 / first**2 - 1 / last**2)) / pressed
+    impulse = 0.1 * 1.9 * pressed * math.sqrt(square)
+    assert found.final_spin == pytest.approx(impulse * last / 2 / (3.2 * m * a**2), rel=1e-8)
+    assert abs(found.energy.residual) < 1e-9 * found.energy.largest
+
+
+@pytest.mark.slow  # sympy
+def test_friction_at_rest_is_of_the_force_whatever_mass_moves_along(tmp_path: Path):
+    """The reaction of a contact at rest is the force on the gap, of which an added mass is no part."""
+    friction = []
+    for added in ("", MASS):
+        built = equations(scene(tmp_path, PULL + "energy(pull*x)\n" + added).with_entries({"particles.friction": 0.2}))
+        groups = list(built.groups.values())
+        state = built.functions["start"](groups).full().ravel()
+        state[:2] = 0.2 / 8, 0.0
+        friction.append(built.functions["dry_forces"](state, groups).full())
+    assert friction[0][0, 0] != 0
+    assert friction[0] == pytest.approx(friction[1], rel=1e-12)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("entries", [{}, {"partner.radius": "150 um", "partner.density": "2500 kg/m^3"}])
+def test_terms_on_the_gap_in_space(entries: dict[str, object], tmp_path: Path):
+    """A plane turned in space is the plane, derivatives included; with spins in any direction the ledger closes."""
+    given = scene(tmp_path, CASES["gap"][0]).with_entries(entries)
+    turned, _ = np.linalg.qr(np.random.default_rng(1).normal(size=(3, 3)))
+    planar, (speed, angle) = collide(given, rtol=1e-10), given.need_impact()
+    radii = 100e-6 + (150e-6 if entries else 100e-6)
+    sideways = speed * math.tan(angle) * (radii + 8e-6) / radii
+    pair = turned[:, 0], [turned @ [speed, sideways, 0.0], [0.0] * 3]
+    found = collide_pair(given, *pair, np.zeros((2, 3)), rtol=1e-10)
+    assert float(found.restitution) == pytest.approx(planar.restitution, rel=1e-8)
+    names = ["liquid.viscosity", "custom.pull", "custom.added_mass"]
+    slopes = pair_gradients(given, *pair, np.zeros((2, 3)), wrt=names).d_restitution.values
+    assert slopes == pytest.approx([*sensitivities(given, wrt=names).gradient["restitution"].values()], rel=1e-5)
+    spins = np.random.default_rng(2).normal(size=(2, 3)) * speed / 50e-6
+    for engine in ("taylor", "rosenbrock"):
+        spun = collide_pair(given.with_entries({"particles.friction": 0.2}), *pair, spins, ledger=True, engine=engine)
+        assert spun.outcome > 0
+        assert abs(float(spun["energy.residual"])) < 1e-5 * abs(float(spun["energy.own_terms"]))
 
 
 def test_a_stick_is_proved_with_a_potential_and_a_drag(tmp_path: Path):
