@@ -11,9 +11,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ...generated.automaton import KINDS, OUTCOMES
+from ...generated.automaton import OUTCOMES
 from ..changes.experiment import free_names
-from ..collision.by_kernel import sequence_of
+from ..collision.by_kernel import sequence_of, words_of
 from ..engines.casadi.sequence import EventSequence
 from ..engines.settings import check_rtol
 from ..engines.taylor.record import recorded_in_space
@@ -203,7 +203,7 @@ def _followed(pair: Pairs, n: Problem) -> tuple[Callable[[float], EventSequence]
         for factor in factors.tolist():
             faster = replace(pair, velocities=factor * pair.velocities, spins=factor * pair.spins)
             answer, log = recorded_in_space(faster.impacts, FINE)
-            rows.append(course(answer, log, KINDS, float(answer["shown"][restitution])))
+            rows.append(course(answer, log, words_of(pair.scene), float(answer["shown"][restitution])))
         return rows
 
     return partial(sequence_in_space, pair, n), courses

@@ -12,8 +12,8 @@ from typing import Any
 import numpy as np
 
 from ...generated import scaling
-from ...generated.automaton import KINDS, LAST_ANSWER, LEAST_SLIP, OUTCOMES, TURNLESS
-from ..collision.by_kernel import sequence_of
+from ...generated.automaton import LAST_ANSWER, LEAST_SLIP, OUTCOMES, TURNLESS
+from ..collision.by_kernel import sequence_of, words_of
 from ..engines.casadi.replay import Replay, Stopped, replayed
 from ..engines.casadi.sequence import EventSequence, sequence
 from ..engines.taylor.record import recorded_in_space
@@ -45,7 +45,7 @@ def sequence_in_space(pair: Pairs, n: Problem, rtol: float) -> EventSequence:
     answer, log = recorded_in_space(pair.impacts, rtol)
     if answer["status"] > LAST_ANSWER:
         raise n.in_si(undecided(answer, tuple(model.state), log[-1] if log.size else None))
-    return sequence(answer, log, KINDS, model, n.groups)
+    return sequence(answer, log, words_of(pair.scene), model, n.groups)
 
 
 def own_axes(pair: Pairs) -> np.ndarray:

@@ -132,11 +132,10 @@ def check_scene(scene: Scene) -> None:
     if scene.particles.friction is not None and scene.wall:
         problem = "couples the directions along a wall, which are computed one by one"
         raise InputError("particles.friction", scene.particles.friction, "a scene without friction", problem)
-    if scene.package is not None and scene.package.events:
-        raise InputError("model", "declared events", "a model without events", "are of collisions in a plane")
-    if scene.package is not None and scene.package.terms is not None and scene.package.terms.rotates:
-        problem = "are of collisions in a plane"
-        raise InputError("model", "declared terms on a rotation", "a model with terms of x and u on the gap", problem)
+    terms, events = (None, ()) if scene.package is None else (scene.package.terms, scene.package.events)
+    if (terms is not None and terms.rotates) or any(event.rotates for event in events):
+        accepted = "a model with events and terms of x, u and t alone"
+        raise InputError("model", "terms or events of a rotation", accepted, "are of collisions in a plane")
     if not scene.wall and not scene.law_has("arm", "balanced"):
         problem = "does not conserve the angular momentum of a pair in space"
         raise InputError("model.arm", scene.model.arm, ", ".join(scene.laws_with("arm", "balanced")), problem)

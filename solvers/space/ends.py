@@ -10,18 +10,12 @@ from ...generated.automaton import OUTCOMES, STICK
 from ..collision.by_replay import terms_of
 from ..collision.outcome import absent_terms, open_beyond
 from ..engines.casadi.replay import Replay
-from ..engines.taylor.layout import OWN_LEDGER
 from ..model.model import Model
 from ..results import TERMS as OF_KERNEL
 from ..scene.scene import Scene
 from .pairs import Bodies, Pairs, dot, length
 
-# no kernel in space has strings or declared events
-TERMS = tuple(
-    name
-    for name, column in OF_KERNEL.items()
-    if column in (OWN_LEDGER.names or ()) and name not in ("strings", "own_events")
-)
+TERMS = tuple(name for name in OF_KERNEL if name != "strings")  # which hold the spheres in a plane
 _INITIAL, _FINAL, _SHEAR = (TERMS.index(name) for name in ("initial", "final", "tangential_lubrication"))
 OPEN = "the energy ledger is open: try a smaller rtol, or another engine"
 GREW = "energy has grown: errors have added up over a long trajectory; try a smaller rtol, or another engine"
@@ -159,9 +153,9 @@ def gains_energy(pairs: Pairs, ends: Ends, rtol: float) -> np.ndarray:
     """Mask of ends with more energy than at initial contact, relative to the centre of mass or to the wall.
 
     Film, shear and rebounds only take energy, and so do attractions between contact and separation: such a trajectory
-    is wrong, as one is that was followed further than doubles reach. Declared terms may give energy.
+    is wrong, as one is that was followed further than doubles reach. What a model declares may give energy.
     """
-    if pairs.scene.package is not None and pairs.scene.package.terms is not None:
+    if pairs.scene.package is not None and pairs.scene.package.bends:
         return np.zeros(pairs.size, bool)
     bodies = Bodies.of(pairs.scene) if not pairs.scene.wall else None
     mass = float(pairs.scene.material["reduced_mass"])

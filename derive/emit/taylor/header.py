@@ -13,7 +13,8 @@ from ...physics.law import slot_calls
 from ...physics.partners.bodies import CENTRES
 from ...physics.scaling import DISTANCE
 from ...user.own_events import OwnEvent
-from ...vocabulary.quantities import VOCABULARY, normal, normal_velocity
+from ...vocabulary import quantities as q
+from ...vocabulary.quantities import VOCABULARY, normal_velocity
 from ..provenance import Own, describe, header, model_digest
 from .certificates import margins, slow_manifold_functions
 from .closed_forms import WORKS, attracting, edge_function, momentum_functions, work_function
@@ -29,6 +30,7 @@ from .resting import FLAGS as RUBBING
 from .resting import QUADRATURES, Resting
 
 _FLAGS = (FILM, SHEAR)
+_COMPONENTS = {*q.normal, *q.orbital_momenta, *q.spins, *q.partner_spins}  # of the vectors among states in space
 
 
 @dataclass(frozen=True)
@@ -131,8 +133,9 @@ class Header:
         doc = "Index of coefficient k of a series used in sums only; the cases listed also read past coefficients."
         lines += [f"/* {doc} */", "#define PASSING(k) (GRADIENTS || WITH_LEDGER || CAPILLARY_STATE ? (k) : 0)"]
         if shape.partner == "space":
-            first = normal[0].name.upper()
-            lines.append(f"#define FIRST_VECTOR {first} /* from here on vectors of three components */")
+            components = [state.name.upper() for state in self.model.states if state in _COMPONENTS]
+            lines += [f"#define FIRST_VECTOR {components[0]} /* from here on vectors of three components */"]
+            lines += [f"#define END_OF_VECTORS ({components[-1]} + 1)"]
         upper = ", ".join(state.upper() for state in states)
         lines += ["", f"enum {{ {upper}, MODEL_STATES }};"]
         lines += clock_states(self.model)

@@ -196,26 +196,47 @@ def test_friction_at_rest_is_of_the_force_whatever_mass_moves_along(tmp_path: Pa
     assert friction[0] == pytest.approx(friction[1], rel=1e-12)
 
 
+EVENTS = """reach = quantity("reach", unit="m", default="9 um")
+delay = quantity("delay", unit="s", default="2e-5 s")
+event("snap", guard=reach - x, where="opening", jump={u: 0.8*u})
+event("kick", guard=delay - t, jump={u: 0.9*u})
+"""
+
+
 @pytest.mark.slow
-@pytest.mark.parametrize("entries", [{}, {"partner.radius": "150 um", "partner.density": "2500 kg/m^3"}])
-def test_terms_on_the_gap_in_space(entries: dict[str, object], tmp_path: Path):
-    """A plane turned in space is the plane, derivatives included; with spins in any direction the ledger closes."""
-    given = scene(tmp_path, CASES["gap"][0]).with_entries(entries)
+@pytest.mark.parametrize(
+    ("body", "own", "entries"),
+    [
+        (CASES["gap"][0], "added_mass", {}),
+        (CASES["gap"][0], "added_mass", {"partner.radius": "150 um", "partner.density": "2500 kg/m^3"}),
+        (EVENTS, "reach", {}),
+    ],
+    ids=["terms", "terms of a pair", "events"],
+)
+def test_what_acts_on_the_gap_acts_in_space(body: str, own: str, entries: dict[str, object], tmp_path: Path):
+    """A plane turned in space is the plane, derivatives included; with spins in any direction the ledger closes.
+
+    A twist that changes nothing else leaves the motion to the equations in space.
+    """
+    given = scene(tmp_path, body).with_entries(entries)
     turned, _ = np.linalg.qr(np.random.default_rng(1).normal(size=(3, 3)))
     planar, (speed, angle) = collide(given, rtol=1e-10), given.need_impact()
     radii = 100e-6 + (150e-6 if entries else 100e-6)
     sideways = speed * math.tan(angle) * (radii + 8e-6) / radii
     pair = turned[:, 0], [turned @ [speed, sideways, 0.0], [0.0] * 3]
-    found = collide_pair(given, *pair, np.zeros((2, 3)), rtol=1e-10)
+    twist = np.tile(1e-7 * speed / 50e-6 * turned[:, 0], (2, 1))
+    found = collide_pair(given, *pair, twist, rtol=1e-10)
     assert float(found.restitution) == pytest.approx(planar.restitution, rel=1e-8)
-    names = ["liquid.viscosity", "custom.pull", "custom.added_mass"]
-    slopes = pair_gradients(given, *pair, np.zeros((2, 3)), wrt=names).d_restitution.values
+    assert float(found.time) == pytest.approx(planar.contact_time, rel=1e-8)
+    names = ["liquid.viscosity", f"custom.{own}"]
+    slopes = pair_gradients(given, *pair, twist, wrt=names).d_restitution.values
     assert slopes == pytest.approx([*sensitivities(given, wrt=names).gradient["restitution"].values()], rel=1e-5)
     spins = np.random.default_rng(2).normal(size=(2, 3)) * speed / 50e-6
+    taken = "energy.own_events" if own == "reach" else "energy.own_terms"
     for engine in ("taylor", "rosenbrock"):
         spun = collide_pair(given.with_entries({"particles.friction": 0.2}), *pair, spins, ledger=True, engine=engine)
         assert spun.outcome > 0
-        assert abs(float(spun["energy.residual"])) < 1e-5 * abs(float(spun["energy.own_terms"]))
+        assert abs(float(spun["energy.residual"])) < 1e-5 * abs(float(spun[taken]))
 
 
 def test_a_stick_is_proved_with_a_potential_and_a_drag(tmp_path: Path):

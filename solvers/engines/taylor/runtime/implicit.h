@@ -68,7 +68,7 @@ OUTLINE void rates_at(slow *w, const vec *y, vec *rate)
         rubbing_rates(&w->r, w->c, w->l, y, rate);
 #endif
 #if SPACE
-    for (int first = FIRST_VECTOR; first < MODEL_STATES; first += 3)
+    for (int first = FIRST_VECTOR; first < END_OF_VECTORS; first += 3)
         for (int k = 0; k < 3; k++) rate[first + k] -= swept(&w->turning, y + first, 1, k);
 #endif
 }
@@ -216,7 +216,7 @@ static vec extrapolated(slow *w, const lanes *l, const fixed *f, const vec *rate
         vec size = size_of(l->y, 1, state) + (state < MODEL_STATES ? 0.0 : LEAST_TERM);
         vec allowed = ESTIMATED*f->tolerance*size_of(change, 1, state) + FLOOR*size + LEAST;
 #if SPACE
-        if (state >= FIRST_VECTOR && state < MODEL_STATES)
+        if (state >= FIRST_VECTOR && state < END_OF_VECTORS)
             allowed += (w->rtol + FLOOR_OF_VECTOR)*(size + LEAST_VECTOR);
 #else
         if (state != GAP && state != NORMAL_VELOCITY && state < MODEL_STATES)

@@ -29,12 +29,12 @@ STATIC_ASSERT(OUTPUTS <= sizeof(((answer *)0)->shown)/sizeof(double)); /* all ou
  */
 #if SPACE
 #define EACH_SIZE(state) \
-    for (int state = 0; state < STATES; state += state >= FIRST_VECTOR && state < MODEL_STATES ? 3 : 1)
+    for (int state = 0; state < STATES; state += state >= FIRST_VECTOR && state < END_OF_VECTORS ? 3 : 1)
 
 static inline vec size_of(const vec *all, int stride, int state)
 {
     const vec *x = all + state*stride;
-    if (state < FIRST_VECTOR || state >= MODEL_STATES)
+    if (state < FIRST_VECTOR || state >= END_OF_VECTORS)
         return vec_abs(x[0]);
     return vec_abs(vec_sqrt(x[0]*x[0] + x[stride]*x[stride] + x[2*stride]*x[2*stride])); /* a NaN may have a sign */
 }

@@ -35,7 +35,7 @@ static inline vec swept(const axes *w, const vec *v, int stride, int k)
 /* Subtracts from coefficient k + 1 of the states what the axes turn. */
 static inline void turn_along(vec (*a)[TERMS], const axes *w, int k)
 {
-    for (int first = FIRST_VECTOR; first < MODEL_STATES; first += 3)
+    for (int first = FIRST_VECTOR; first < END_OF_VECTORS; first += 3)
         for (int part = 0; part < 3; part++)
             a[first + part][k + 1] -= swept(w, &a[first][k], TERMS, part)*(1.0/(k + 1));
 }
@@ -48,7 +48,7 @@ static void turn_back(const axes *w, vec h, vec *y)
     const vec magic = splat(6755399441055744.0); /* adding it rounds to an integer */
     vec turns = w->rate*h*(0.5/PI);
     vec_sin_cos((turns - ((turns + magic) - magic))*(2.0*PI), &sine, &cosine);
-    for (int first = FIRST_VECTOR; first < MODEL_STATES; first += 3) {
+    for (int first = FIRST_VECTOR; first < END_OF_VECTORS; first += 3) {
         vec v[3], along = splat(0.0);
         for (int k = 0; k < 3; k++) {
             v[k] = y[first + k];
