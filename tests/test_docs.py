@@ -16,7 +16,7 @@ from wetdoublet.solvers import Scene, collide
 from wetdoublet.solvers.collision.outcome import Energy
 from wetdoublet.solvers.commands.cli import cli
 from wetdoublet.solvers.scene import schema
-from wetdoublet.solvers.scene.schema import FIELDS, TABLES
+from wetdoublet.solvers.scene.schema import FIELDS
 
 ROOT = Path(__file__).resolve().parents[1]
 PAGES = [
@@ -24,9 +24,7 @@ PAGES = [
     *sorted(path for path in (ROOT / "docs").rglob("*.md") if not path.is_relative_to(ROOT / "docs/_build")),
 ]
 DRAWN = re.compile(r"auto_gallery/images/sphx_glr_(\w+)_\d+\.png")
-SCENES, RESULTS = (
-    (ROOT / "docs/reference" / name).read_text(encoding="utf-8") for name in ("scene-file.md", "results.md")
-)
+RESULTS = (ROOT / "docs/reference/results.md").read_text(encoding="utf-8")
 
 
 def test_every_table_entry_and_choice_has_its_meaning(monkeypatch):
@@ -35,12 +33,6 @@ def test_every_table_entry_and_choice_has_its_meaning(monkeypatch):
     meanings = import_module("scene_entries").declared_meanings()
     assert {*meanings} == {*FIELDS} and all(meanings.values()) and all(kind.__doc__ for kind in schema.KINDS.values())
     assert not [name for name, field in FIELDS.items() if not all(field.choices.values())]
-
-
-def test_the_complete_scene_loads():
-    """The example has every table but a partner, which cannot be beside strings, and is right."""
-    (text,) = re.findall(r"```toml\n(.*?)```", SCENES, re.DOTALL)
-    assert set(Scene.from_toml(text).to_dict()) == {"name", *TABLES} - {"partner"}
 
 
 def test_every_key_of_a_result_is_described():

@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..many.impacts import Block
 from ..scene.origin import provenance, release
 from ..scene.scene import Scene
 from .geometry import BOUNCES, ENERGY, LOST, NORMAL, ROTATES, STICKS, TANGENTIAL, TURNING
-from .matrix import Columns
 
 if TYPE_CHECKING:
     import xarray
@@ -62,7 +62,7 @@ _AXES = {"radius": "radius of the first sphere", "partner_radius": "radius of th
 
 
 def dataset(
-    scene: Scene, axes: Mapping[str, np.ndarray], columns: Columns, attributes: Mapping[str, Any]
+    scene: Scene, axes: Mapping[str, np.ndarray], columns: Block, attributes: Mapping[str, Any]
 ) -> xarray.Dataset:
     """The Dataset of flat columns, one row for each pair."""
     import xarray as xr
@@ -92,7 +92,7 @@ def dataset(
     return xr.Dataset(variables, coordinates, all_attributes)
 
 
-def _averaged(quantity: Quantity, columns: Columns) -> tuple[np.ndarray, np.ndarray]:
+def _averaged(quantity: Quantity, columns: Block) -> tuple[np.ndarray, np.ndarray]:
     """A quantity and its error, (pairs,)."""
     value = quantity.constant + quantity.factor * columns["mean"][:, quantity.column]
     error = abs(quantity.factor) * columns["error"][:, quantity.column]

@@ -14,7 +14,7 @@ import numpy as np
 
 from ..changes.brackets import Changes, locate
 from ..changes.experiment import STEEPEST, UNDECIDED, Experiment
-from .sizes import collide, outcome_of
+from .sizes import collide, labels, outcome_of
 
 RIGHT_ANGLE = np.pi / 2
 WIDTH = 1e-8  # rad, to which changes are enclosed
@@ -38,13 +38,9 @@ def summed(owner: np.ndarray, values: np.ndarray, count: int) -> np.ndarray:
 
 
 def integrals(
-    function: Callable[[np.ndarray, np.ndarray], tuple[np.ndarray, np.ndarray]],
-    owner: np.ndarray,
-    ends: np.ndarray,
-    sharp: np.ndarray | bool,
-    tolerance: float,
-    count: int,
-) -> tuple[np.ndarray, np.ndarray]:
+    function: Callable[[np.ndarray, np.ndarray], tuple[np.ndarray, np.ndarray]], owner: np.ndarray, ends: np.ndarray,
+    sharp: np.ndarray | bool, tolerance: float, count: int,
+) -> tuple[np.ndarray, np.ndarray]:  # fmt: skip
     """Integrals of what is smooth in intervals, and their errors: sums over those of one owner, (count, columns) each.
 
     All intervals are integrated together, each with twice as many places until it or the sum changes by little enough.
@@ -140,14 +136,13 @@ def segments(
         hints: angles at which lines are sampled besides, (lines, any number).
         width: to which changes are enclosed, rad.
     """
-
-    def labels(line: np.ndarray, angle: np.ndarray) -> np.ndarray:
-        return collide(experiment, pair[line], speed[line], angle, locating=True).label
-
     angles = np.tile(_SAMPLED, (pair.size, 1))
     if hints is not None:
         angles = np.sort(np.hstack([angles, hints]), axis=1)
-    return Segments.between(locate(labels, angles, width, UNDECIDED, _MOST))
+    changes = locate(
+        lambda line, angle: labels(experiment, pair[line], speed[line], angle), angles, width, UNDECIDED, _MOST
+    )
+    return Segments.between(changes)
 
 
 def over_angles(
@@ -170,10 +165,10 @@ def over_angles(
 
     def columns(which: np.ndarray, angle: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         line, weight = wide.line[which], np.sin(2 * angle)
-        collided = collide(experiment, pair[line], speed[line], angle)
-        collided.results[ENERGY - NORMAL :] *= speed[line] ** 2 / mean_square
-        strange = collided.outcome != outcome_of(wide.label[which])
-        return (collided.results * weight).T, np.tile(strange * weight, (COLUMNS - NORMAL, 1)).T
+        outcome, results = collide(experiment, pair[line], speed[line], angle)
+        results[ENERGY - NORMAL :] *= speed[line] ** 2 / mean_square
+        strange = outcome != outcome_of(wide.label[which])
+        return (results * weight).T, np.tile(strange * weight, (COLUMNS - NORMAL, 1)).T
 
     ends = np.column_stack([wide.low, wide.high])
     value, errors = integrals(columns, wide.line, ends, True, tolerance, pair.size)

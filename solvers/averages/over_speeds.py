@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 from itertools import pairwise
 
 import numpy as np
 
 from ..changes.brackets import locate
 from ..changes.experiment import Experiment
-from .geometry import integrals, segments
+from .geometry import integrals, over_angles, segments
 from .speeds import Speeds
 
 _SCAN = 24  # speeds at which the sequence is sampled, for each distribution
@@ -19,16 +19,10 @@ _LOOSE = 1e-7  # tolerance of its collisions
 _CUT = 1e-6  # width to which changes of the sequence are enclosed, over the fastest speed
 _INNER = 0.3  # part of the tolerance for the means over angles
 
-Along = Callable[[np.ndarray, np.ndarray, np.ndarray | None, float], tuple[np.ndarray, np.ndarray]]
-"""Pairs (by index), relative speeds, angles at which lines are sampled besides (lines, any number) or None, and the
-tolerance -> means along the lines and their errors, (lines, columns) each."""
 
-
-def means(
-    along: Along, experiment: Experiment, pairs: int, speeds: Speeds, tolerance: float
-) -> tuple[np.ndarray, np.ndarray]:
+def means(experiment: Experiment, pairs: int, speeds: Speeds, tolerance: float) -> tuple[np.ndarray, np.ndarray]:
     """Means of the rows of an experiment over impact angles and relative speeds, and errors: (pairs, columns) each."""
-    inner = _INNER * tolerance
+    along, inner = partial(over_angles, experiment, speeds.moment(2)), _INNER * tolerance
     if speeds.density is None:
         return along(np.arange(pairs), np.full(pairs, speeds.knots[0]), None, inner)
     density = speeds.density

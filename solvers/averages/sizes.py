@@ -2,7 +2,6 @@
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -20,7 +19,6 @@ FIXED, PROPORTIONAL = FILMS = ("fixed", "proportional")
 BOUNCES = OUTCOMES.index(BOUNCE)
 _BUDGET = 20_000  # steps of a collision that only locates a change
 _EVENTS, _CRITERIA = 1000, 10  # the label's parts
-_RESULTS = ("restitution", "tangential_restitution", "final_spin", "final_spin_partner")
 _OF_SPHERES = tuple(
     f"{table}.{key}"
     for table in ("particles", "partner")
@@ -37,81 +35,66 @@ def experiment_of(scenes: Sequence[Scene], rtol: float) -> Experiment:
     return Rows(first, (), columns, len(scenes) if columns else 1, rtol).unchecked(np.zeros(0))
 
 
-@dataclass(frozen=True)
-class Collided:
-    """Labels and results of collisions.
+def labels(experiment: Experiment, pair: np.ndarray, speed: np.ndarray, angle: np.ndarray) -> np.ndarray:
+    """What happens in collisions of pairs (by index) at relative speeds (m/s) and angles (rad), as a number.
 
-    Attributes:
-        label: 0 for a stick and -1 for an undecided collision; others have the same one if the outcome is the same,
-            and of bounces the first rebound criterion, the number of events, and whether it is met at initial contact.
-        results: (5, collisions): e_n and e_t, 0 for sticks; (e_n cos(angle))^2; what the energy of rotation gains, over
-            that of the relative motion, and what kinetic energy is lost, over the mean of the relative motion's over
-            all angles. A stick rotates as one body.
+    0 is a stick and UNDECIDED a collision that takes long. Others have the same number if the outcome is the same, and
+    of bounces the first rebound criterion, the number of events, and whether it is met at initial contact.
     """
-
-    label: np.ndarray
-    results: np.ndarray
-
-    @property
-    def outcome(self) -> np.ndarray:
-        return outcome_of(self.label)
+    answers = _answers(experiment, pair, speed, angle, _BUDGET)[-1]
+    outcome = answers["outcome"].astype(np.int64)
+    events = np.where(outcome == BOUNCES, np.minimum(answers["events"], _EVENTS - 1), 0)
+    label = ((outcome * _CRITERIA + answers["reversal"] + 1) * _EVENTS + events) * 2 + (answers["smallest_gap"] >= 1)
+    return np.where(answers["status"] <= LAST_ANSWER, np.where(outcome > 0, label, 0), UNDECIDED)
 
 
 def outcome_of(label: np.ndarray) -> np.ndarray:
-    """The outcome's number from a label; -1 if it is undecided."""
+    """The outcome's number from a label; UNDECIDED stays."""
     return np.where(label == UNDECIDED, UNDECIDED, label // (_EVENTS * _CRITERIA * 2))
 
 
-def collide(
-    experiment: Experiment, pair: np.ndarray, speed: np.ndarray, angle: np.ndarray, locating: bool = False
-) -> Collided:
-    """Collisions of pairs (by index) at relative speeds (m/s) and angles (rad).
+def _answers(
+    experiment: Experiment, pair: np.ndarray, speed: np.ndarray, angle: np.ndarray, budget: int
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Normal speeds and angles of collisions, and what the kernel answers; ComputationError without a kernel.
 
     Beyond STEEPEST the normal speed before is so small that the one after no longer depends on it: it is that of a
     collision at STEEPEST.
-
-    Arguments:
-        locating: leave collisions undecided that take long, without their results. Otherwise these are NaN where the
-            kernel does not decide a collision.
-
-    Raises:
-        ComputationError: there is no compiled kernel.
     """
     within = np.minimum(angle, STEEPEST)
-    normal, flatter = speed * np.cos(within), np.cos(within) / np.cos(angle)
-    threads = usable_cores() if angle.size > FEW else 1
-    budget = _BUDGET if locating else KERNEL_STEPS
-    answers = experiment.answers(pair, normal, within, threads=threads, budget=budget, jumps=1)
-    outcome = answers["outcome"].astype(np.int64)
+    normal, threads = speed * np.cos(within), usable_cores() if angle.size > FEW else 1
+    return normal, within, experiment.answers(pair, normal, within, threads=threads, budget=budget, jumps=1)
+
+
+def collide(
+    experiment: Experiment, pair: np.ndarray, speed: np.ndarray, angle: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Outcomes and results of collisions of pairs (by index) at relative speeds (m/s) and angles (rad).
+
+    Returns:
+        The outcomes, UNDECIDED where the kernel does not decide, and (5, collisions), there NaN: e_n and e_t, 0 for
+        sticks; (e_n cos(angle))^2; what the energy of rotation gains, over that of the relative motion, and what
+        kinetic energy is lost, over the mean of the relative motion's over all angles. A stick rotates as one body.
+    """
+    normal, within, answers = _answers(experiment, pair, speed, angle, KERNEL_STEPS)
     decided = answers["status"] <= LAST_ANSWER
-    events = np.where(outcome == BOUNCES, np.minimum(answers["events"], _EVENTS - 1), 0)
-    label = ((outcome * _CRITERIA + answers["reversal"] + 1) * _EVENTS + events) * 2 + (answers["smallest_gap"] >= 1)
-    label = np.where(decided, np.where(outcome > 0, label, 0), UNDECIDED)
-    results = np.where(outcome > 0, answers["shown"][:, :2].T, 0.0)
-    spins = np.zeros((2, angle.size))
-    if not locating:
-        rates = rates_of(answers, experiment.impacts(pair, normal, within))
-        spins = np.stack([rates[name] for name in _RESULTS[2:]])
-        results[:, ~decided] = spins[:, ~decided] = np.nan
-        outcome[~decided] = UNDECIDED
-    results[0] *= flatter
-    if locating:
-        return Collided(label, results)
+    outcome = np.where(decided, answers["outcome"], UNDECIDED)
+    results = np.where(answers["outcome"] > 0, answers["shown"][:, :2].T, 0.0)
+    results[:, ~decided] = np.nan
+    results[0] *= np.cos(within) / np.cos(angle)
+    rates = rates_of(answers, experiment.impacts(pair, normal, within))
+    spins = np.stack([rates["final_spin"], rates["final_spin_partner"]])
     normal_energy = (results[0] * np.cos(angle)) ** 2
     turning, stretch = _turning(experiment, pair, normal, within, outcome, spins)
     sliding = (stretch * np.sin(angle)) ** 2
     lost = (np.cos(angle) ** 2 + sliding * (1 - results[1] ** 2) - normal_energy - turning) / ((1 + stretch**2) / 2)
-    return Collided(label, np.stack([*results, normal_energy, turning, lost]))
+    return outcome, np.stack([*results, normal_energy, turning, lost])
 
 
 def _turning(
-    experiment: Experiment,
-    pair: np.ndarray,
-    speed: np.ndarray,
-    angle: np.ndarray,
-    outcome: np.ndarray,
+    experiment: Experiment, pair: np.ndarray, speed: np.ndarray, angle: np.ndarray, outcome: np.ndarray,
     spins: np.ndarray,
-) -> tuple[np.ndarray, Any]:
+) -> tuple[np.ndarray, Any]:  # fmt: skip
     """Gain of the energy of rotation over the energy of the relative motion; of a stick that of the rigid doublet.
 
     Arguments:

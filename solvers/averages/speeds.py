@@ -20,14 +20,12 @@ from ..scene.schema import FIELDS
 from ..scene.values import array
 
 _SPEED = FIELDS["impact.relative_speed"]
+_LABEL = "speeds"
 _LEAST, _MOST = 1e-30, 1e30  # m/s; products of speeds and densities stay within a double's range
 _GAS = Field(
-    "speeds",
-    "the standard deviation of a particle's velocity components",
-    '"0.3 m/s"',
-    Range(f"from {_LEAST:g} to {_MOST:g}", _LEAST, _MOST, low_open=False, high_open=False),
-    unit="m/s",
-)
+    _LABEL, "the standard deviation of a particle's velocity components", '"0.3 m/s"',
+    Range(f"from {_LEAST:g} to {_MOST:g}", _LEAST, _MOST, False, False), unit="m/s",
+)  # fmt: skip
 _PREFIX = "maxwell:"
 _ACCEPTED = (
     'a relative speed as "1 m/s", "maxwell:0.3 m/s" with the standard deviation of a particle\'s velocity components, '
@@ -74,7 +72,7 @@ class Speeds:
         return np.nan if np.isinf(inverse) else 1 / inverse
 
     @classmethod
-    def of(cls, value: Any, label: str = "speeds") -> Speeds:
+    def of(cls, value: Any) -> Speeds:
         """The distribution that a value describes; InputError for anything else.
 
         Arguments:
@@ -85,16 +83,16 @@ class Speeds:
             return value
         text = value.strip().lower() if isinstance(value, str) else ""
         if text.startswith(_PREFIX):
-            return maxwellian(_GAS.number(value.strip()[len(_PREFIX) :], label=label))
+            return maxwellian(_GAS.number(value.strip()[len(_PREFIX) :]))
         if isinstance(value, Path) or text.endswith(".csv"):
-            return _table(*_columns(Path(value), label), label)
+            return _table(*_columns(Path(value)))
         if value is None:
-            raise InputError(label, value, _ACCEPTED, "missing")
+            raise InputError(_LABEL, value, _ACCEPTED, "missing")
         if isinstance(value, (tuple, list)):
             if len(value) != 2 or np.ndim(value[0]) != 1:
-                raise InputError(label, value, _ACCEPTED, "is no such pair of arrays")
-            return _table(array(value[0], _SPEED, label), np.asarray(value[1], dtype=float), label)
-        speed = _SPEED.number(value, label=label)
+                raise InputError(_LABEL, value, _ACCEPTED, "is no such pair of arrays")
+            return _table(array(value[0], _SPEED, _LABEL), np.asarray(value[1], dtype=float))
+        speed = _SPEED.number(value, label=_LABEL)
         return cls(f"relative speed {speed:.6g} m/s", np.array([speed]), None)
 
 
@@ -114,16 +112,16 @@ def maxwellian(deviation: float) -> Speeds:
     return Speeds(text, np.array(_MAXWELL) * deviation, density)
 
 
-def _table(speed: np.ndarray, density: np.ndarray, label: str) -> Speeds:
+def _table(speed: np.ndarray, density: np.ndarray) -> Speeds:
     """A density that is linear between the speeds of a table, and zero elsewhere."""
     if speed.shape != density.shape or speed.ndim != 1 or speed.size < 2:
-        raise InputError(label, None, _ACCEPTED, f"has {speed.size} speeds and {density.size} densities")
+        raise InputError(_LABEL, None, _ACCEPTED, f"has {speed.size} speeds and {density.size} densities")
     if not (np.all(np.diff(speed) > 0) and speed[0] >= 0 and np.isfinite(speed[-1])):
-        raise InputError(label, speed, "speeds that ascend from 0 or more", "does not ascend")
+        raise InputError(_LABEL, speed, "speeds that ascend from 0 or more", "does not ascend")
     if speed[-1] > _MOST:
-        raise InputError(label, speed, f"speeds of at most {_MOST:g} m/s", "is out of range")
+        raise InputError(_LABEL, speed, f"speeds of at most {_MOST:g} m/s", "is out of range")
     if not (np.isfinite(density).all() and (density >= 0).all() and density.max() > 0):
-        raise InputError(label, density, "densities of 0 or more, not all of them 0", "is no density")
+        raise InputError(_LABEL, density, "densities of 0 or more, not all of them 0", "is no density")
     density = density / density.max()  # so that no product overflows or vanishes
     total = float(np.trapezoid(density, speed))
     return Speeds(
@@ -133,14 +131,14 @@ def _table(speed: np.ndarray, density: np.ndarray, label: str) -> Speeds:
     )
 
 
-def _columns(path: Path, label: str) -> tuple[np.ndarray, np.ndarray]:
+def _columns(path: Path) -> tuple[np.ndarray, np.ndarray]:
     accepted = f"a CSV file with the header {','.join(_HEADER)} and a speed in m/s and its density in each row"
-    columns = columns_of(path, label, accepted)[0]
+    columns = columns_of(path, _LABEL, accepted)[0]
     if [column.name for column in columns] != list(_HEADER):
-        raise InputError(label, str(path), accepted, f"has the header {','.join(column.name for column in columns)}")
+        raise InputError(_LABEL, str(path), accepted, f"has the header {','.join(column.name for column in columns)}")
     try:
         speed, density = (np.array(column.cells, dtype=float) for column in columns)
     except ValueError as error:
-        raise InputError(label, str(path), accepted, f"is no such table ({error})") from None
+        raise InputError(_LABEL, str(path), accepted, f"is no such table ({error})") from None
     unit = columns[0].unit or "m/s"
-    return speed * units.factor(unit, "m/s", label, "relative_speed in m/s", f"relative_speed [{unit}]"), density
+    return speed * units.factor(unit, "m/s", _LABEL, "relative_speed in m/s", f"relative_speed [{unit}]"), density

@@ -1,7 +1,7 @@
 """The free granules: regime map (Fig. 4a), restitution (Fig. 4b), and the factors of Ce*."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -11,14 +11,13 @@ from matplotlib.axes import Axes
 
 from ...generated.automaton import BOUNCE, OUTCOMES, ROTATE, STICK
 from ..boundaries.boundary import atlas
-from ..boundaries.changes import Change
 from ..boundaries.result import Atlas
 from ..formatting.style import INK, NOTE, broken, halo
 from ..many.collide_many import collide_many
 from ..scene.scene import Scene
 from . import report
 from .printed import CURVES, DOUBLED, PRINTED
-from .report import Comparison, Part, degrees, draw_map, number, sheet, table
+from .report import Comparison, Part, degrees, draw_map, number, sheet
 
 _REACH = 0.26  # St at the right edge
 _STEEPEST, _FIRST = math.radians(89.0), math.radians(0.5)  # the lowest oblique line without a bridge
@@ -27,7 +26,7 @@ _PRESSURE = "liquid.glass_transition_pressure"
 _OUT_OF_REACH = 1e9  # factor on the glass-transition pressure
 _INSET = (0.61, 0.135, 0.36, 0.5)  # of Fig. 4a: left, bottom, width and height, as parts of its axes
 _BLUE, _ORANGE = "#0072B2", "#D55E00"
-_SHOWN, _MOST_CE = 0.25, 20.0  # St at the right edge of Fig. 4b, and Ce of its inset
+_SHOWN, _INVISIBLE = 0.25, 0.05  # St at the right edge of Fig. 4b; difference that is not seen in it
 _POINTS, _BESIDE = 1500, 1e-6  # of a curve; relative distance from a boundary at which it ends
 _COLOURS = (INK, "#56B4E9", "#009E73", _BLUE, _ORANGE, "#CC79A7")  # Okabe-Ito
 _LINES: Sequence[Any] = ("-", (0, (4, 1.2)), "-", "-", "-", "-")
@@ -53,12 +52,10 @@ def fig4a(folder: Path) -> Part:
     sides = {dry_oblique.background}.union(*((curve.before, curve.after) for curve in dry_oblique.curves))
     only_head_on = STICK not in sides and STICK in report.outcomes(dry_line)
     why_stokes = "St* follows from p_gt alone: lever arm, tangential cut-off and bridge law have next to no part in it"
-    used = report.described(scene)
-    over_angles = ", ".join(f"{number(end.centrifugal)} at {degrees(at)}" for at, end in zip(_OBLIQUE, ends))
     why_centrifugal = (
-        f"at {degrees(_AT)}; the paper has one number for all angles. Ours: {over_angles}. With the "
-        "leading-order lever arm of the tangential force, which the paper may have used (a law of one's own, "
-        "docs/reference/models.md): 4.27, 4.20, 4.15, 4.08 at 30, 45, 60, 75 deg"
+        f"at {degrees(_AT)}; the paper has one number for all angles. Ours: "
+        f"{_over_angles(end.centrifugal for end in ends)}. The paper may have used the leading-order lever arm of the "
+        "tangential force, with which they are larger (a law of one's own, docs/reference/models.md)"
     )
     only, why_dry = "θ₀ = 0 only", "nothing holds a rotating doublet once lubrication has stopped it"
     caption = (
@@ -67,9 +64,9 @@ def fig4a(folder: Path) -> Part:
         f"and St* = {PRINTED['stokes_4'].text}. Inset: without capillary force, where only θ₀ = 0 sticks (arrow)."
     )
     comparisons = [
-        Comparison("stokes_4", stokes, used, why_stokes),
-        Comparison("centrifugal", centrifugal, used, why_centrifugal),
-        Comparison("dry", only if only_head_on else "others, too", report.described(dry), why_dry, only_head_on),
+        Comparison("stokes_4", stokes, why_stokes),
+        Comparison("centrifugal", centrifugal, why_centrifugal),
+        Comparison("dry", only if only_head_on else "others, too", why_dry, only_head_on),
     ]
     return Part.drawn("Fig. 4a: regime map of granules", "fig4a.png", caption, comparisons, report.BRIDGED, report.DRY)
 
@@ -116,34 +113,33 @@ def fig4b(folder: Path) -> Part:
     outcome, restitution = (data[name].transpose("angle", "stokes").values for name in ("outcome", "restitution"))
     with sheet(folder / "fig4b.png", 8.2) as figure:
         axes = figure.add_subplot()
-        _against_stokes(axes, stokes, outcome, restitution)
-        _against_centrifugal(axes, stokes, outcome, restitution, lines)
-
+        for k, of_curve in enumerate(CURVES):
+            axes.plot(stokes, restitution[k], color=_COLOURS[k], linestyle=":", linewidth=0.9, zorder=2)
+            look: dict[str, Any] = {"color": _COLOURS[k], "linestyle": _LINES[k], "zorder": 3 + k}
+            axes.plot(*broken(outcome[k], stokes, restitution[k]), **look, clip_on=False, label=degrees(of_curve))
+        axes.legend(
+            *(column[::-1] for column in axes.get_legend_handles_labels()), title=r"$\theta_0$", loc="upper left",
+            ncols=2, handlelength=1.8, columnspacing=1, title_fontsize=8,
+        )  # fmt: skip
+        axes.set(xlim=(0, _SHOWN), ylim=(0, 1.12 * restitution.max()), xlabel=report.STOKES)
+        axes.set_ylabel("normal restitution $e_{w,n}$")
+        axes.axhline(1, color=INK, linewidth=0.5, linestyle=(0, (1, 2)), zorder=1)
     both_bounce = (outcome[:2] == _BOUNCES).all(axis=0)
     apart = float(np.abs(np.diff(restitution[:2], axis=0)[0, both_bounce]).max())
     angle, place = np.unravel_index(np.argmax(restitution), restitution.shape)
     rotating = np.where(outcome == _ROTATES, restitution, 0.0).max(axis=1)
-    used, at_15 = report.described(scene), report.outcomes(lines[1])
-    largest, rotating_at = float(restitution[angle, place]), degrees(CURVES[int(np.argmax(rotating))])
-    why_largest = f"in St up to {_SHOWN:g}; of those that rotate first {number(rotating.max())} at {rotating_at}"
-    invisible = 0.05  # difference in a printed figure
+    at_15, most = report.outcomes(lines[1]), float(restitution[angle, place])
+    largest = f"{number(most)} at {degrees(CURVES[angle])}, St {stokes[place]:.3g}"
+    rotates = f"of those that rotate first {number(rotating.max())} at {degrees(CURVES[int(np.argmax(rotating))])}"
+    change = f"one change, at St {number(lines[1][0].stokes)}"
     comparisons = [
-        Comparison(
-            "two_at_15", ", ".join(at_15), used, f"one change, at St {number(lines[1][0].stokes)}",
-            at_15 == ("stick", "bounce"),
-        ),
-        Comparison(
-            "same_at_15", f"differs by {apart:.2g} at most", used, "in e_n, where both bounce", apart < invisible
-        ),
-        Comparison(
-            "above_one", f"{number(largest)} at {degrees(CURVES[angle])}, St {stokes[place]:.3g}", used, why_largest,
-            largest > 1,
-        ),
-    ]  # fmt: skip
+        Comparison("two_at_15", ", ".join(at_15), change, at_15 == ("stick", "bounce")),
+        Comparison("same_at_15", f"differs by {apart:.2g} at most", "in e_n, where both bounce", apart < _INVISIBLE),
+        Comparison("above_one", largest, f"in St up to {_SHOWN:g}; {rotates}", most > 1),
+    ]
     caption = (
         f"Fig. 4b: normal restitution against St, {', '.join(map(degrees, CURVES))} (bottom to top). Dotted: jumps at "
-        "the traced boundaries. Inset: against Ce, where the spheres rotate before they separate (no rebound criterion "
-        "met)."
+        "the traced boundaries."
     )
     words = (
         "The paper speaks of a discontinuity of the slope at St*; here e_n itself jumps, at every boundary: a doublet "
@@ -151,40 +147,6 @@ def fig4b(folder: Path) -> Part:
         "back with what speed it still had."
     )
     return Part.drawn("Fig. 4b: restitution", "fig4b.png", caption, comparisons, report.BRIDGED, words=words)
-
-
-def _against_stokes(axes: Axes, stokes: np.ndarray, outcome: np.ndarray, restitution: np.ndarray) -> None:
-    """Draw a curve for each angle; jumps are dotted."""
-    for k, angle in enumerate(CURVES):
-        axes.plot(stokes, restitution[k], color=_COLOURS[k], linestyle=":", linewidth=0.9, zorder=2)
-        look: dict[str, Any] = {"color": _COLOURS[k], "linestyle": _LINES[k], "zorder": 3 + k}
-        axes.plot(*broken(outcome[k], stokes, restitution[k]), **look, clip_on=False, label=degrees(angle))
-    handles, labels = axes.get_legend_handles_labels()
-    axes.legend(
-        handles[::-1], labels[::-1], title=r"$\theta_0$", loc="upper left", ncols=2, handlelength=1.8, columnspacing=1,
-        title_fontsize=8,
-    )  # fmt: skip
-    axes.set(xlim=(0, _SHOWN), ylim=(0, 1.12 * restitution.max()), xlabel=report.STOKES)
-    axes.set_ylabel("normal restitution $e_{w,n}$")
-    axes.axhline(1, color=INK, linewidth=0.5, linestyle=(0, (1, 2)), zorder=1)
-
-
-def _against_centrifugal(
-    axes: Axes, stokes: np.ndarray, outcome: np.ndarray, restitution: np.ndarray, lines: Sequence[Sequence[Change]]
-) -> None:
-    """Draw the inset; at an angle Ce is proportional to St^2."""
-    inset = axes.inset_axes((0.63, 0.13, 0.345, 0.27))
-    for k, rotates in enumerate(outcome == _ROTATES):
-        if rotates.any():
-            centrifugal = (lines[k][0].centrifugal or 0.0) * (stokes[rotates] / lines[k][0].stokes) ** 2
-            inset.plot(centrifugal, restitution[k, rotates], color=_COLOURS[k], linewidth=1)
-            start, height = centrifugal[0], restitution[k, rotates][0]
-            inset.plot([0, start, start], [0, 0, height], color=_COLOURS[k], linestyle=":", linewidth=0.9)
-    inset.set(xlim=(0, _MOST_CE), ylim=(0, None))
-    inset.tick_params(labelsize=6, pad=1.5)
-    inset.set_xlabel("$Ce$", fontsize=7, labelpad=0.5)
-    inset.set_ylabel("$e_{w,n}$", fontsize=7, labelpad=1)
-    inset.axvline(PRINTED["centrifugal"].value, color=INK, linewidth=0.6, linestyle=(0, (4, 2)))
 
 
 def factors(_folder: Path) -> Part:
@@ -195,17 +157,17 @@ def factors(_folder: Path) -> Part:
     scenes = [base, *(base.with_entries({entry: 2 * float(base.entries[entry])}) for entry in entries)]
     ends = [report.ends_of_sticking(scene, *_OBLIQUE) for scene in scenes]
     critical = np.array([[end.centrifugal for end in line] for line in ends], float)
-    ratios, place = critical[1:] / critical[0], _OBLIQUE.index(_AT)  # by quantity and angle
-    used = report.described(base) + ", p_gt out of reach"
+    place = _OBLIQUE.index(_AT)
     comparisons = [
-        Comparison(entry, float(row[place]), used, f"at {degrees(_AT)}") for entry, row in zip(entries, ratios)
-    ]
-    rows = [
-        [PRINTED[entry].what, PRINTED[entry].text, *(f"{x:.3f}" for x in row)] for entry, row in zip(entries, ratios)
+        Comparison(entry, float(row[place]), f"p_gt out of reach, at {degrees(_AT)}. {_over_angles(row, '.3f')}")
+        for entry, row in zip(entries, critical[1:] / critical[0])
     ]
     words = (
         "Each quantity alone is doubled; a doubled radius leaves m, x₀ and V/R³. The glass criterion is put out of "
         f"reach. Ce* itself: {number(critical[0, place])}. The paper does not say at which angle."
     )
-    of_angles = table("Factors of Ce*", ["", "paper", *(f"at {degrees(angle)}" for angle in _OBLIQUE)], rows)
-    return Part("Ce* with one quantity doubled", f"{words}\n\n{of_angles}", comparisons, scenes=[report.BRIDGED])
+    return Part("Ce* with one quantity doubled", words, comparisons, scenes=[report.BRIDGED])
+
+
+def _over_angles(values: Iterable[float | None], form: str = "#.4g") -> str:
+    return ", ".join(f"{value:{form}} at {degrees(at)}" for at, value in zip(_OBLIQUE, values))

@@ -29,11 +29,11 @@ def fig1(folder: Path) -> Part:
     collisions = [collide(scene, stokes=shot.stokes, angle=SHOT_ANGLE, ledger=False, trajectory=True) for shot in SHOTS]
     _draw_shots(collisions, folder / "fig1.png")
     comparisons = [
-        Comparison(f"fig1{shot.panel}", seen.outcome, report.described(scene), _end(seen), seen.outcome == shot.outcome)
+        Comparison(f"fig1{shot.panel}", seen.outcome, _end(seen), seen.outcome == shot.outcome)
         for shot, seen in zip(SHOTS, collisions)
     ]
     why = "a of Fig. 3's caption is rounded to 0.63 cm; four times that is used"
-    comparisons.append(Comparison("diameter", 4 * scene.particles.reduced_radius * _MS, "preset pendulum", why))
+    comparisons.append(Comparison("diameter", 4 * scene.particles.reduced_radius * _MS, why))
     names = [f"({shot.panel}) St {shot.stokes:g}" for shot in SHOTS]
     caption = (
         f"Fig. 1: pendulum at {degrees(SHOT_ANGLE)}, {', '.join(names)}; seen from above in the frame of the centre of "
@@ -101,8 +101,5 @@ def fig3(folder: Path) -> Part:
         "angle up, as the text has it (“at higher θ₀ for a given St”); the measured points of the paper are in its "
         f"picture alone. SRS/B leaves the map to the right above {leaves:.3g}°."
     )
-    comparisons = [
-        Comparison("stokes_3", escapes, report.described(scene), between),
-        Comparison("angle_3", first, report.described(scene), begins),
-    ]
+    comparisons = [Comparison("stokes_3", escapes, between), Comparison("angle_3", first, begins)]
     return Part.drawn("Fig. 3: regime map of the pendulum", "fig3.png", caption, comparisons, report.PENDULUM)

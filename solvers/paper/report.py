@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import math
-import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -29,7 +28,8 @@ from .printed import CITATION, NOT_COMPARED, PRINTED
 TITLE = "Wet particles, oblique collisions: the paper and this model"
 COLUMN, _DPI = 8.8, 300  # cm, width of a printed column
 STOKES, ANGLE = "Stokes number $St_n$", r"impact angle $\theta_0$ (deg)"
-_HEAD = ("quantity", "paper", "ours", "difference", "with (lever arm at mid-gap)", "why, and what goes with it")
+_HEAD = ("quantity", "paper", "ours", "difference", "why, and what goes with it", "where the paper prints it")
+_HOW_TO_READ = "“Rounds to it”: ours, rounded to the printed digits, is the printed number."
 _ROWS, _COLUMNS = 541, 781  # of the raster of outcomes; their edges are drawn over by the curves
 _STYLE: Any = {  # matplotlib's stubs type each key separately
     "font.size": 8, "axes.labelsize": 8.5, "axes.linewidth": 0.7, "xtick.labelsize": 7.5, "ytick.labelsize": 7.5,
@@ -41,7 +41,7 @@ BRIDGED, DRY, PENDULUM = "granulation", "granulation-dry-bridge", "pendulum"
 
 @dataclass(frozen=True)
 class Comparison:
-    """Our number or finding for an entry of PRINTED, with the variants used and why it differs.
+    """Our number or finding for an entry of PRINTED, and why it differs.
 
     Arguments:
         agrees: for a finding in words, True if it agrees with the paper.
@@ -49,7 +49,6 @@ class Comparison:
 
     key: str
     ours: float | str
-    used: str
     why: str = ""
     agrees: bool | None = None
 
@@ -79,50 +78,35 @@ class Part:
         cls, title: str, file: str, caption: str, comparisons: Sequence[Comparison], *scenes: str, words: str = ""
     ) -> Part:
         """A part with one picture, and words before it."""
-        text = "\n\n".join(filter(None, (words, picture(file, caption))))
-        return cls(title, text, comparisons, [file], scenes)
+        return cls(title, f"{words}\n\n{picture(file, title, caption)}".lstrip(), comparisons, [file], scenes)
 
 
-def table(caption: str, head: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
-    """A table in Markdown; bars are escaped."""
-    lines = (" | ".join(cell.replace("|", r"\|") for cell in row) for row in (head, ["---"] * len(head), *rows))
-    return "\n".join([f"**{caption}**", "", *(f"| {line} |" for line in lines)])
+def table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
+    """A table in Markdown."""
+    return "\n".join(f"| {' | '.join(row)} |" for row in (head, ["---"] * len(head), *rows))
 
 
-def picture(file: str, caption: str) -> str:
-    """A picture in Markdown; the caption's first sentence is for readers who do not see it."""
-    alternative = re.sub(r"[\[\]*_]", "", caption.split(".", maxsplit=1)[0])
-    return f"![{alternative}]({file})\n\n*{caption}*"
+def picture(file: str, title: str, caption: str) -> str:
+    """A picture in Markdown; the title is for readers who do not see it."""
+    return f"![{title}]({file})\n\n*{caption}*"
 
 
 def report(parts: Sequence[Part], how: str) -> str:
     """The report in Markdown; `how` describes the computation."""
     comparisons = {comparison.key: comparison for section in parts for comparison in section.comparisons}
     compared = [(printed, comparisons[key]) for key, printed in PRINTED.items() if key in comparisons]
-    blocks = [f"# {TITLE}", how]
-    if compared:
-        used = (
-            "“With” has the variants used where the paper leaves a choice open. “Rounds to it”: ours, rounded to the "
-            "printed digits, is the printed number."
-        )
-        rows = [
-            (printed.what, printed.text, ours.ours if isinstance(ours.ours, str) else number(ours.ours), ours.verdict,
-             ours.used, ours.why)
-            for printed, ours in compared
-        ]  # fmt: skip
-        blocks += [
-            f"The paper: {CITATION}.",
-            used,
-            "## The numbers",
-            table("Every number the paper prints, beside ours", _HEAD, rows),
-            table("Printed, but not compared", ("what", "why"), NOT_COMPARED),
-        ]
+    rows = [
+        (printed.what, printed.text, ours.ours if isinstance(ours.ours, str) else number(ours.ours), ours.verdict,
+         ours.why, f"{printed.place}: “{printed.quote}”")
+        for printed, ours in compared
+    ]  # fmt: skip
+    numbers = [f"The paper: {CITATION}.", _HOW_TO_READ, "## The numbers", table(_HEAD, rows)]
+    numbers += ["Printed, but not compared:", table(("what", "why"), NOT_COMPARED)]
+    blocks = [f"# {TITLE}", how, *(numbers if compared else ())]
     for section in parts:
         blocks += [f"## {section.title}", section.text]
-    blocks += ["## Inputs", _inputs([*dict.fromkeys(name for section in parts for name in section.scenes)])]
-    if compared:
-        sources = [(printed.what, printed.place, f"“{printed.quote}”") for printed, _ in compared]
-        blocks += ["## Sources", table("Where the paper prints it", ("quantity", "place", "words"), sources)]
+    blocks += ["## Inputs", "From the paper's captions; “assumed” is printed nowhere."]
+    blocks.append(_inputs([*dict.fromkeys(name for section in parts for name in section.scenes)]))
     return "\n\n".join(blocks) + "\n"
 
 
@@ -134,7 +118,7 @@ def _inputs(presets: Sequence[str]) -> str:
         columns.append({name: f"{value}{' (assumed)' * (name in assumed)}" for name, value in scene.given})
     names = dict.fromkeys(name for column in columns for name in column if name not in MEETING)
     rows = [(name, *(column.get(name, "-") for column in columns)) for name in names]
-    return table("Presets, from the paper's captions; “assumed” is printed nowhere", ("entry", *presets), rows)
+    return table(("entry", *presets), rows)
 
 
 @contextmanager
@@ -171,13 +155,6 @@ def draw_map(
     outcome[np.ix_((up - bottom) * (up - bottom - height) < 0, (across - left) * (across - left - width) < 0)] = -1
     letters(axes, outcome, stokes, degrees, size=size)
     axes.set(xlim=(0, whole.window[1]), ylim=(0, 90), yticks=range(0, 91, 15), xlabel=STOKES, ylabel=ANGLE)
-
-
-def described(scene: Scene) -> str:
-    """The choices that the paper leaves open, by the names of a scene file."""
-    text = f"tangential {scene.model.tangential}, glass {scene.model.glass}"
-    text += "" if scene.bridge is None else f"; bridge {scene.bridge.law}"
-    return text if scene.pendulum is None else f"{text}; {scene.pendulum.law} strings, l = {scene.pendulum.length:g} m"
 
 
 def changes_at(scene: Scene, *angles: float) -> tuple[tuple[Change, ...], ...]:

@@ -17,7 +17,7 @@ from ..host.progress import Progress
 from ..scene.scene import Scene
 from .granules import factors, fig4a, fig4b
 from .pendulum import fig1, fig3
-from .report import BRIDGED, PENDULUM, Part, described, picture, report, sheet
+from .report import BRIDGED, PENDULUM, Part, picture, report, sheet
 
 _WIDTH = 17.5  # cm
 _LINE = 0.8  # cm, height of a line
@@ -44,11 +44,12 @@ def table1(folder: Path) -> Part:
 
         equations = stored(f"theory-{'-'.join(laws.values())}", lines_of_theory)
     words = (
-        "The equations of the model in SI, written by the derivation in the symbols of its vocabulary; nothing is "
-        f"typed in. Laws: {described(bridged)}; {described(hung)}. The paper's own table is a picture that its text "
-        "does not have: these are rebuilt from first principles and held against what it prints."
+        "The equations of the presets in SI, written by the derivation in the symbols of its vocabulary; nothing is "
+        "typed in. The paper's own table is a picture that its text does not have: these are rebuilt from first "
+        "principles and held against what it prints."
     )
-    blocks = [words, picture("table1.png", "Table 1: theory; `wetdoublet export SCENE --to latex` writes a document.")]
+    title, caption = "Table 1: theory", "`wetdoublet export SCENE --to latex` writes a document."
+    blocks = [words, picture("table1.png", title, caption)]
     drawn: list[tuple[str, str]] = []  # formulas, and headings without one, beside their notes
     for heading, lines in groupby(equations, key=itemgetter(0)):
         blocks.append(f"### {heading}")
@@ -57,7 +58,7 @@ def table1(folder: Path) -> Part:
             blocks += [text for text in (f"$$ {latex} $$", note) if text]
             drawn.append((latex.replace(r"\frac", r"\dfrac"), note))
     _draw(drawn, folder / "table1.png")
-    return Part("Table 1: theory", "\n\n".join(blocks), pictures=["table1.png"])
+    return Part(title, "\n\n".join(blocks), pictures=["table1.png"])
 
 
 def _draw(lines: list[tuple[str, str]], file: Path) -> None:

@@ -1,5 +1,6 @@
 """`design()`: where the next impacts should be to learn most about entries of a scene."""
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -12,15 +13,15 @@ from ..engines.settings import check_rtol
 from ..errors import InputError
 from ..fitting.data_table import read_data
 from ..fitting.fit import RTOL, fit
-from ..fitting.free_entries import free_entries
+from ..fitting.free_entries import COMBINED, IDENTIFIED, combinations, free_entries
 from ..host.arguments import check_function, check_name, check_whole
 from ..host.progress import Estimated, Progress
 from ..model.validity import warn
 from ..scene.scene import Scene
 from .information import information
-from .result import Design
+from .result import Design, Impact, expected, spread
 from .search import search, worth
-from .window import Scatter, Window, check_over
+from .window import Window, scatter_of
 
 _SPACING = 20  # candidates to begin with, to either side
 _MOST = 1000
@@ -52,7 +53,7 @@ def design(
             estimates from `data`.
         free: entries that will be estimated, by dotted name.
         over: window of impacts, {"stokes": (0.02, 0.5), "angle": ("0 deg", "80 deg")}; also speed or relative_speed,
-            and one value in place of two ends.
+            and one value in place of two ends. Default the scene's impact.
         n: number of impacts.
         target: the entry of `free` that matters; the others are then estimated little more than that needs. Default all
             alike (D-optimal).
@@ -81,44 +82,62 @@ def design(
     rtol = check_rtol(rtol)
     check_function(progress, "progress")
     loaded = Scene.load(scene)
-    ends = check_over(over)
     size = check_whole(n, "n", 1, _MOST)
     table = None if data is None else read_data(data, loaded)
-    default = Scatter() if table is None else Scatter.typical(table)
-    window = Window(loaded, *ends, Scatter.checked(speed_sd, angle_sd, restitution_sd, default))
+    scatter = scatter_of(table, speed=speed_sd, angle=angle_sd, restitution=restitution_sd)
+    window = Window.of(loaded, over, scatter)
     if table is None:
-        entries = free_entries(loaded, free, window.plan(np.zeros((1, 2))), prior, rtol)
-        values, before = entries.values(entries.start), np.diag(entries.misfits(entries.start)[1] ** 2)
+        free_ones = free_entries(loaded, free, window.plan(np.zeros((1, 2))), prior, rtol)
+        values, before = free_ones.values(free_ones.start), np.diag(free_ones.misfits(free_ones.start)[1] ** 2)
     else:
         fitted = fit(loaded, table, free, prior=prior, rtol=rtol)
-        entries, window = fitted.free, replace(window, scene=fitted.scene)
-        values, before = entries.values(fitted.best), fitted.objective.information(fitted.best)
-    single = None if target is None else check_name(target, entries.names, "target")
+        free_ones, window = fitted.free, replace(window, scene=fitted.scene)
+        values, before = free_ones.values(fitted.best), fitted.objective.information(fitted.best)
+    names, rates = free_ones.names, np.outer(*2 * [free_ones.rates(values)])
+    which = None if target is None else names.index(check_name(target, names, "target"))
     warn(window.scene)
-    first, number = window.candidates(_SPACING, rtol), None if single is None else entries.names.index(single)
-    work = Estimated(progress, len(first) + _MORE + _PER_IMPACT * min(size, entries.size + 2))
+    first = window.candidates(_SPACING, rtol)
+    work = Estimated(progress, len(first) + _MORE + _PER_IMPACT * min(size, len(names) + 2))
     work.start()
 
     def evaluate(points: np.ndarray) -> np.ndarray:
         """The information of impacts, in the variables of the search."""
         totals = []
         for block in np.array_split(points, -(-len(points) // _AT_ONCE)):
-            totals.append(information(window.scene, entries.names, values, window.plan(block), rtol).total)
+            totals.append(information(window.scene, names, values, window.plan(block), rtol)[0])
             work.add(len(block))
-        return np.concatenate(totals) * np.outer(entries.rates(values), entries.rates(values))
+        return np.asarray(np.concatenate(totals) * rates)
 
     def criterion(total: np.ndarray) -> np.ndarray:
         """The range of the search keeps sums of information from being singular; beyond it nothing is known."""
-        return worth(before + entries.vague + total, number, _OTHERS)
+        return worth(before + free_ones.vague + total, which, _OTHERS)
 
-    choice = search(evaluate, criterion, size, first, 1 / (_SPACING - 1))
-    most = np.einsum("cii->ci", choice.single).max(axis=0)  # information of an impact on each entry
-    for name, information_of_one in zip(entries.names, most, strict=True):
-        if single in (None, name) and information_of_one < _NOTHING:
-            accepted = "entries that outcome or restitution depend on in this window"
-            all_stick = set(window.outcomes(first, rtol).tolist()) == {OUTCOMES.index(STICK)}
-            problem = "changes nothing that is observed in the window" + ", where all impacts stick" * all_stick
-            raise InputError("free", name, accepted, problem)
-    planned = Design.of(window, entries, values, before, choice, single, size, rtol, loaded)
+    points, counts, candidates = search(evaluate, criterion, size, first, 1 / (_SPACING - 1))
+    most = np.einsum("cii->ci", candidates).max(axis=0)  # information of an impact on each entry
+    silent = np.flatnonzero(most < _NOTHING)
+    for k in silent if which is None else silent[silent == which]:
+        accepted = "entries that outcome or restitution depend on in this window"
+        all_stick = set(window.outcomes(first, rtol).tolist()) == {OUTCOMES.index(STICK)}
+        problem = "changes nothing that is observed in the window" + ", where all impacts stick" * all_stick
+        raise InputError("free", names[k], accepted, problem)
+    side = max(1, round(math.sqrt(size))) if window.extends.all() else size
+    grid = tuple(np.where(window.extends, side, 1).tolist())
+    plan = window.plan(np.vstack([points, window.grid(*grid)]))
+    told, probability = information(window.scene, names, values, plan, rtol)
+    told *= rates
+    rows = zip(counts.tolist(), plan.normal_speed.tolist(), plan.angle.tolist(), probability.tolist())
+    impacts = tuple(
+        Impact(count, window.scene.stokes_of(speed), speed, speed / math.cos(angle), angle, tuple(share))
+        for count, speed, angle, share in rows
+    )
+    total = before + np.einsum("c,cij->ij", counts, told[: counts.size])
+    even = before + told[counts.size :].sum(axis=0) * size / (plan.size - counts.size)
+    against_grid = spread(total + free_ones.vague) / spread(even + free_ones.vague)
+    with_them = expected(free_ones, values, total)
+    verdicts = [COMBINED if entry.low is entry.high else IDENTIFIED for entry in with_them.values()]
     work.finish()
-    return planned
+    return Design(
+        window, free_ones, values, impacts, with_them, expected(free_ones, values, before),
+        dict(zip(names, against_grid.tolist(), strict=True)), grid,
+        combinations(free_ones, total, verdicts, "These impacts"), target, len(candidates), points, rtol, loaded,
+    )  # fmt: skip

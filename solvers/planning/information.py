@@ -8,7 +8,7 @@ they are polynomials of e; the noise in them is integrated exactly. More of them
 there is.
 """
 
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator
 
 import numpy as np
 
@@ -17,7 +17,7 @@ from ..changes.experiment import Experiment
 from ..engines.settings import RTOL
 from ..fitting.likelihood import NEGLIGIBLE, Likelihood
 from ..fitting.measurements import Measurements
-from ..fitting.scatter import Resolution, ScatterLines, Segments
+from ..fitting.scatter import Resolution, ScatterLines, Segments, hermite
 from ..scene.scene import Scene
 from .window import RESTITUTION
 
@@ -27,25 +27,10 @@ _DEGREE = 12  # of the polynomials of the restitution, where there is one line; 
 # to which the rule across them is exact
 
 
-@dataclass(frozen=True)
-class Information:
-    """Information of single impacts, by the free entries' values.
-
-    Attributes:
-        total: (impacts, free entries, free entries), of outcome and restitution.
-        outcome: the same, of the outcome alone.
-        probability: (impacts, outcomes).
-    """
-
-    total: np.ndarray
-    outcome: np.ndarray
-    probability: np.ndarray
-
-
 def information(
     scene: Scene, names: tuple[str, ...], values: np.ndarray, plan: Measurements, rtol: float = RTOL
-) -> Information:
-    """The Fisher information of each planned impact; InputError for values that no scene may have.
+) -> tuple[np.ndarray, np.ndarray]:
+    """The Fisher information of each planned impact, by the free entries' values, and the probability of each outcome.
 
     By two quadratures over the scatter: of each impact the smaller. Where they differ, changes of outcome meet or
     impacts graze, and errors of a quadrature look like information.
@@ -53,20 +38,28 @@ def information(
     Arguments:
         names, values: the free entries.
         plan: impacts with their scatter, all other entries the scene's; of `observed` the standard deviation of the
-            restitution counts, NaN where it is not measured.
+            restitution counts, without which the outcome alone is seen.
+
+    Returns:
+        (impacts, free entries, free entries) and (impacts, outcomes).
+
+    Raises:
+        InputError: values that no scene may have.
     """
     likelihood, scale = Likelihood(scene, names, plan, rtol), values**2
     experiment = likelihood.experiment_at(values)
     likelihood.aim(values)
-    first, other = (_integrated(experiment, plan, likelihood.direction, order) for order in _QUADRATURES)
-    less = np.einsum("cii,i->c", other.total, scale) < np.einsum("cii,i->c", first.total, scale)
-    pairs = zip(vars(first).values(), vars(other).values(), strict=True)
-    return Information(*(np.where(less.reshape(-1, *[1] * (a.ndim - 1)), b, a) for a, b in pairs))
+    total, probability = map(
+        np.stack, zip(*(_integrated(experiment, plan, likelihood.direction, order) for order in _QUADRATURES))
+    )
+    first, other = np.einsum("kcii,i->kc", total, scale)
+    less = (other < first).astype(int), np.arange(plan.size)
+    return total[less], probability[less]
 
 
 def _integrated(
     experiment: Experiment, plan: Measurements, direction: np.ndarray, resolution: Resolution
-) -> Information:
+) -> tuple[np.ndarray, np.ndarray]:
     size, entries = plan.size, len(experiment.rows.names)
     lines = ScatterLines.through(plan, direction, resolution.lines)
     changes = lines.changes(experiment, resolution)
@@ -81,49 +74,47 @@ def _integrated(
     np.add.at(slopes, (segments.row, segments.outcome), share[:, None] * segments.mass_slopes(ends))
     outer = slopes[..., :, None] * slopes[..., None, :]
     single = np.where(probability[..., None, None] > NEGLIGIBLE, outer, 0.0)
-    outcome = (single / np.maximum(probability, NEGLIGIBLE)[..., None, None]).sum(axis=1)
-    total = outcome.copy()
-    noise = plan.observed[RESTITUTION][1] if RESTITUTION in plan.observed else np.full(size, np.nan)
-    dense = (mass > NEGLIGIBLE) & (segments.outcome != OUTCOMES.index(STICK)) & np.isfinite(noise[segments.row])
-    counts = np.bincount(lines.row, minlength=size)
-    for row, points in _points(experiment, lines, segments.subset(dense), ends[:, dense], resolution):
-        degree = _DEGREE if counts[row] == 1 else min(_DEGREE, int(counts[row]) - 1)
-        total[row] += _beyond_outcome(*points, float(noise[row]), degree)
-    return Information(total, outcome, probability)
-
-
-# weights, derivatives of their logarithms, restitutions, derivatives
-_Points = tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]
+    total = (single / np.maximum(probability, NEGLIGIBLE)[..., None, None]).sum(axis=1)
+    if RESTITUTION in plan.observed:
+        dense = (mass > NEGLIGIBLE) & (segments.outcome != OUTCOMES.index(STICK))
+        noise, counts = plan.observed[RESTITUTION][1], np.bincount(lines.row, minlength=size)
+        for row, points in _points(experiment, lines, segments.subset(dense), ends[:, dense], resolution):
+            degree = _DEGREE if counts[row] == 1 else min(_DEGREE, int(counts[row]) - 1)
+            total[row] += _beyond_outcome(points, float(noise[row]), degree)
+    return total, probability
 
 
 def _points(
     experiment: Experiment, lines: ScatterLines, segments: Segments, ends: np.ndarray, resolution: Resolution
-) -> list[tuple[int, _Points]]:
-    """Row and points of the scatter, for each of its outcomes; without trajectories that were not completed."""
-    parts: dict[tuple[int, int], list[_Points]] = {}
+) -> Iterator[tuple[int, Iterable[np.ndarray]]]:
+    """Of each row and outcome the points of the scatter: weights, derivatives of their logarithms, restitutions and
+    their derivatives; without trajectories that were not completed.
+    """
+    blocks = []
     for which, mapping, value, slope in segments.results(experiment, lines, ends, (RESTITUTION,), resolution):
-        g = mapping.at_points
-        for j, k in enumerate(which.tolist()):
-            if np.isfinite(value[0, j]).all():
-                length = max(segments.high[k] - segments.low[k], 1e-12)
-                y, (low, high) = segments.low[k] + length * g, ends[:, k]
-                density = np.exp(-(y**2) / 2) / np.sqrt(2 * np.pi)
-                weight = segments.weight[k] * length * mapping.rate * mapping.weight * density
-                moves = np.outer(1 - g, low) + np.outer(g, high)
-                points = (
-                    weight, (high - low) / length - y[:, None] * moves,
-                    mapping.interpolate @ value[0, j], mapping.interpolate @ slope[0, j],
-                )  # fmt: skip
-                parts.setdefault((int(segments.row[k]), int(segments.outcome[k])), []).append(points)
-    return [(row, tuple(map(np.concatenate, zip(*data, strict=True)))) for (row, _), data in parts.items()]  # type: ignore[misc]
+        completed = np.isfinite(value[0]).all(axis=1)
+        which, value, slope, g = which[completed], value[0, completed], slope[0, completed], mapping.at_points
+        low, high = ends[:, which, None]
+        length = np.maximum(segments.high - segments.low, 1e-12)[which, None]
+        y = segments.low[which, None] + length * g
+        density = np.exp(-(y**2) / 2) / np.sqrt(2 * np.pi)
+        moves = low * (1 - g)[:, None] + high * g[:, None]
+        blocks.append((
+            3 * segments.row[which] + segments.outcome[which],
+            segments.weight[which, None] * length * mapping.rate * mapping.weight * density,
+            (high - low) / length[..., None] - y[..., None] * moves,
+            (mapping.interpolate @ value[..., None])[..., 0],
+            mapping.interpolate @ slope,
+        ))  # fmt: skip
+    key, *columns = map(np.concatenate, zip(*blocks, strict=True)) if blocks else [np.zeros(0, int)]
+    for of in dict.fromkeys(key.tolist()):
+        yield of // 3, (np.concatenate(column[key == of]) for column in columns)
 
 
-def _beyond_outcome(
-    weight: np.ndarray, log_slope: np.ndarray, value: np.ndarray, slope: np.ndarray, noise: float, degree: int
-) -> np.ndarray:
+def _beyond_outcome(points: Iterable[np.ndarray], noise: float, degree: int) -> np.ndarray:
     """What polynomials of the measured restitution tell if the outcome is known: (free entries, free entries)."""
-    t, share = np.polynomial.hermite_e.hermegauss(degree + 1)
-    weights = np.outer(weight, share / share.sum()).ravel()
+    (weight, log_slope, value, slope), (t, share) = points, hermite(degree + 1)
+    weights = np.outer(weight, share).ravel()
     measured = (value[:, None] + noise * t).ravel()
     centre = np.average(measured, weights=weights)
     scale = np.sqrt(np.average((measured - centre) ** 2, weights=weights))

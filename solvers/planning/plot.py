@@ -1,6 +1,5 @@
 """What single impacts tell, over speed and angle, and the planned ones."""
 
-from itertools import product
 from typing import Any
 
 import numpy as np
@@ -17,44 +16,39 @@ from .result import Design
 _ALONG, _ACROSS = 40, 28  # speeds and angles
 _WORST, _BEST = 1.0, 1e-3  # standard errors from one impact that the colours tell apart, at most
 _OPEN = 1e3  # a standard error that says nothing
-_ROWS = {"total": "outcome and restitution", "outcome": "outcome alone"}
 
 
 @picture
 def draw(design: Design) -> Figure:
-    """A panel for each entry: outcome and restitution above, the outcome alone below."""
+    """A panel for each entry."""
     free, window, values = design.free, design.window, design.values
-    rows = list(_ROWS)[window.scatter.restitution is None :]
-    figure = Figure(figsize=(1.4 + 3.3 * free.size, 0.9 + 2.9 * len(rows)), layout="constrained")
-    panels: Any = figure.subplots(len(rows), free.size, sharex=True, sharey=True, squeeze=False)
+    figure = Figure(figsize=(1.4 + 3.3 * free.size, 3.8), layout="constrained")
+    panels: Any = figure.subplots(1, free.size, sharey=True, squeeze=False)
     points = window.grid(_ALONG, _ACROSS)
-    single = information(window.scene, free.names, values, window.plan(points), design.rtol)
+    single, probability = information(window.scene, free.names, values, window.plan(points), design.rtol)
     speed, angle = (axis.reshape(np.unique(points[:, 1]).size, -1) for axis in window.values(points))
     x, y = np.degrees(angle[:, 0]), speed[0]
-    told = np.array([np.einsum("cii->ic", getattr(single, of)) for of in rows]) * free.rates(values)[:, None] ** 2
-    error = 1 / np.sqrt(told.reshape(len(rows), free.size, *speed.shape).clip(_OPEN**-2))
+    told = np.einsum("cii->ic", single) * free.rates(values)[:, None] ** 2
+    error = 1 / np.sqrt(told.reshape(free.size, *speed.shape).clip(_OPEN**-2))
     scale = LogNorm(float(np.clip(error.min(), _BEST, 0.3)), _WORST)
     x, y = (np.array([axis[0] * 0.97, axis[0] * 1.03 + 1e-3]) if axis.size == 1 else axis for axis in (x, y))
-    for (i, of), (j, name) in product(enumerate(rows), enumerate(free.names)):
-        axes, errors = panels[i, j], np.broadcast_to(error[i, j].T, (y.size, x.size))
-        mesh = axes.pcolormesh(x, y, errors, norm=scale, cmap="viridis_r", shading="gouraud", rasterized=True)
+    for axes, name, errors in zip(panels[0], free.names, error, strict=True):
+        colours = np.broadcast_to(errors.T, (y.size, x.size))
+        mesh = axes.pcolormesh(x, y, colours, norm=scale, cmap="viridis_r", shading="gouraud", rasterized=True)
         for k in (0, -1) if all(window.extends) else ():  # sticks, and bounces
-            share = single.probability[:, k].reshape(speed.shape).T
+            share = probability[:, k].reshape(speed.shape).T
             if share.min() < 0.5 < share.max():
                 axes.contour(x, y, share, [0.5], colors="white", linewidths=0.9)
         axes.set_yscale("log")
         ticks.plain(axes.yaxis)
-        axes.set(xlim=(x[0], x[-1]), ylim=(y[0], y[-1]))
+        axes.set(xlim=(x[0], x[-1]), ylim=(y[0], y[-1]), xlabel="impact angle (deg)" if window.extends[1] else "")
+        axes.set_title(plain_text(name), fontsize="medium")
         for impact in design.impacts:
             at = np.degrees(impact.angle), getattr(impact, window.key)
             axes.plot(*at, "o", color="white", markeredgecolor=INK, markersize=11, zorder=4, clip_on=False)
             style: Any = {"ha": "center", "va": "center_baseline", "fontsize": 8, "color": INK}
             axes.text(*at, f"{impact.count}", zorder=5, clip_on=False, **style)
-        if i == 0:
-            axes.set_title(plain_text(name), fontsize="medium")
-        if i == len(rows) - 1:
-            axes.set_xlabel("impact angle (deg)" if window.extends[1] else "")
-        panels[i, 0].set_ylabel(f"{AXIS_LABELS[window.key]}\n{_ROWS[of]}")
+    panels[0, 0].set_ylabel(AXIS_LABELS[window.key])
     bar = figure.colorbar(mesh, ax=panels, extend="both", pad=0.02, aspect=30)
     relative = "relative" if free.logarithmic.all() else "on the scale of the fit"
     bar.set_label(f"standard error from one impact, {relative}")

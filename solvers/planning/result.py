@@ -10,15 +10,13 @@ from typing import Any
 import numpy as np
 
 from ...generated.automaton import OUTCOMES
-from ..fitting.free_entries import COMBINED, IDENTIFIED, FreeEntries, combinations, in_unit, interval
+from ..fitting.free_entries import FreeEntries, in_unit, interval
 from ..fitting.measurements import Measurements
 from ..formatting.markdown import aligned
 from ..host.pictures import Drawn
 from ..scene.held import NAMES
-from ..scene.origin import Recorded, origin
+from ..scene.origin import Recorded
 from ..scene.scene import Scene
-from .information import information
-from .search import Choice
 from .window import Window
 
 _QUANTILE = 1.959963984540054  # of a normal distribution, 97.5 %
@@ -84,7 +82,7 @@ class Design(Drawn, Recorded):
     """
 
     _picture = "planning.plot.draw"
-    _keys = "impacts expected before against_grid grid combinations for=target candidates"
+    _keys = "impacts expected before against_grid grid combinations for=target candidates scatter"
 
     window: Window
     free: FreeEntries
@@ -101,34 +99,15 @@ class Design(Drawn, Recorded):
     rtol: float
     given: Scene
 
-    @classmethod
-    def of(
-        cls, window: Window, free: FreeEntries, values: np.ndarray, before: np.ndarray, choice: Choice,
-        target: str | None, size: int, rtol: float, scene: Scene,
-    ) -> Design:  # fmt: skip
-        """The result for chosen impacts, by their information at these values."""
-        order = np.lexsort((choice.points[:, 0], choice.points[:, 1]))
-        points, counts = choice.points[order], choice.counts[order]
-        side = max(1, round(math.sqrt(size))) if window.extends.all() else size
-        grid = tuple(np.where(window.extends, side, 1).tolist())
-        plan = window.plan(np.vstack([points, window.grid(*grid)]))
-        single = information(window.scene, free.names, values, plan, rtol)
-        told = single.total * np.outer(free.rates(values), free.rates(values))
-        rows = zip(counts.tolist(), plan.normal_speed.tolist(), plan.angle.tolist(), single.probability.tolist())
-        impacts = tuple(
-            Impact(count, window.scene.stokes_of(speed), speed, speed / math.cos(angle), angle, tuple(share))
-            for count, speed, angle, share in rows
-        )
-        total = before + np.einsum("c,cij->ij", counts, told[: counts.size])
-        even = before + told[counts.size :].sum(axis=0) * size / (plan.size - counts.size)
-        expected = _expected(free, values, total)
-        spread = _spread(total + free.vague) / _spread(even + free.vague)
-        verdicts = [COMBINED if entry.low is None and entry.high is None else IDENTIFIED for entry in expected.values()]
-        return cls(
-            window, free, values, impacts, expected, _expected(free, values, before),
-            dict(zip(free.names, spread.tolist(), strict=True)), grid,
-            combinations(free, total, verdicts, "These impacts"), target, len(choice.single), points, rtol, scene,
-        )  # fmt: skip
+    @property
+    def scene(self) -> Scene:
+        """With the values for which impacts are planned."""
+        return self.window.scene
+
+    @property
+    def scatter(self) -> dict[str, Any]:
+        """Standard deviations of single impacts and of the measured restitution, SI; of the speed relative."""
+        return {self._speed if name == "speed" else name: sd for name, sd in self.window.scatter.items()}
 
     @property
     def size(self) -> int:
@@ -138,20 +117,11 @@ class Design(Drawn, Recorded):
         """The impacts as rows of measurements; outcomes unknown, restitutions NaN with their standard deviation."""
         return self.window.plan(np.repeat(self.points, [impact.count for impact in self.impacts], axis=0))
 
-    def to_dict(self) -> dict[str, Any]:
-        """The JSON object of `wetdoublet design --json`."""
-        scatter = self.window.scatter
-        return {
-            **super().to_dict(),
-            "scatter": {self._speed: scatter.speed, "angle": scatter.angle, "restitution": scatter.restitution},
-            **origin(self.window.scene),
-        }
-
     def to_csv(self) -> str:
         """A row for each impact in the form that `fit` reads, its observations empty."""
         from pandas import DataFrame
 
-        plan, name, noise = self.plan(), self._speed, self.window.scatter.restitution
+        plan, name, noise = self.plan(), self._speed, self.scatter["restitution"]
         table = DataFrame({
             f"{name} [m/s]": plan.speed, f"{name}_sd [m/s]": plan.speed_sd, "angle [deg]": np.degrees(plan.angle),
             "angle_sd [deg]": np.degrees(plan.angle_sd), "outcome": "",
@@ -161,8 +131,7 @@ class Design(Drawn, Recorded):
         return str(table.to_csv(index=False, float_format="%.6g", lineterminator="\n"))
 
     def __str__(self) -> str:
-        scene, scatter, speed = self.given, self.window.scatter, NAMES[self._speed]
-        names = self.free.names if self.target is None else (self.target,)
+        scene, (sd, angle_sd, noise), speed = self.given, self.scatter.values(), NAMES[self._speed]
         rows = [("times", "St", speed, "angle", "S / SRS / B (%)")]
         rows += [
             (str(impact.count), f"{impact.stokes:.4g}", f"{getattr(impact, self._speed):.4g} m/s",
@@ -172,21 +141,15 @@ class Design(Drawn, Recorded):
         entries = [("entry", "expected 95 % interval", "before", "beside a {} x {} grid".format(*self.grid))]
         for name, expected in self.expected.items():
             now, before = (interval(scene, name, entry.low, entry.high) for entry in (expected, self.before[name]))
-            is_open = expected.low is expected.high
-            entries.append((name, now, before, "-" if is_open else f"{self.against_grid[name]:.2g} of its interval"))
-        noise = "outcomes only" if scatter.restitution is None else f"restitution to {scatter.restitution:.3g}"
+            beside = "-" if expected.low is expected.high else f"{self.against_grid[name]:.2g} of its interval"
+            entries.append((name, now, before, beside))
         values = zip(self.free.names, self.values.tolist(), strict=True)
         at = ", ".join(f"{name} = {in_unit(scene, name, value)}" for name, value in values)
-        scattered = (
-            f"scatter {100 * scatter.speed:.3g} % of the {speed}, {math.degrees(scatter.angle):.3g} deg; {noise}"
-        )
-        sentences = [f"Planned for {at}; {scattered}."]
-        if self.combinations and any(entry.low is entry.high for entry in self.expected.values()):
-            sentences.append(
-                "Entries open at both ends are told in combination only; a prior on one may close the others."
-            )
-        title = f"{self.size} impact{'s' * (self.size > 1)} for {', '.join(names)}"
-        return "\n".join([title, "", *aligned(rows), "", *aligned(entries), "", *sentences, *self.combinations])
+        measured = "outcomes only" if noise is None else f"restitution to {noise:.3g}"
+        scatter = f"scatter {100 * sd:.3g} % of the {speed}, {math.degrees(angle_sd):.3g} deg; {measured}"
+        title = f"{self.size} impact{'s' * (self.size > 1)} for {self.target or ', '.join(self.free.names)}"
+        blocks = [title, "", *aligned(rows), "", *aligned(entries), "", f"Planned for {at}; {scatter}."]
+        return "\n".join([*blocks, *self.combinations])
 
     __repr__ = __str__  # what a notebook shows
 
@@ -196,24 +159,23 @@ class Design(Drawn, Recorded):
         return self.window.key if self.window.key != "stokes" else "speed"
 
 
-def _spread(total: np.ndarray) -> np.ndarray:
+def spread(total: np.ndarray) -> np.ndarray:
     """Standard deviations of the entries, in the variables of the search, of an information matrix."""
     return np.asarray(np.sqrt(np.diag(np.linalg.inv(total))))
 
 
-def _expected(free: FreeEntries, values: np.ndarray, total: np.ndarray) -> dict[str, Expected]:
+def expected(free: FreeEntries, values: np.ndarray, total: np.ndarray) -> dict[str, Expected]:
     """Intervals to first order; open where they would end beyond the range of a search, or follow from it alone.
 
     Arguments:
         total: information, without that of the range of the search.
     """
-    expected = {}
-    spread, wider = _spread(total + free.vague), _spread(total + free.vague / 4)  # of a range twice as wide
-    centre, ranges = free.inner(values), free.high - free.low
-    low, high = centre - _QUANTILE * spread, centre + _QUANTILE * spread
-    mask = (2 * _QUANTILE * spread < ranges) & (wider < _FROM_RANGE * spread)
-    for k, entry in enumerate(free.entries):
-        below = entry.outer(float(low[k])) if mask[k] and low[k] > free.low[k] else None
-        above = entry.outer(float(high[k])) if mask[k] and high[k] < free.high[k] else None
-        expected[entry.name] = Expected(float(spread[k]), below, above)
-    return expected
+    sd, wider = spread(total + free.vague), spread(total + free.vague / 4)  # of a range twice as wide
+    half, centre = _QUANTILE * sd, free.inner(values)
+    told = (2 * half < free.high - free.low) & (wider < _FROM_RANGE * sd)
+    below, above = told & (centre - half > free.low), told & (centre + half < free.high)
+    low, high = (
+        [value if is_end else None for value, is_end in zip(free.values(ends).tolist(), closed, strict=True)]
+        for ends, closed in ((centre - half, below), (centre + half, above))
+    )
+    return {name: Expected(*row) for name, *row in zip(free.names, sd.tolist(), low, high, strict=True)}

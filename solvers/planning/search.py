@@ -4,7 +4,6 @@ Information adds up over impacts, so a design is as good as a function of the su
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -13,21 +12,6 @@ _PROMISING = 24  # candidates around which finer ones are tried, beside those of
 _ROUNDS = 30
 _GAIN, _LOSS = 1e-6, 3e-3  # of the criterion: least that is worth an exchange, and that neighbours cost by becoming one
 _AROUND = np.array([(i, j) for i in (-1, 0, 1) for j in (-1, 0, 1) if (i, j) != (0, 0)])
-
-
-@dataclass(frozen=True)
-class Choice:
-    """Chosen impacts.
-
-    Attributes:
-        points: (distinct impacts, 2), in the unit square.
-        counts: how often each is repeated.
-        single: information of all candidates, (candidates, entries, entries).
-    """
-
-    points: np.ndarray
-    counts: np.ndarray
-    single: np.ndarray
 
 
 def worth(total: np.ndarray, target: int | None = None, share: float = 0.0) -> np.ndarray:
@@ -46,7 +30,7 @@ def worth(total: np.ndarray, target: int | None = None, share: float = 0.0) -> n
 def search(
     evaluate: Callable[[np.ndarray], np.ndarray], criterion: Callable[[np.ndarray], np.ndarray], size: int,
     first: np.ndarray, h: float,
-) -> Choice:  # fmt: skip
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:  # fmt: skip
     """The best impacts among candidates, refined.
 
     Arguments:
@@ -55,6 +39,10 @@ def search(
         size: number of impacts.
         first: (candidates, 2), the candidates to begin with.
         h: their spacing; it is halved at every level.
+
+    Returns:
+        The chosen points, (distinct impacts, 2), by the second coordinate and the first; how often each is repeated;
+        and the information of all candidates.
     """
     points, single, near = first.round(9), evaluate(first), 3 * h / 2**_WIDE
 
@@ -98,4 +86,5 @@ def search(
         fewer = np.where(chosen == gone, into, chosen)
         chosen = fewer if value(fewer) > value(chosen) - _LOSS else chosen
     distinct, counts = np.unique(chosen, return_counts=True)
-    return Choice(points[distinct], counts, single)
+    order = np.lexsort(points[distinct].T)
+    return points[distinct][order], counts[order], single

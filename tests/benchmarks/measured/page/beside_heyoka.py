@@ -1,12 +1,6 @@
-"""What a collision and a gradient cost beside heyoka, whose callbacks are Python's: three ways, at equal error."""
+"""The least costs at equal error, and what is left out of the cost of heyoka, whose callbacks are Python's."""
 
 from typing import Any, NamedTuple
-
-from wetdoublet.solvers.formatting.markdown import table
-
-from ..gradient_work import HEYOKA as VARIATIONAL
-from ..gradient_work import HEYOKA_ALONE as VARIATIONAL_ALONE
-from ..peers.engines import HEYOKA, HEYOKA_ALONE, KERNEL
 
 Record = dict[str, Any]
 
@@ -52,43 +46,14 @@ def of_gradients(task: Record) -> list[tuple[str, Cost]]:
     ]
 
 
-def three_ways(record: Record) -> str:
-    """As a Python user gets it, without its callbacks, ours."""
-    rows = []
-    for task in record["tasks"]:
-        names = ((HEYOKA,), (HEYOKA_ALONE, HEYOKA), ("taylor",), (KERNEL,))
-        costs = of_collisions(task)
-        rows.append(_row(f"{task['preset']}, collision", [cheapest(costs, *each) for each in names]))
-    for task in record["gradient_work"]:
-        names = ((VARIATIONAL,), (VARIATIONAL_ALONE, VARIATIONAL), ("gradients_many",), (KERNEL,))
-        costs = of_gradients(task)
-        found = [cheapest(costs, *each) for each in names]
-        rows.append(_row(f"{task['preset']}, gradient to {len(task['parameters'])} parameters", found))
-    head = ["CPU us (largest error)", "heyoka in Python", "without callbacks", "ours", "our kernel alone"]
-    return table([*head, "heyoka in Python / ours", "without callbacks / ours"], rows)
-
-
-def _row(what: str, costs: list[Cost | None]) -> list[str]:
-    theirs, alone, ours = costs[:3]
-    ratios = [f"{each.seconds / ours.seconds:.1f}" if each and ours else "-" for each in (theirs, alone)]
-    return [what, *(f"{us(each.seconds)} ({each.error:.0e})" if each else "-" for each in costs), *ratios]
-
-
 def note(record: Record) -> str:
-    """What the columns are."""
+    """What is left out of the cost of a collision."""
     around = record["settings"].get("around_callback")
     said = f": {1e9 * around:.0f} ns a call" if around else ""
-    return NOTE.format(bound=f"{BOUND:g}", around=said)
+    return NOTE.format(around=said)
 
 
 NOTE = """\
-Each at its cheapest setting with all outcomes right and a largest error of at most {bound}, some 1000 in a call, all
-in one run. Events of heyoka end in callbacks; from Python these are Python.
-
-* **Without callbacks**: less the CPU time within callbacks, by a clock in each, and less the way from heyoka to Python,
-  measured on an oscillator whose crossings call a function that does nothing{around}. A caller in C++ waits at least
-  so long, as what callbacks do costs something there as well.
-* **Ours**: `collide_many` and `gradients_many` as a user calls them; "kernel alone" leaves out what these add.
-
-All get the same collisions, none of which is decided at initial contact by any of our proofs. heyoka does not get our
-jump along the slow manifold, nor the bound of the impulse where a trajectory turns."""
+* **heyoka, without callbacks**: its events end in callbacks, which from Python are Python. This is less the CPU time
+  within them, by a clock in each, and less the way from heyoka to Python, measured on an oscillator whose crossings
+  call a function that does nothing{around}. A caller in C++ waits at least so long."""

@@ -17,9 +17,8 @@ BEGIN, END = "<!-- measured -->", "<!-- end of measured -->"
 def page(bench: Record, stress: Record | None, folder: str, law: Record | None = None) -> str:
     """The page."""
     parts = ["# Performance", INTRODUCTION, "## What was aimed at", target_table(bench)]
-    parts += ["## Beside heyoka, whose callbacks are Python's", beside_heyoka.three_ways(bench)]
-    parts += [beside_heyoka.note(bench), "## Run time against achieved error"]
-    parts += [f"![Work against error]({folder}/work.png)", WORK]
+    parts += ["## Run time against achieved error", f"![Work against error]({folder}/work.png)"]
+    parts.append(f"{WORK}\n{beside_heyoka.note(bench)}")
     for task in bench["tasks"]:
         parts += [f"### {task['preset']}", tables.sample(task), tables.of_collisions_at_equal_error(task)]
         parts += [text for text in [tables.failures(task)] if text]
@@ -47,7 +46,8 @@ core, against the largest absolute error in e_n among those that separate.
 * **Engines of many collisions** get the whole set so often in one call that there are some 1000; compilation is not
   counted. `taylor` is `collide_many` of outcome and restitution, "kernel alone" leaves out what that adds.
 * **heyoka**: batches of 8 lanes with a queue and terminal events, `fast_math`, not in compact mode. The level of energy
-  that proves a stick is computed beforehand, for nothing.
+  that proves a stick is computed beforehand, for nothing; it does not get our jump along the slow manifold, nor the
+  bound of the impulse where a trajectory turns.
 * **scipy's** methods call CasADi functions; **diffrax** is Tsit5, jitted and vectorised, with its own events.
 * **Reference values** by DOP853 at 1e-13, which no engine under test uses. Below the grey line an error cannot be told
   from the reference's own."""
