@@ -31,7 +31,6 @@ _BY_DIRECTION = (
     "count by the direction of their line of centres only: they lie off the straight path of the others, as of a "
     "tracker that displaces near discs"
 )
-_FINE = 0.01  # digits over the noise, from which two frames alike are one picture
 _ROUNDING = 1e-9  # of positions, over the distance of the centres
 _SIDEWAYS = 3.0  # standard deviations from which an impact is oblique
 _NAMED = 6  # frames in a sentence
@@ -146,7 +145,7 @@ class _Measured:
     def check_times(self, gap: float, most: float = math.inf) -> None:
         """InputError for frames that are lost, at most so many of them, repeated or of uneven times."""
         interval, repeated = self.film.per_frame or float(np.median(np.diff(self.time))), self.film.repeated
-        text, lost = uneven(self.free(gap), interval, self.floor)
+        text, lost = uneven(self.free(gap), interval, self.floor, self.film.rounding)
         faults = [f"has {', '.join(repeated[:_NAMED])} more than once"] if repeated else []
         faults += [text] if text and lost <= most else []
         if faults:
@@ -249,9 +248,10 @@ class _Measured:
         """InputError where they do not meet, or too little is filmed of a stick; remarks on how near they come."""
         film, solids, time = self.film, self.film.solids, self.time
         end = float(np.median(self.distance[max(self.first, time.size - LEAST) :])) if self.sticks else self.least
-        still = (np.diff(self.relative[self.first - 1 : self.last + 2], axis=0) == 0).all(axis=1)
-        if still.any() and not self.sticks and film.rounding < _FINE * self.sigma:
-            problem = f"has the same picture again after {self.names[self.first - 1 + int(np.argmax(still))]}"
+        contact = film.path.subset(slice(self.first - 2, self.last + 3))
+        again = [] if self.sticks else contact.repeated(self.sigma, film.rounding, uniform=False)
+        if again:
+            problem = f"has the same picture again after {contact.names[again[0]]}"
             raise InputError(self.where, None, "frames numbered as they were filmed, each once", problem)
         if self.sticks:
             if self.apart_still and not (self.rests and end < (1 + REACH) * solids):

@@ -31,6 +31,7 @@ _ACCEPTED = {
 _UNITS = {name: unit.replace("rad", "deg") for name, unit in (UNITS | {"speed": "m/s", "angle": "rad"}).items()}
 _HIDDEN = (*FLIGHT, CORRELATION)  # written, for `fit`, and not printed
 _PIXELS = (None, "px", "pixel", "pixels", "css_pixel", "")
+_ALIKE = 1e-9  # difference of two positions that are one number, over all that there are
 _PER_PIXEL = re.compile(r"(.+)/(?:css_)?(?:px|pixels?)")
 _PIXELS_PER = re.compile(r"(?:css_)?(?:px|pixels?)/(.+)")
 
@@ -147,7 +148,7 @@ def tracks(
     coordinates = [_numbers(columns[name], lines, "m", pixel, "scale", gaps=True) for name in PLACES]
     positions = np.stack(coordinates, axis=1)
     unit = _factor(columns["x1"], "m", pixel, "scale")
-    rounding = _rounding(positions / unit) * unit * math.sqrt(2)  # of a relative coordinate
+    rounding = 2 * _rounding(positions / unit) * unit  # of a relative coordinate: those of both may be the same
 
     given = None if noise is None else math.sqrt(2) * _size(noise, "m", "noise", pixel=pixel, plain=unit)
     gap = None if near is None else _size(near, "m", "near", pixel=pixel, plain=None)
@@ -169,7 +170,7 @@ def tracks(
         times, first, count = np.unique(time[which], return_index=True, return_counts=True)
         names = [f"{clock.name} {str(clock.cells[k]).strip()}{unit_of_clock}" for k in which[first]]
         repeated = [names[k] for k in np.flatnonzero(count > 1).tolist()]
-        path = Flight(times, (positions[:, 2:] - positions[:, :2])[which[first]], names)
+        path = Flight(times, positions[which[first]], names)
         try:
             with np.errstate(divide="raise", over="raise", invalid="raise"):
                 values, sigma, remark = FilmedImpact(
@@ -233,11 +234,15 @@ def _size(value: Any, si: str, option: str, *, pixel: float | None = None, plain
     return size * (1.0 if factor is None else factor)
 
 
-def _rounding(values: np.ndarray) -> float:
-    """Standard deviation that the digits make with which values are written."""
-    values = values[np.isfinite(values)]
-    steps = (step for step in (1, 0.5, 0.1, 0.05, 0.01, 1e-3, 1e-4) if np.allclose(values / step % 1, 0, atol=1e-6))
-    return next(steps, 0.0) / math.sqrt(12)
+def _rounding(positions: np.ndarray) -> float:
+    """Standard deviation that steps make in which positions (n, 4) come: decimal ones, or any in which values recur."""
+    positions = np.unique(positions[np.isfinite(positions).all(axis=1)], axis=0)  # a picture that recurs tells nothing
+    scaled = ((step, positions / step) for step in (1, 0.5, 0.1, 0.05, 0.01, 1e-3, 1e-4))
+    decimal = next((step for step, values in scaled if np.allclose(values, np.rint(values), rtol=0, atol=1e-6)), 0.0)
+    steps = np.diff(np.sort(positions, axis=0), axis=0)
+    steps = steps[:, steps.any(axis=0)]
+    alike = steps <= _ALIKE * np.ptp(positions) if steps.size else steps > 0
+    return max(decimal, steps[~alike].min() if alike.any() else 0.0) / math.sqrt(12)
 
 
 def _factor(column: Column, si: str, plain: float | None, option: str) -> float:
