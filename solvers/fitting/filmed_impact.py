@@ -37,6 +37,7 @@ _NAMED = 6  # frames in a sentence
 _STEP = 1e-2  # of differences, over the standard deviation of a parameter
 _FEW = 4  # places at which frames are lost that explain a path better than a tracker does
 _REFITS = 3  # of a line whose frames near contact are those before it meets
+_FRAMES = "frames of a uniform motion, numbered as they were filmed, each once"
 _RESTING = 0.01  # of the distance of touching solids, within which a distance no longer changes
 _FASTEST = math.pi / 2  # rotation between two frames from which turns may have been missed
 _TURN = 2 * math.pi
@@ -149,7 +150,7 @@ class _Measured:
         faults = [f"has {', '.join(repeated[:_NAMED])} more than once"] if repeated else []
         faults += [text] if text and lost <= most else []
         if faults:
-            raise InputError(self.where, None, "frames numbered as they were filmed, each once", "; ".join(faults))
+            raise InputError(self.where, None, _FRAMES, "; ".join(faults))
 
     def check_flight(self) -> None:
         """InputError for a film that ends too early, and for centres that are exchanged on the way."""
@@ -252,7 +253,7 @@ class _Measured:
         again = [] if self.sticks else contact.repeated(self.sigma, film.rounding, uniform=False)
         if again:
             problem = f"has the same picture again after {contact.names[again[0]]}"
-            raise InputError(self.where, None, "frames numbered as they were filmed, each once", problem)
+            raise InputError(self.where, None, _FRAMES, problem)
         if self.sticks:
             if self.apart_still and not (self.rests and end < (1 + REACH) * solids):
                 problem = f"end {end:.4g} m apart, before the films meet at {film.touch:.4g} m"

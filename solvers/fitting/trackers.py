@@ -29,8 +29,8 @@ Units = Callable[[Column], float]
 """The factor of a column of lengths or times to SI; InputError if it has no unit."""
 
 _ACCEPTED = (
-    "columns x1, y1, x2, y2 and frame or time; or a long table of x, y, frame, particle (trackpy, LapTrack, napari), "
-    "TrackMate's CSV or XML, an export of Tracker or DLTdv, or ImageJ's Results"
+    "columns x1, y1, x2, y2, as x1 or x1 [mm], and frame or time [s]; or a long table of x, y, frame, particle "
+    "(trackpy, LapTrack, napari), TrackMate's CSV or XML, an export of Tracker or DLTdv, or ImageJ's Results"
 )
 _SPELT = {  # as trackers name columns, in small letters and underscores; of several the first
     "frame": "frame slice image picture frame_number slice_n axis_0 frame_y",
@@ -146,7 +146,8 @@ def read_film(source: Any, particles: Any, solids: float, lengths: Units) -> Fil
         shared = _calibrated(shared, solids)
     which = ", particles " + (of_films or " and ".join("+".join(ids) for ids in pair)) if long or len(every) > 2 else ""
     how = ", linked from frame to frame by their distance" if linked else ""
-    where = f", positions in {shared['x1'].unit}" if shared["x1"].unit else ""
+    written = " and ".join(dict.fromkeys(shared[place].unit or "px" for place in PLACES))
+    where = f", positions in {written}" * (written != "px")
     remark = f"the table was taken for {kind or 'two paths side by side'}{which}{how}{where}"
     return Film(shared, lines, remark, header)
 
@@ -353,7 +354,7 @@ def _meeting(table: pd.DataFrame, solids: float) -> tuple[pd.DataFrame, tuple[li
         names = [number.get(key, "") for key in zip(table.film, table.particle)]
         text = "; ".join(" and ".join(pairs[0]) for pairs in films[:6]) + " ..." * (len(films) > 6)
         return table.assign(particle=names), (["1"], ["2"]), text
-    accepted = 'two that meet, or particles="A,B" (--particles); "A+C,B" if the tracker goes on with A as C'
+    accepted = 'two that meet, a column impact, or particles="A,B" (--particles); "A+C,B" if A goes on as C'
     several = "; ".join(f"{a},{b}" for a, b in meet[:6]) + " ..." * (len(meet) > 6)
     nowhere = "come near each other nowhere: do their tracks break, or is the scale off?"
     problem = f"may be several that come near each other: {several}" if meet else nowhere

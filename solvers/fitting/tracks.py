@@ -24,7 +24,7 @@ from .trackers import PLACES, read_film, with_one_clock
 
 _ACCEPTED = {
     "rate": 'a frequency > 0, as 4000 or "150 kHz"',
-    "scale": 'a length of a pixel > 0, as "12.5 um", "2 um/px", "80 px/mm"',
+    "scale": 'a length of a pixel > 0, as "12.5 um", "2 um/px", "80 px/mm", "1 mm = 80 px"',
     "noise": 'a number > 0 in the unit of the columns, or with a unit, as "0.2 px", "0.4 um"',
     "near": 'a gap >= 0, as "0.1 mm" or "8 px"',
 }
@@ -32,8 +32,7 @@ _UNITS = {name: unit.replace("rad", "deg") for name, unit in (UNITS | {"speed": 
 _HIDDEN = (*FLIGHT, CORRELATION)  # written, for `fit`, and not printed
 _PIXELS = (None, "px", "pixel", "pixels", "css_pixel", "")
 _ALIKE = 1e-9  # difference of two positions that are one number, over all that there are
-_PER_PIXEL = re.compile(r"(.+)/(?:css_)?(?:px|pixels?)")
-_PIXELS_PER = re.compile(r"(?:css_)?(?:px|pixels?)/(.+)")
+_COUNT = re.compile(r"(\S*?)\s*(?:css_)?(?:px|pixels?)")
 
 
 @dataclass(frozen=True)
@@ -106,7 +105,7 @@ def tracks(
             Tracker, DLTdv, ImageJ, LapTrack or napari write; a remark says what it was taken for.
         scene: gives the radii, the film thickness and the rupture gap.
         rate: frames per second, or with a unit, as "150 kHz".
-        scale: length of a pixel, in m or with its unit, as "12.5 um"; or as "2 um/px", "80 px/mm".
+        scale: length of a pixel, in m or with its unit, as "12.5 um"; or as "2 um/px", "80 px/mm", "1 mm = 80 px".
         scale_sd: its relative standard deviation.
         noise: standard deviation of a tracked coordinate, in the unit of the columns, or with its own, as "0.2 px";
             default from the scatter about the straight paths.
@@ -192,7 +191,7 @@ def tracks(
     if rate is not None and per_frame is None:
         why = "the times are those of the column time. With a column frame the rate counts"
         remarks.append(f"the rate {rate} is not used: {why}")
-    if scale is not None and columns["x1"].unit not in _PIXELS:
+    if scale is not None and not any(columns[name].unit in _PIXELS for name in PLACES):
         remarks.append(f"the scale {scale} is not used for the positions: these are in {columns['x1'].unit}")
     gaps = f"x0 = {1e6 * loaded.liquid.film_thickness:.4g} um and x_f = {1e6 * loaded.rupture_gap:.4g} um"
     remarks.append(
@@ -212,22 +211,29 @@ def _size(value: Any, si: str, option: str, *, pixel: float | None = None, plain
         pixel: length of a pixel, m, for a length in pixels.
         plain: what a number without a unit is in; None if a text must have one.
     """
-    accepted, text = _ACCEPTED[option], with_unit(value)
+    accepted, text, count = _ACCEPTED[option], with_unit(value), 1.0
+    if option == "scale" and isinstance(text, str):
+        sides = [side.strip() for side in re.split(r"/|=|\bper\b", text.replace("dpi", "px/inch"))]
+        pixels = next((found for side in sides if (found := _COUNT.fullmatch(side))), None)
+        if pixels and len(sides) == 2:
+            length, number = sides[pixels[0] == sides[0]], pixels[1] or "1"
+            count = (float(number) or math.nan) if units.is_number(number) else math.nan
+            text = length if units.unit_of(length) else f"1 {length}"
     written = units.unit_of(text) if isinstance(text, str) else ""
     digits = text.strip().removesuffix(written) if isinstance(text, str) else text
-    unit = re.sub(r"\b(k?)fps\b", r"\1Hz", units.spelling(written.replace(" per ", "/").replace("dpi", "px/inch")))
+    unit = re.sub(r"\b(k?)fps\b", r"\1Hz", units.spelling(written.replace(" per ", "/")))
     unit = re.sub(r"\bframes?/", "1/", unit)
     try:
-        size = math.nan if isinstance(digits, bool) else float(digits)
+        size = math.nan if isinstance(digits, bool) else float(digits) / count
     except (TypeError, ValueError):
         size = math.nan
     if not (math.isfinite(size) and (size > 0 or (size == 0 and option == "near"))):
         raise InputError(option, value, accepted)
-    per_pixel, pixels_per = (form.fullmatch(unit) if option == "scale" else None for form in (_PER_PIXEL, _PIXELS_PER))
-    if pixels_per:
-        return units.quantity(f"1 {pixels_per[1]}", si, option, accepted) / size
     if unit not in _PIXELS or (isinstance(text, str) and plain is None and not unit):
-        return units.quantity(f"{str(digits).strip()} {per_pixel[1] if per_pixel else unit}", si, option, accepted)
+        try:
+            return units.quantity(f"{str(digits).strip()} {unit}", si, option, accepted) / count
+        except InputError as reason:
+            raise InputError(option, value, accepted, reason.problem) from None
     factor = pixel if unit else plain
     if unit and (option in ("scale", "rate") or factor is None):
         raise InputError(option, value, accepted, "is in pixels" + ", and no scale is given" * (factor is None))

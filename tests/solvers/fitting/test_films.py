@@ -207,5 +207,22 @@ def test_a_film_without_positions_is_refused(film: dict[str, np.ndarray]) -> Non
 def test_rate_and_scale_carry_their_units(film: dict[str, np.ndarray]) -> None:
     expected = read(film).columns["speed"]
     for rate, scale in (("150 kHz", "2 um/px"), ("150 kfps", "500 px/mm"), ("150000 frames/s", "12700 dpi"),
-                        (pint.Quantity(150, "kHz"), pint.Quantity(500, "px/mm"))):  # fmt: skip
+                        (pint.Quantity(150, "kHz"), pint.Quantity(500, "px/mm")), (RATE, "1 mm = 500 px"),
+                        (RATE, "500 pixels per mm"), (RATE, ".2 mm/100px"), (RATE, "500px = 1mm")):  # fmt: skip
         assert read(film, rate=rate, scale=scale).columns["speed"] == pytest.approx(expected, rel=1e-12)
+    for option, value, problem in (
+        ("rate", "150,000 fps", "comma"), ("scale", "1 mm = 0 px", "of a pixel"), ("scale", "5 px/1 s", "a time"),
+        ("scale", "1 mm = -5 px", "of a pixel"),
+    ):  # fmt: skip
+        with pytest.raises(InputError, match=f'^{option}: "{value}".*{problem}'):  # as it was typed
+            read(film, **{option: value})
+
+
+def test_columns_in_units_of_their_own_are_said(film: dict[str, np.ndarray]) -> None:
+    """Each coordinate counts in its unit, and the remarks name all; a scale counts for those in pixels."""
+    sizes = {"x1 [mm]": 1e-3, "y1 [mm]": 1e-3, "x2 [um]": 1e-6, "y2": PIXEL}
+    mixed = {"frame": film["frame"]} | {name: film[name[:2]] * PIXEL / size for name, size in sizes.items()}
+    found = read(mixed)
+    assert found.columns["speed"] == pytest.approx(read(film).columns["speed"], rel=1e-9)
+    assert any("positions in mm and um and px" in remark for remark in found.remarks)
+    assert not any("is not used" in remark for remark in found.remarks)
