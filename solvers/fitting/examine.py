@@ -11,7 +11,7 @@ import numpy as np
 from ...generated.automaton import OUTCOMES, STICK
 from ..boundaries.window import stokes_range
 from ..changes.experiment import STEEPEST, Experiment, free_names
-from ..errors import InputError
+from ..errors import InputError, several
 from ..formatting.markdown import aligned
 from ..scene.held import NAMES
 from ..scene.origin import Recorded
@@ -30,7 +30,6 @@ _WIDE = 3.0  # standard deviations of speed and angle that are allowed for
 _NEAR_SPEED, _NEAR_ANGLE = math.log(1.5), math.radians(10)  # of neighbours
 _LEAST = 4  # neighbours of a plane through them
 _ODD = 6.0  # scales of the residuals from its neighbours at which a restitution is an outlier
-_NAMED = 8  # rows in a sentence
 _FACTOR, _PART = 2.0, 0.1  # by which entries are changed to see which impacts depend on them; fractions by a difference
 _STICK = OUTCOMES.index(STICK)
 
@@ -69,8 +68,7 @@ class Checkup(Recorded):
     def __str__(self) -> str:
         lines = [*self.notes, f"As the scene is, {self.agreement:.0%} of the impacts come out as observed."]
         if self.differing and self.agreement >= _POOR:
-            more = " ..." if len(self.differing) > _NAMED else ""
-            lines.append(f"Others do not: {', '.join(self.differing[:_NAMED])}{more}.")
+            lines.append(f"Others do not: {several(self.differing)}.")
         nothing = "Nothing else is odd." if self.differing else "Nothing odd was found."
         lines += ["", *([f"{finding.kind}: {finding.text}" for finding in self.findings] or [nothing])]
         lines += ["", "Impacts that would differ visibly if an entry were half or twice as large (fractions: by 0.1)"]
@@ -331,4 +329,4 @@ def _notes(data: Measurements) -> list[str]:
 
 def _finding(kind: str, data: Measurements, rows: Sequence[int] | np.ndarray, text: str) -> Finding:
     labels = tuple(data.label(int(k)) for k in rows)
-    return Finding(kind, labels, ", ".join(labels[:_NAMED]) + (" ...: " if len(rows) > _NAMED else ": ") + text)
+    return Finding(kind, labels, f"{several(labels)}: {text}")

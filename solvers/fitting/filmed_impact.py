@@ -14,7 +14,7 @@ import numpy as np
 from scipy.linalg import block_diag
 
 from ...generated.automaton import STICK
-from ..errors import InputError
+from ..errors import InputError, several
 from .flights import FLIGHT
 from .measurements import CORRELATION, OBSERVED
 from .straight import LEAST, REACH, Flight, Line, flight_of, line_through, near_contact, rests_from, state_at, uneven
@@ -33,7 +33,6 @@ _BY_DIRECTION = (
 )
 _ROUNDING = 1e-9  # of positions, over the distance of the centres
 _SIDEWAYS = 3.0  # standard deviations from which an impact is oblique
-_NAMED = 6  # frames in a sentence
 _STEP = 1e-2  # of differences, over the standard deviation of a parameter
 _FEW = 4  # places at which frames are lost that explain a path better than a tracker does
 _REFITS = 3  # of a line whose frames near contact are those before it meets
@@ -83,9 +82,8 @@ class _Measured:
         self.time, self.relative, self.names = film.path.time, film.path.places, film.path.names
         self.distance = np.linalg.norm(self.relative, axis=1)
         if film.repeated and film.per_frame is None:
-            several = f"{', '.join(film.repeated[:_NAMED])}{' ...' * (len(film.repeated) > _NAMED)}"
             accepted = "rising times, or a column frame and its rate"
-            raise InputError(self.where, several, accepted, "is shared by several rows")
+            raise InputError(self.where, several(film.repeated), accepted, "is shared by several rows")
         if self.time.size < LEAST:
             accepted = f"at least {LEAST} frames before the impact"
             raise InputError(self.where, None, accepted, f"has {self.time.size} in all")
@@ -147,7 +145,7 @@ class _Measured:
         """InputError for frames that are lost, at most so many of them, repeated or of uneven times."""
         interval, repeated = self.film.per_frame or float(np.median(np.diff(self.time))), self.film.repeated
         text, lost = uneven(self.free(gap), interval, self.floor, self.film.rounding)
-        faults = [f"has {', '.join(repeated[:_NAMED])} more than once"] if repeated else []
+        faults = [f"has {several(repeated)} more than once"] if repeated else []
         faults += [text] if text and lost <= most else []
         if faults:
             raise InputError(self.where, None, _FRAMES, "; ".join(faults))

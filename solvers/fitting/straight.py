@@ -11,6 +11,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy.special import bdtrc, fdtri, ndtri, stdtr, stdtrit
 
+from ..errors import several
+
 LEAST = 4  # frames of a line
 _RARE = 1e-6  # probability of an alarm about a film without fault
 REACH = 0.4  # gap up to which trackers are known to displace touching discs, over the distance of touching solids
@@ -24,7 +26,6 @@ _ALIKE = 1e-4  # probability of so many pictures that are alike by chance, below
 _NORMAL = ndtri((np.arange(200) + 0.5) / 200)
 _JUMPS = 500  # most jumps that are looked for
 _UNEVEN = 0.2  # scatter along the motion, over a step, from which a speed cannot be trusted
-_NAMED = 6  # places in a sentence
 
 
 @dataclass(frozen=True)
@@ -164,12 +165,11 @@ def uneven(paths: Sequence[Flight], interval: float, floor: float, rounding: flo
         total += np.count_nonzero(lost) if step > _CLEAR * sigma else float(np.abs(lost).sum())
         for k in np.flatnonzero(lost).tolist():
             where.append(f"{f'{lost[k]:.0f} lost' if lost[k] > 0 else 'the same picture again'} after {path.names[k]}")
-    more = f" and at {len(again or where) - _NAMED} other places" if len(again or where) > _NAMED else ""
     if again:
-        return f"has the same picture again {', '.join(again[:_NAMED])}{more}", 0.0
+        return f"has the same picture again {several(again)}", 0.0
     text = f"scatter {most:.2g} times as much along the motion as across it: "
     if most and explained:
-        text += f"is a frame missing that the numbers of the frames do not count? {', '.join(where[:_NAMED])}{more}"
+        text += f"is a frame missing that the numbers of the frames do not count? {several(where)}"
     elif most:
         text += "are frames missing here and there that their numbers do not count, or are times rounded?"
     return text if most else "", total if explained else math.inf

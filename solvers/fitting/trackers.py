@@ -17,7 +17,7 @@ from xml.etree import ElementTree as ET
 import numpy as np
 from scipy.spatial import KDTree
 
-from ..errors import InputError
+from ..errors import InputError, several
 from ..scene.columns import Column, columns_from_text, columns_of, text_of, without_index
 from .straight import LEAST
 
@@ -339,7 +339,7 @@ def _chosen(names: list[str], particles: Any) -> tuple[list[str], list[str]] | N
     pair = [[_name(number) for number in str(particle).split("+")] for particle in parts]
     every = [number for numbers in pair for number in numbers]
     if len(pair) != 2 or len(set(every)) < len(every) or not set(every) <= set(names):
-        accepted = f'two of {", ".join(names[:12])}{" ..." * (len(names) > 12)}, as "A,B"'
+        accepted = f'two of {several(names)}, as "A,B"'
         raise InputError("particles", str(particles), accepted)
     return pair[0], pair[1]
 
@@ -352,12 +352,12 @@ def _meeting(table: pd.DataFrame, solids: float) -> tuple[pd.DataFrame, tuple[li
     if meet and all(len(pairs) == 1 for pairs in films) and table.particle.index.is_unique:
         number = {(film, name): str(k + 1) for film, pairs in enumerate(films) for k, name in enumerate(pairs[0])}
         names = [number.get(key, "") for key in zip(table.film, table.particle)]
-        text = "; ".join(" and ".join(pairs[0]) for pairs in films[:6]) + " ..." * (len(films) > 6)
+        text = several([" and ".join(pairs[0]) for pairs in films], "; ")
         return table.assign(particle=names), (["1"], ["2"]), text
     accepted = 'two that meet, a column impact, or particles="A,B" (--particles); "A+C,B" if A goes on as C'
-    several = "; ".join(f"{a},{b}" for a, b in meet[:6]) + " ..." * (len(meet) > 6)
     nowhere = "come near each other nowhere: do their tracks break, or is the scale off?"
-    problem = f"may be several that come near each other: {several}" if meet else nowhere
+    near = several([",".join(pair) for pair in meet], "; ")
+    problem = f"may be several that come near each other: {near}" if meet else nowhere
     raise InputError("particles", None, accepted, problem)
 
 

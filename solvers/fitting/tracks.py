@@ -214,7 +214,7 @@ def _size(value: Any, si: str, option: str, *, pixel: float | None = None, plain
     accepted, text, count = _ACCEPTED[option], with_unit(value), 1.0
     if option == "scale" and isinstance(text, str):
         sides = [side.strip() for side in re.split(r"/|=|\bper\b", text.replace("dpi", "px/inch"))]
-        pixels = next((found for side in sides if (found := _COUNT.fullmatch(side))), None)
+        pixels = next((match for side in sides if (match := _COUNT.fullmatch(side))), None)
         if pixels and len(sides) == 2:
             length, number = sides[pixels[0] == sides[0]], pixels[1] or "1"
             count = (float(number) or math.nan) if units.is_number(number) else math.nan
