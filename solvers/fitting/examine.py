@@ -188,10 +188,8 @@ def _units(experiment: Experiment, data: Measurements, share: float) -> list[Fin
     best, words, question = max(agreements)
     if best < max(_GOOD, share + _BETTER):
         return []
-    text = (
-        f"as the scene is, {share:.0%} of the impacts come out as observed; with {words} it is {best:.0%}. {question}"
-    )
-    return [Finding("units", (), f"{text} Or are entries of the scene far off?")]
+    text = f"{_agreements(share, words, best)} {question} Or are entries of the scene far off?"
+    return [Finding("units", (), text)]
 
 
 def _kind_of_speed(experiment: Experiment, data: Measurements, seen: _Predicted) -> list[Finding]:
@@ -202,11 +200,12 @@ def _kind_of_speed(experiment: Experiment, data: Measurements, seen: _Predicted)
     gained, lost = (int(np.count_nonzero(mask)) for mask in (other.agrees & ~seen.agrees, seen.agrees & ~other.agrees))
     if gained - lost <= _SIGNS * math.sqrt(gained + lost):
         return []
-    text = (
-        f"as the scene is, {seen.agreement:.0%} of the impacts come out as observed; with these speeds as the "
-        f"magnitude of the relative velocity it is {other.agreement:.0%}. Which are they? Name the column v_n or v_rel"
-    )
-    return [Finding("speed", (), text)]
+    text = _agreements(seen.agreement, "these speeds as the magnitude of the relative velocity", other.agreement)
+    return [Finding("speed", (), f"{text} Which are they? Name the column v_n or v_rel")]
+
+
+def _agreements(share: float, words: str, best: float) -> str:
+    return f"as the scene is, {share:.0%} of the impacts come out as observed; with {words} it is {best:.0%}."
 
 
 def _beyond(experiment: Experiment, data: Measurements, seen: _Predicted) -> list[Finding]:

@@ -85,8 +85,8 @@ class _Measured:
             accepted = "rising times, or a column frame and its rate"
             raise InputError(self.where, several(film.repeated), accepted, "is shared by several rows")
         if self.time.size < LEAST:
-            accepted = f"at least {LEAST} frames before the impact"
-            raise InputError(self.where, None, accepted, f"has {self.time.size} in all")
+            problem = f"has {self.time.size} in all"
+            raise InputError(self.where, None, f"at least {LEAST} frames before the impact", problem)
 
     def results(self) -> tuple[dict[str, Any], float, list[str]]:
         self.find_contact()
@@ -250,8 +250,7 @@ class _Measured:
         contact = film.path.subset(slice(self.first - 2, self.last + 3))
         again = [] if self.sticks else contact.repeated(self.sigma, film.rounding, uniform=False)
         if again:
-            problem = f"has the same picture again after {contact.names[again[0]]}"
-            raise InputError(self.where, None, _FRAMES, problem)
+            raise InputError(self.where, None, _FRAMES, f"has the same picture again after {contact.names[again[0]]}")
         if self.sticks:
             if self.apart_still and not (self.rests and end < (1 + REACH) * solids):
                 problem = f"end {end:.4g} m apart, before the films meet at {film.touch:.4g} m"

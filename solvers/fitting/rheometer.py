@@ -57,12 +57,11 @@ def flow_curve_of(source: str | Path) -> tuple[np.ndarray, np.ndarray]:
     table = {kind: np.array([row[kind] for row in values]) * factors[kind] for kind in places}
     if len(table) == 3:
         with np.errstate(all="ignore"):
-            parts = np.abs(table["stress"] / (table["rate"] * table["viscosity"]) - 1)
+            product = table["rate"] * table["viscosity"]
+            parts = np.abs(table["stress"] / product - 1)
         if (parts > _APART).any():
             row = int(np.argmax(parts > _APART))
-            accepted = (
-                f"shear rate times viscosity, {table['rate'][row] * table['viscosity'][row]:.4g} Pa, to {_APART:.0%}"
-            )
+            accepted = f"shear rate times viscosity, {product[row]:.4g} Pa, to {_APART:.0%}"
             problem = f"of row {row + 1} contradicts the viscosity: is a unit wrong?"
             raise InputError(f"CURVE.csv {source}, stress", float(table["stress"][row]), accepted, problem)
     viscosity = table["viscosity"] if "viscosity" in table else table["stress"] / table["rate"]

@@ -39,7 +39,7 @@ class Flight:
     @property
     def places(self) -> np.ndarray:
         """Relative positions, (n, 2)."""
-        return self.centres[:, 2:] - self.centres[:, :2]
+        return np.asarray(self.centres[:, 2:] - self.centres[:, :2])
 
     @property
     def again(self) -> np.ndarray:
