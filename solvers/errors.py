@@ -1,11 +1,12 @@
 """Exceptions of the package: each prints as one line and has an exit status."""
 
 import reprlib
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, ClassVar
 
 _LONGEST = 80  # most characters shown of an offending value
 _LONGEST_NAME = 200  # most characters of its field, which may be a file and a line
+_NAMED = 8  # most names in a sentence
 _NEAR = 0.6  # least similarity, 0 to 1, at which a name is suggested
 
 
@@ -45,6 +46,12 @@ def install_extra(name: str) -> str:
 def one_line(text: str) -> str:
     """Return `text` with line breaks and control characters escaped."""
     return "".join(c if c.isprintable() else repr(c)[1:-1] for c in text)
+
+
+def several(names: Sequence[str], mark: str = ", ") -> str:
+    """The first names in a sentence, and how many more there are."""
+    more = len(names) - _NAMED
+    return mark.join(names[:_NAMED]) + f" and {more} more" * (more > 0)
 
 
 def nearest(word: object, candidates: Iterable[str]) -> str | None:

@@ -173,7 +173,7 @@ def _window(text: str) -> dict[str, object]:
             raise InputError("--over", text, "stokes=LO:HI,angle=LO:HI", problem)
         entry, ends = FIELDS.get(f"impact.{name}"), value.split(":")
         if entry is not None and len(ends) == 2:
-            window[name] = texts.entry_ends(entry, f"--over {name}")(*ends)
+            window[name] = texts.entry_ends(entry, f"--over {name}", value)(*ends)
         else:
             window[name] = ends if entry is None or len(ends) > 2 else texts.with_degrees(entry, value)
     return window

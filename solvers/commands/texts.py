@@ -85,7 +85,7 @@ def with_degrees(entry: Field, text: str) -> str:
 
 def entry_range(entry: Field, text: str, label: str = "", *, most: int = MOST) -> list[float]:
     """The values (SI) of a range of an entry, either end of which may carry the unit; bare angles are in degrees."""
-    return parse_range(text, label, entry_ends(entry, label), unit=_in_units(entry), most=most)
+    return parse_range(text, label, entry_ends(entry, label, text), unit=_in_units(entry), most=most)
 
 
 def varied(entry: Field, text: str, label: str) -> list[float] | list[str]:
@@ -101,7 +101,7 @@ def span(entry: Field, text: str, label: str = "") -> Range:
     measured = _measured(entry, ends)
     quantity = entry.measured if measured else entry
     accepted = f"{f'LO:HI {_in_units(quantity)}'.strip()}, with LO below HI"
-    low, high = entry_ends(quantity, label)(*ends) if len(ends) == 2 else (0.0, 0.0)
+    low, high = entry_ends(quantity, label, text)(*ends) if len(ends) == 2 else (0.0, 0.0)
     if not low < high:
         raise InputError(label, text, accepted, "is not a range")
     return (f"{low!r} {entry.or_unit}", f"{high!r} {entry.or_unit}") if measured else (low, high)
@@ -112,15 +112,20 @@ def _measured(entry: Field, ends: Sequence[str]) -> bool:
     return bool(entry.or_unit) and not all(units.is_number(end) for end in ends)
 
 
-def entry_ends(entry: Field, label: str) -> Ends:
-    """Function that reads both ends of a range of an entry (SI): an end without a unit has that of the other."""
+def entry_ends(entry: Field, label: str, text: str) -> Ends:
+    """Function that reads both ends of a range of an entry (SI): an end without a unit has that of the other.
+
+    Arguments:
+        text: the range as it is typed, for the error.
+    """
 
     def read(low: str, high: str) -> tuple[float, float]:
         bare = [units.is_number(end) for end in (low, high)]
         if all(bare) and entry.unit and entry.unit != "rad":
             unit = units.unit_of(entry.example.strip('"'))
-            text = low.strip() if low == high else f"{low.strip()}:{high.strip()}"
-            raise InputError(label, text, f'a number with its unit, as "{text} {unit}"', "has no unit")
+            ends = f"{low}:{high}" if ":" in text else low
+            example = text.replace(ends, f"{ends.rstrip()} {unit}", 1).strip()
+            raise InputError(label, text, f'a number with its unit, as "{example}"', "has no unit")
         if bare[0] != bare[1]:
             unit = units.unit_of(high if bare[0] else low)
             low, high = (f"{end.strip()} {unit}" if units.is_number(end) else end for end in (low, high))

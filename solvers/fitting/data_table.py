@@ -13,7 +13,7 @@ import numpy as np
 
 from ...generated import scaling
 from ...generated.automaton import BOUNCE, OUTCOMES, ROTATE, STICK
-from ..errors import InputError, did_you_mean
+from ..errors import InputError, did_you_mean, several
 from ..scene import units
 from ..scene.columns import DECIMAL_COMMA, Column, columns_of, file_label, row_name
 from ..scene.held import NAMES
@@ -59,7 +59,6 @@ _DOTTED = re.compile(r"\w+\.\w+")  # no "Temp."
 _SPREAD_WORDS = re.compile(r"(.*?)_*(sd|std|err|error|sigma|uncertainty)")
 _MISSPELT = 0.75  # similarity to a known name from which an unknown column is refused and not left out
 _NOISE = 5.0  # standard deviations by which a measured restitution may lie below 0
-_NAMED = 8  # rows in a sentence
 _WIDEST, _WIDEST_ANGLE = 1 / 3, 0.5  # relative scatter of a speed, that of an angle in rad
 
 
@@ -225,10 +224,8 @@ class _Table:
             accepted = "outcome, restitution or another result in at least one row"
             raise InputError(self.label, None, accepted, "says nothing of any impact")
         if not observation.all():
-            rest = np.flatnonzero(~observation)
-            named, more = ", ".join(labels[k] for k in rest[:_NAMED]), f" ... ({rest.size} rows)"
-            more = more if rest.size > _NAMED else ""
-            self.remarks.append(f"Left out, for neither outcome nor result is given: {named}{more}.")
+            named = several([labels[k] for k in np.flatnonzero(~observation).tolist()])
+            self.remarks.append(f"Left out, for neither outcome nor result is given: {named}.")
             data = data.subset(np.flatnonzero(observation))
         return replace(data, remarks=tuple(self.remarks))
 

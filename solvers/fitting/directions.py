@@ -49,8 +49,7 @@ def directions(experiment: Experiment, data: Measurements, measured: tuple[str, 
             steep = np.where(np.isfinite(values), np.nan_to_num(by[k]) / sd, 0.0)
             squares += (steep @ np.column_stack([-aim[:, 1], aim[:, 0]]).T) ** 2
         cost[row] += _BAND * squares
-    chosen: np.ndarray = _DIRECTIONS[np.argmin(cost, axis=1)]
-    return chosen
+    return np.asarray(_DIRECTIONS[np.argmin(cost, axis=1)])
 
 
 def _at_centre(

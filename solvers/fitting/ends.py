@@ -49,8 +49,7 @@ def predicted(objective: Objective, best: np.ndarray, k: int, sign: float) -> np
     white = whitening(objective, best)
     along = white @ white[k]
     at = best + sign * np.sqrt(2 * objective.drop) * along / np.sqrt(along[k])
-    bounded: np.ndarray = np.clip(at, objective.free.low, objective.free.high)
-    return bounded
+    return np.asarray(np.clip(at, objective.free.low, objective.free.high))
 
 
 def end_by_newton(

@@ -11,7 +11,7 @@ import numpy as np
 from ...generated.automaton import OUTCOMES, STICK
 from ..boundaries.window import stokes_range
 from ..changes.experiment import STEEPEST, Experiment, free_names
-from ..errors import InputError
+from ..errors import InputError, several
 from ..formatting.markdown import aligned
 from ..scene.held import NAMES
 from ..scene.origin import Recorded
@@ -30,7 +30,6 @@ _WIDE = 3.0  # standard deviations of speed and angle that are allowed for
 _NEAR_SPEED, _NEAR_ANGLE = math.log(1.5), math.radians(10)  # of neighbours
 _LEAST = 4  # neighbours of a plane through them
 _ODD = 6.0  # scales of the residuals from its neighbours at which a restitution is an outlier
-_NAMED = 8  # rows in a sentence
 _FACTOR, _PART = 2.0, 0.1  # by which entries are changed to see which impacts depend on them; fractions by a difference
 _STICK = OUTCOMES.index(STICK)
 
@@ -69,8 +68,7 @@ class Checkup(Recorded):
     def __str__(self) -> str:
         lines = [*self.notes, f"As the scene is, {self.agreement:.0%} of the impacts come out as observed."]
         if self.differing and self.agreement >= _POOR:
-            more = " ..." if len(self.differing) > _NAMED else ""
-            lines.append(f"Others do not: {', '.join(self.differing[:_NAMED])}{more}.")
+            lines.append(f"Others do not: {several(self.differing)}.")
         nothing = "Nothing else is odd." if self.differing else "Nothing odd was found."
         lines += ["", *([f"{finding.kind}: {finding.text}" for finding in self.findings] or [nothing])]
         lines += ["", "Impacts that would differ visibly if an entry were half or twice as large (fractions: by 0.1)"]
@@ -190,10 +188,8 @@ def _units(experiment: Experiment, data: Measurements, share: float) -> list[Fin
     best, words, question = max(agreements)
     if best < max(_GOOD, share + _BETTER):
         return []
-    text = (
-        f"as the scene is, {share:.0%} of the impacts come out as observed; with {words} it is {best:.0%}. {question}"
-    )
-    return [Finding("units", (), f"{text} Or are entries of the scene far off?")]
+    text = f"{_agreements(share, words, best)} {question} Or are entries of the scene far off?"
+    return [Finding("units", (), text)]
 
 
 def _kind_of_speed(experiment: Experiment, data: Measurements, seen: _Predicted) -> list[Finding]:
@@ -204,11 +200,12 @@ def _kind_of_speed(experiment: Experiment, data: Measurements, seen: _Predicted)
     gained, lost = (int(np.count_nonzero(mask)) for mask in (other.agrees & ~seen.agrees, seen.agrees & ~other.agrees))
     if gained - lost <= _SIGNS * math.sqrt(gained + lost):
         return []
-    text = (
-        f"as the scene is, {seen.agreement:.0%} of the impacts come out as observed; with these speeds as the "
-        f"magnitude of the relative velocity it is {other.agreement:.0%}. Which are they? Name the column v_n or v_rel"
-    )
-    return [Finding("speed", (), text)]
+    text = _agreements(seen.agreement, "these speeds as the magnitude of the relative velocity", other.agreement)
+    return [Finding("speed", (), f"{text} Which are they? Name the column v_n or v_rel")]
+
+
+def _agreements(share: float, words: str, best: float) -> str:
+    return f"as the scene is, {share:.0%} of the impacts come out as observed; with {words} it is {best:.0%}."
 
 
 def _beyond(experiment: Experiment, data: Measurements, seen: _Predicted) -> list[Finding]:
@@ -331,4 +328,4 @@ def _notes(data: Measurements) -> list[str]:
 
 def _finding(kind: str, data: Measurements, rows: Sequence[int] | np.ndarray, text: str) -> Finding:
     labels = tuple(data.label(int(k)) for k in rows)
-    return Finding(kind, labels, ", ".join(labels[:_NAMED]) + (" ...: " if len(rows) > _NAMED else ": ") + text)
+    return Finding(kind, labels, f"{several(labels)}: {text}")

@@ -14,7 +14,7 @@ import numpy as np
 from scipy.linalg import block_diag
 
 from ...generated.automaton import STICK
-from ..errors import InputError
+from ..errors import InputError, several
 from .flights import FLIGHT
 from .measurements import CORRELATION, OBSERVED
 from .straight import LEAST, REACH, Flight, Line, flight_of, line_through, near_contact, rests_from, state_at, uneven
@@ -31,13 +31,12 @@ _BY_DIRECTION = (
     "count by the direction of their line of centres only: they lie off the straight path of the others, as of a "
     "tracker that displaces near discs"
 )
-_FINE = 0.01  # digits over the noise, from which two frames alike are one picture
 _ROUNDING = 1e-9  # of positions, over the distance of the centres
 _SIDEWAYS = 3.0  # standard deviations from which an impact is oblique
-_NAMED = 6  # frames in a sentence
 _STEP = 1e-2  # of differences, over the standard deviation of a parameter
 _FEW = 4  # places at which frames are lost that explain a path better than a tracker does
 _REFITS = 3  # of a line whose frames near contact are those before it meets
+_FRAMES = "frames of a uniform motion, numbered as they were filmed, each once"
 _RESTING = 0.01  # of the distance of touching solids, within which a distance no longer changes
 _FASTEST = math.pi / 2  # rotation between two frames from which turns may have been missed
 _TURN = 2 * math.pi
@@ -83,12 +82,11 @@ class _Measured:
         self.time, self.relative, self.names = film.path.time, film.path.places, film.path.names
         self.distance = np.linalg.norm(self.relative, axis=1)
         if film.repeated and film.per_frame is None:
-            several = f"{', '.join(film.repeated[:_NAMED])}{' ...' * (len(film.repeated) > _NAMED)}"
             accepted = "rising times, or a column frame and its rate"
-            raise InputError(self.where, several, accepted, "is shared by several rows")
+            raise InputError(self.where, several(film.repeated), accepted, "is shared by several rows")
         if self.time.size < LEAST:
-            accepted = f"at least {LEAST} frames before the impact"
-            raise InputError(self.where, None, accepted, f"has {self.time.size} in all")
+            problem = f"has {self.time.size} in all"
+            raise InputError(self.where, None, f"at least {LEAST} frames before the impact", problem)
 
     def results(self) -> tuple[dict[str, Any], float, list[str]]:
         self.find_contact()
@@ -146,11 +144,11 @@ class _Measured:
     def check_times(self, gap: float, most: float = math.inf) -> None:
         """InputError for frames that are lost, at most so many of them, repeated or of uneven times."""
         interval, repeated = self.film.per_frame or float(np.median(np.diff(self.time))), self.film.repeated
-        text, lost = uneven(self.free(gap), interval, self.floor)
-        faults = [f"has {', '.join(repeated[:_NAMED])} more than once"] if repeated else []
+        text, lost = uneven(self.free(gap), interval, self.floor, self.film.rounding)
+        faults = [f"has {several(repeated)} more than once"] if repeated else []
         faults += [text] if text and lost <= most else []
         if faults:
-            raise InputError(self.where, None, "frames numbered as they were filmed, each once", "; ".join(faults))
+            raise InputError(self.where, None, _FRAMES, "; ".join(faults))
 
     def check_flight(self) -> None:
         """InputError for a film that ends too early, and for centres that are exchanged on the way."""
@@ -249,10 +247,10 @@ class _Measured:
         """InputError where they do not meet, or too little is filmed of a stick; remarks on how near they come."""
         film, solids, time = self.film, self.film.solids, self.time
         end = float(np.median(self.distance[max(self.first, time.size - LEAST) :])) if self.sticks else self.least
-        still = (np.diff(self.relative[self.first - 1 : self.last + 2], axis=0) == 0).all(axis=1)
-        if still.any() and not self.sticks and film.rounding < _FINE * self.sigma:
-            problem = f"has the same picture again after {self.names[self.first - 1 + int(np.argmax(still))]}"
-            raise InputError(self.where, None, "frames numbered as they were filmed, each once", problem)
+        contact = film.path.subset(slice(self.first - 2, self.last + 3))
+        again = [] if self.sticks else contact.repeated(self.sigma, film.rounding, uniform=False)
+        if again:
+            raise InputError(self.where, None, _FRAMES, f"has the same picture again after {contact.names[again[0]]}")
         if self.sticks:
             if self.apart_still and not (self.rests and end < (1 + REACH) * solids):
                 problem = f"end {end:.4g} m apart, before the films meet at {film.touch:.4g} m"

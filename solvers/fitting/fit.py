@@ -12,6 +12,7 @@ from scipy.stats import chi2
 
 from ...generated.automaton import OUTCOMES, STICK
 from ..engines.settings import check_rtol
+from ..errors import several
 from ..host.arguments import check_function
 from ..host.progress import Estimated, Progress
 from ..model.validity import warn
@@ -239,7 +240,7 @@ def _remarks(
         remarks.append(f"All impacts {alike}. {_ONE_OUTCOME}")
     odd = rows.contradicting
     if odd.size:
-        names = ", ".join(data.label(k) for k in odd[:8].tolist()) + (" ..." if odd.size > 8 else "")
+        names = several([data.label(k) for k in odd.tolist()])
         verb = "contradicts" if odd.size == 1 else "contradict"
         remarks.append(
             f"{odd.size} of {data.size} impacts {verb} the model at these estimates ({names}): their scatter does not "

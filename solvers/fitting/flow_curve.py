@@ -34,14 +34,12 @@ def _constant(rate: np.ndarray, p: Mapping[str, float], _: float) -> np.ndarray:
 
 
 def _power(rate: np.ndarray, p: Mapping[str, float], reference: float) -> np.ndarray:
-    powers: np.ndarray = p["viscosity"] * (rate / reference) ** (p["flow_index"] - 1)
-    return powers
+    return np.asarray(p["viscosity"] * (rate / reference) ** (p["flow_index"] - 1))
 
 
 def _plateaus(p: Mapping[str, float], thinning: np.ndarray) -> np.ndarray:
     last = p.get("infinite_shear_viscosity", 0.0)
-    between: np.ndarray = last + (p["viscosity"] - last) * thinning
-    return between
+    return np.asarray(last + (p["viscosity"] - last) * thinning)
 
 
 def _cross(rate: np.ndarray, p: Mapping[str, float], _: float) -> np.ndarray:
@@ -53,8 +51,7 @@ def _carreau(rate: np.ndarray, p: Mapping[str, float], _: float) -> np.ndarray:
 
 
 def _yielding(rate: np.ndarray, p: Mapping[str, float], reference: float) -> np.ndarray:
-    total: np.ndarray = p["yield_stress"] / rate + _power(rate, p, reference)
-    return total
+    return np.asarray(p["yield_stress"] / rate + _power(rate, p, reference))
 
 
 _PLATEAUS = ("viscosity", "relaxation_time", "flow_index")

@@ -40,8 +40,7 @@ _MAPS: tuple[tuple[_Function, _Function], ...] = (  # g with a square at an end 
 
 
 def _chebyshev_nodes(count: int) -> np.ndarray:
-    nodes: np.ndarray = (1 - np.cos(np.pi * (np.arange(count) + 0.5) / count)) / 2
-    return nodes
+    return np.asarray((1 - np.cos(np.pi * (np.arange(count) + 0.5) / count)) / 2)
 
 
 @lru_cache(maxsize=64)

@@ -15,7 +15,7 @@ import numpy as np
 
 from ..changes.experiment import Experiment
 from ..engines.settings import RTOL
-from ..errors import InputError
+from ..errors import InputError, several
 from ..scene.scene import Scene
 from ..scene.schema import SPINS
 from .directions import directions, narrow_rows
@@ -33,7 +33,6 @@ KNEE, TAIL = 12.0, 4.0
 deviations) contradicts the model; from there its log-likelihood falls with the logarithm of the distance."""
 
 _BEYOND = 6.0  # standard deviations of noise and angle beyond which a restitution is impossible
-_NAMED = 8  # rows in a message
 _FINEST = 32  # most by which the points of a segment are multiplied
 _SIDES = -0.02, 0.02  # relative steps of the differences by the scatter
 _LINES = Resolution().lines
@@ -322,7 +321,6 @@ def check_energy(scene: Scene, names: tuple[str, ...], data: Measurements) -> No
     with np.errstate(invalid="ignore"):
         rows = np.flatnonzero((values - _BEYOND * noise) * np.cos(steepest) > 1)
     if rows.size:
-        k, more = int(rows[0]), ", ..." if rows.size > _NAMED else ""
-        where = ", ".join(data.label(row) for row in rows[:_NAMED].tolist()) + more
+        k, where = int(rows[0]), several([data.label(row) for row in rows.tolist()])
         most = f"at most 1/cos(angle) = {1 / np.cos(data.angle[k]):.4g} there, and {_BEYOND:g} standard deviations"
         raise InputError("restitution", float(values[k]), most, f"is more than the impact's energy allows ({where})")

@@ -89,17 +89,13 @@ class Measurements:
     @property
     def separated(self) -> np.ndarray:
         """Mask of the rows of which the likelihood holds a density of a measured result."""
-        separated: np.ndarray = self.measured & (self.outcome != _STICK)
-        return separated
+        return np.asarray(self.measured & (self.outcome != _STICK))
 
     @property
     def allowed(self) -> np.ndarray:
         """Mask (rows, outcomes) of the outcomes that agree with a row."""
-        codes = np.arange(len(OUTCOMES))
-        allowed: np.ndarray = np.where(
-            self.outcome[:, None] == UNKNOWN, codes != _STICK, self.outcome[:, None] == codes
-        )
-        return allowed
+        codes, outcome = np.arange(len(OUTCOMES)), self.outcome[:, None]
+        return np.asarray(np.where(outcome == UNKNOWN, codes != _STICK, outcome == codes))
 
     def subset(self, which: np.ndarray) -> Measurements:
         """The rows of these indices."""

@@ -75,8 +75,7 @@ class Objective:
         return np.concatenate([self._roots(evaluation), self.free.misfits(inner)[0]])
 
     def _roots(self, evaluation: Evaluation) -> np.ndarray:
-        roots: np.ndarray = np.sqrt(np.maximum(2 * (self.likelihood.constant - evaluation.rows), 0.0))
-        return roots
+        return np.asarray(np.sqrt(np.maximum(2 * (self.likelihood.constant - evaluation.rows), 0.0)))
 
     def jacobian(self, inner: np.ndarray) -> np.ndarray:
         """Derivatives of the residuals by the variables of the search."""
@@ -103,8 +102,7 @@ class Objective:
         """Derivatives of `value`."""
         misfits, slopes = self.free.misfits(inner)
         rates = self.free.rates(self.free.values(inner))
-        gradient: np.ndarray = self._possible(inner).scores.sum(axis=0) * rates - misfits * slopes
-        return gradient
+        return np.asarray(self._possible(inner).scores.sum(axis=0) * rates - misfits * slopes)
 
     @property
     def drop(self) -> float:
@@ -140,8 +138,7 @@ class Objective:
 def whitening(objective: Objective, inner: np.ndarray) -> np.ndarray:
     """C with C C' the covariance at a maximum; where the data say nothing, that of the range of the search."""
     values, vectors = np.linalg.eigh(objective.information(inner) + objective.free.vague)
-    white: np.ndarray = vectors / np.sqrt(np.maximum(values, 1e-12))
-    return white
+    return np.asarray(vectors / np.sqrt(np.maximum(values, 1e-12)))
 
 
 @dataclass(frozen=True)
@@ -213,8 +210,7 @@ def refined_maximum(objective: Objective, start: np.ndarray) -> np.ndarray:
     white, at_start, span = whitening(objective, start), objective.value(start), high - low
 
     def from_white(z: np.ndarray) -> np.ndarray:
-        at: np.ndarray = np.clip(start + white @ z, low, high)
-        return at
+        return np.asarray(np.clip(start + white @ z, low, high))
 
     def loss(z: np.ndarray) -> tuple[float, np.ndarray]:
         at = from_white(z)
@@ -227,8 +223,7 @@ def refined_maximum(objective: Objective, start: np.ndarray) -> np.ndarray:
         loss, np.zeros(start.size), jac=True, constraints=box, method="SLSQP",
         options={"maxiter": _EVALUATIONS, "ftol": _TOLERANCE},
     )  # fmt: skip
-    best: np.ndarray = from_white(optimum.x) if optimum.fun < 0 else start
-    return best
+    return np.asarray(from_white(optimum.x) if optimum.fun < 0 else start)
 
 
 def rough_maximum(

@@ -68,13 +68,11 @@ def _with_lines_there(likelihood: Joint, free: FreeEntries, best: np.ndarray, en
         return ends
     objective = Objective(likelihood, free, Resolution())
 
-    def again(k: int, sign: float, end: End) -> End:
-        if end.open:
-            return end
-        newton = end_by_newton(objective, best, k, sign, None, end.inner)
-        return newton or _followed(objective, best, k, sign, None)
-
-    return [[again(k, sign, end) for sign, end in zip((-1.0, 1.0), both, strict=True)] for k, both in enumerate(ends)]
+    return [
+        [end if end.open else end_by_newton(objective, best, k, sign, None, end.inner)
+         or _followed(objective, best, k, sign, None) for sign, end in zip((-1.0, 1.0), both, strict=True)]
+        for k, both in enumerate(ends)
+    ]  # fmt: skip
 
 
 def _ends(objective: Objective, best: np.ndarray) -> list[list[End]]:

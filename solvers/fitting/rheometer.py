@@ -13,9 +13,8 @@ from pathlib import Path
 import numpy as np
 
 from ..errors import InputError
-from ..host import bounded
 from ..scene import units
-from ..scene.columns import DECIMAL_COMMA
+from ..scene.columns import DECIMAL_COMMA, text_of
 
 _ACCEPTED = "a CSV file with columns such as shear rate [1/s] and viscosity [mPa s], or shear stress [Pa]"
 _COLUMNS = {
@@ -31,7 +30,6 @@ _SPELT = {"1/sec": "1/s", "sec^-1": "1/s", "sec-1": "1/s", "s-1": "1/s"}
 _PER_MINUTE = re.compile(r"1/min|min\^?-1", re.IGNORECASE)
 _TURNS = re.compile(r"[km]?hz|rpm|rev/min|u/min|r/min", re.IGNORECASE)
 _APART = 0.05  # part by which a stress may differ from rate times viscosity: more than any export rounds
-_LARGEST = 20_000_000  # bytes
 
 
 def flow_curve_of(source: str | Path) -> tuple[np.ndarray, np.ndarray]:
@@ -40,7 +38,7 @@ def flow_curve_of(source: str | Path) -> tuple[np.ndarray, np.ndarray]:
     Raises:
         InputError: no such file, no such columns or units, or a number that is not positive.
     """
-    rows = [_cells(line) for line in _text(source).splitlines()]
+    rows = [_cells(line) for line in text_of(source, "CURVE.csv", _ACCEPTED).splitlines()]
     heads = ((k, names) for k, row in enumerate(rows) if "rate" in (names := _named(row)) and len(names) > 1)
     line, places = next(heads, (0, {}))
     if not places:
@@ -59,12 +57,11 @@ def flow_curve_of(source: str | Path) -> tuple[np.ndarray, np.ndarray]:
     table = {kind: np.array([row[kind] for row in values]) * factors[kind] for kind in places}
     if len(table) == 3:
         with np.errstate(all="ignore"):
-            parts = np.abs(table["stress"] / (table["rate"] * table["viscosity"]) - 1)
+            product = table["rate"] * table["viscosity"]
+            parts = np.abs(table["stress"] / product - 1)
         if (parts > _APART).any():
             row = int(np.argmax(parts > _APART))
-            accepted = (
-                f"shear rate times viscosity, {table['rate'][row] * table['viscosity'][row]:.4g} Pa, to {_APART:.0%}"
-            )
+            accepted = f"shear rate times viscosity, {product[row]:.4g} Pa, to {_APART:.0%}"
             problem = f"of row {row + 1} contradicts the viscosity: is a unit wrong?"
             raise InputError(f"CURVE.csv {source}, stress", float(table["stress"][row]), accepted, problem)
     viscosity = table["viscosity"] if "viscosity" in table else table["stress"] / table["rate"]
@@ -74,22 +71,6 @@ def flow_curve_of(source: str | Path) -> tuple[np.ndarray, np.ndarray]:
             row = int(wrong[0])
             raise InputError(f"CURVE.csv {source}, {kind}", float(column[row]), "a number > 0", f"of row {row + 1}")
     return table["rate"], viscosity
-
-
-def _text(source: str | Path) -> str:
-    try:
-        content = bounded.read(Path(source), _LARGEST)
-    except FileNotFoundError:
-        raise InputError("CURVE.csv", str(source), _ACCEPTED, "is no file") from None
-    except bounded.NotRead as reason:
-        raise InputError("CURVE.csv", str(source), _ACCEPTED, str(reason)) from None
-    codes = ("utf-16",) if content[:2] in (b"\xff\xfe", b"\xfe\xff") else ("utf-8-sig", "cp1252", "latin-1")
-    for code in codes:
-        try:
-            return content.decode(code)
-        except UnicodeDecodeError:
-            continue
-    raise InputError("CURVE.csv", str(source), _ACCEPTED, "is no text")
 
 
 def _cells(line: str) -> list[str]:
@@ -126,12 +107,8 @@ def _unit(cell: str) -> str:
 def _factor(unit: str, kind: str, name: str) -> float:
     wanted = _COLUMNS[kind][1]
     if not unit:
-        raise InputError(
-            f"CURVE.csv, {name.strip()}",
-            None,
-            f"a unit behind the name, as [{'1/s' if kind == 'rate' else wanted}]",
-            "has no unit",
-        )
+        accepted = f"a unit behind the name, as [{'1/s' if kind == 'rate' else wanted}]"
+        raise InputError(f"CURVE.csv, {name.strip()}", None, accepted, "has no unit")
     spelt = units.spelling(unit)
     if kind == "rate" and _PER_MINUTE.fullmatch(spelt):
         return 1 / 60

@@ -131,8 +131,7 @@ class ScatterLines(Lines):
         def width(brackets: Brackets) -> np.ndarray:
             inside = (brackets.low < 0) & (brackets.high > 0)
             nearest = np.where(inside, 0.0, np.minimum(np.abs(brackets.low), np.abs(brackets.high)))
-            allowed: np.ndarray = resolution.within * np.minimum(np.exp(nearest**2 / 2), _LOOSER)
-            return allowed
+            return np.asarray(resolution.within * np.minimum(np.exp(nearest**2 / 2), _LOOSER))
 
         places = self.low[:, None] + (self.high - self.low)[:, None] * np.linspace(0, 1, resolution.grid)
         return locate(outcomes_along(experiment, self), places, width, at_once=AT_ONCE)
@@ -217,21 +216,18 @@ class Segments:
     @property
     def kind(self) -> np.ndarray:
         """Of the `segment_map`: 1 if the lower end is a change, 2 if the upper end is, 3 if both are."""
-        kind: np.ndarray = (self.first >= 0) + 2 * (self.last >= 0)
-        return kind
+        return np.asarray((self.first >= 0) + 2 * (self.last >= 0))
 
     def mass(self) -> np.ndarray:
         """Probability of the scatter within each."""
         flip = self.low > 0  # the difference of two small numbers, not of two near one
-        mass: np.ndarray = np.where(flip, ndtr(-self.low) - ndtr(-self.high), ndtr(self.high) - ndtr(self.low))
-        return mass
+        return np.asarray(np.where(flip, ndtr(-self.low) - ndtr(-self.high), ndtr(self.high) - ndtr(self.low)))
 
     def mass_slopes(self, ends: np.ndarray) -> np.ndarray:
         """Derivatives of the logarithm of `mass`, from those of the ends."""
         mass = np.maximum(self.mass(), 1e-300)
         density = [np.exp(-(end**2) / 2) / np.sqrt(2 * np.pi) / mass for end in (self.low, self.high)]
-        by_free: np.ndarray = density[1][:, None] * ends[1] - density[0][:, None] * ends[0]
-        return by_free
+        return np.asarray(density[1][:, None] * ends[1] - density[0][:, None] * ends[0])
 
     def moving_ends(
         self, experiment: Experiment, lines: Lines, changes: Changes, which: np.ndarray, resolution: Resolution
@@ -246,8 +242,7 @@ class Segments:
         by_free = np.zeros((changes.size + 1, len(experiment.rows.names)))  # the last for ends that stay
         if needed.size and resolution.slopes:
             by_free[needed] = np.nan_to_num(slopes(experiment, lines, changes.subset(needed), resolution.approximate))
-        moving: np.ndarray = by_free[np.stack([self.first, self.last])]
-        return moving
+        return np.asarray(by_free[np.stack([self.first, self.last])])
 
     def results(
         self, experiment: Experiment, lines: Lines, ends: np.ndarray, names: tuple[str, ...], resolution: Resolution

@@ -9,7 +9,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.special import fdtri, stdtr, stdtrit
+from scipy.special import bdtrc, fdtri, ndtri, stdtr, stdtrit
+
+from ..errors import several
 
 LEAST = 4  # frames of a line
 _RARE = 1e-6  # probability of an alarm about a film without fault
@@ -20,27 +22,65 @@ _ZONES = (0.07, 0.15, 0.3, 0.5)  # widths in which a tracker may displace, over 
 _GAPS = np.arange(1, 26) / 25  # gaps up to which frames may be left out, likewise
 _STEPS = (0.5, 0.3, 0.15, 0.05)  # quantiles of the steps that are tried as the motion of one frame
 _CLEAR = 6.0  # noise, below which a step cannot be told from it
+_ALIKE = 1e-4  # probability of so many pictures that are alike by chance, below which they are one
+_NORMAL = ndtri((np.arange(200) + 0.5) / 200)
 _JUMPS = 500  # most jumps that are looked for
 _UNEVEN = 0.2  # scatter along the motion, over a step, from which a speed cannot be trusted
-_NAMED = 6  # places in a sentence
 
 
 @dataclass(frozen=True)
 class Flight:
-    """Frames before or after an impact: times, relative positions (n, 2), and what names them."""
+    """Frames before or after an impact: times, both centres (n, 4), and what names them."""
 
     time: np.ndarray
-    places: np.ndarray
+    centres: np.ndarray
     names: Sequence[str]
 
-    def subset(self, which: np.ndarray) -> "Flight":
+    @property
+    def places(self) -> np.ndarray:
+        """Relative positions, (n, 2)."""
+        return np.asarray(self.centres[:, 2:] - self.centres[:, :2])
+
+    @property
+    def again(self) -> np.ndarray:
+        """Of all frames but the last, whether the next one has the same centres."""
+        return np.asarray((self.centres[1:] == self.centres[:-1]).all(axis=1))
+
+    def subset(self, which: np.ndarray | slice) -> "Flight":
         """The frames of a mask."""
-        return Flight(self.time[which], self.places[which], [self.names[k] for k in np.flatnonzero(which).tolist()])
+        return Flight(self.time[which], self.centres[which], np.asarray(self.names)[which].tolist())
 
     def residuals(self, values: np.ndarray) -> np.ndarray:
         """Of a straight line in time through values (n, ...)."""
         since, off = self.time - self.time.mean(), values - values.mean(axis=0)
         return np.asarray(off - np.multiply.outer(since, since @ off / (since @ since)))
+
+    def repeated(self, sigma: float, rounding: float, *, uniform: bool) -> list[int]:
+        """Frames whose picture is there twice: more are like the next one than there would be by chance.
+
+        A coordinate comes again the less often, the more of its digits it moves by. Rounding may repeat all four at
+        once, noise each on its own.
+
+        Arguments:
+            uniform: the motion is, but for gravity; else it is that of the steps before and behind such a frame.
+        """
+        steps, pitch = np.diff(self.centres, axis=0), math.sqrt(3) * rounding
+        again = np.flatnonzero(self.again) if uniform else 1 + np.flatnonzero(self.again[1:-1])
+        if not again.size:
+            return []
+        noise, count = math.sqrt(max(sigma**2 - rounding**2, 0.0)), len(steps)
+        if uniform:
+            first, last = steps[: count // 2].mean(axis=0), steps[count // 2 :].mean(axis=0)
+            ends = np.array([[1.5 * first - 0.5 * last], [1.5 * last - 0.5 * first]])
+        else:
+            ends = np.array([steps[again - 1], steps[again + 1]])
+            ends = np.sign(ends) * np.maximum(np.abs(ends) - pitch - 2 * sigma, 0.0)
+        moves = (np.abs(ends).min(axis=0) * (ends.prod(axis=0) > 0)).max(axis=1)  # of the fastest coordinate
+        again = again if uniform else again[[np.argmax(moves)]]
+        moved = moves.max() + np.linspace(noise, sigma, 5)[:, None] * _NORMAL
+        chance = float(np.maximum(1 - np.abs(moved) / pitch, 0).mean(axis=1).max()) if pitch else 0.0
+        chance *= min(1.0, pitch / (math.sqrt(2 * math.pi) * noise)) ** 3 if noise else 1.0
+        return again.tolist() if bdtrc(again.size - 1, count, chance) < _ALIKE else []
 
     @property
     def axes(self) -> np.ndarray:
@@ -91,8 +131,7 @@ def _refined(path: Flight, lost: np.ndarray, interval: float, sigma: float, free
         jump = after[k] / spread[k]
         step = (since @ along - jump * moment[k]) / (since @ since) * interval  # of a line with this jump
         more = round(jump / step) if abs(jump) < 1e6 * abs(step) else 0
-        twice = int((path.places[k] == path.places[k + 1]).all())
-        if abs(after[k]) <= least * math.sqrt(spread[k]) or more == 0 or lost[k] + more < -twice:
+        if abs(after[k]) <= least * math.sqrt(spread[k]) or more == 0 or lost[k] + more < -int(path.again[k]):
             break
         lost = lost + more * (np.arange(lost.size) == k)
     return lost, not _odd(off, sigma, freedom)
@@ -103,31 +142,34 @@ def _odd(off: np.ndarray, sigma: float, freedom: int) -> bool:
     return bool((off**2).sum() / (off.size - 2) > sigma**2 * fdtri(off.size - 2, freedom, 1 - _RARE))
 
 
-def uneven(paths: Sequence[Flight], interval: float, floor: float) -> tuple[str, float]:
+def uneven(paths: Sequence[Flight], interval: float, floor: float, rounding: float) -> tuple[str, float]:
     """What is wrong with the times of the paths, in words, and at how many places frames are lost.
 
     Where steps are not clear of the noise every frame counts; infinite if lost frames do not explain it.
 
     Arguments:
         interval: time between two frames.
-        floor: standard deviation of a coordinate that rounding makes.
+        floor: least standard deviation of a coordinate.
+        rounding: that which the digits make.
     """
     sigma, freedom = _noise(paths, floor)
-    where, most, explained, total = list[str](), 0.0, True, 0.0
+    where, again, most, explained, total = list[str](), list[str](), 0.0, True, 0.0
     for path in paths:
         raw = path.residuals(path.places @ path.axes[0])
         scatter = math.sqrt(float((raw**2).sum()) / (raw.size - 2))
         step = float(np.linalg.norm(path.places[-1] - path.places[0])) / (path.time[-1] - path.time[0]) * interval
+        again += [f"after {path.names[k]}" for k in path.repeated(sigma, rounding, uniform=True)]
         lost, clear = _lost(path, interval, sigma, freedom)
         if lost.any() or (_odd(raw, sigma, freedom) and scatter > _UNEVEN * step):
             most, explained = max(most, scatter / sigma), explained and clear
         total += np.count_nonzero(lost) if step > _CLEAR * sigma else float(np.abs(lost).sum())
         for k in np.flatnonzero(lost).tolist():
             where.append(f"{f'{lost[k]:.0f} lost' if lost[k] > 0 else 'the same picture again'} after {path.names[k]}")
+    if again:
+        return f"has the same picture again {several(again)}", 0.0
     text = f"scatter {most:.2g} times as much along the motion as across it: "
     if most and explained:
-        more = f" and at {len(where) - _NAMED} other places" if len(where) > _NAMED else ""
-        text += f"is a frame missing that the numbers of the frames do not count? {', '.join(where[:_NAMED])}{more}"
+        text += f"is a frame missing that the numbers of the frames do not count? {several(where)}"
     elif most:
         text += "are frames missing here and there that their numbers do not count, or are times rounded?"
     return text if most else "", total if explained else math.inf

@@ -17,7 +17,7 @@ from xml.etree import ElementTree as ET
 import numpy as np
 from scipy.spatial import KDTree
 
-from ..errors import InputError
+from ..errors import InputError, several
 from ..scene.columns import Column, columns_from_text, columns_of, text_of, without_index
 from .straight import LEAST
 
@@ -29,8 +29,8 @@ Units = Callable[[Column], float]
 """The factor of a column of lengths or times to SI; InputError if it has no unit."""
 
 _ACCEPTED = (
-    "columns x1, y1, x2, y2 and frame or time; or a long table of x, y, frame, particle (trackpy, LapTrack, napari), "
-    "TrackMate's CSV or XML, an export of Tracker or DLTdv, or ImageJ's Results"
+    "columns x1, y1, x2, y2, as x1 or x1 [mm], and frame or time [s]; or a long table of x, y, frame, particle "
+    "(trackpy, LapTrack, napari), TrackMate's CSV or XML, an export of Tracker or DLTdv, or ImageJ's Results"
 )
 _SPELT = {  # as trackers name columns, in small letters and underscores; of several the first
     "frame": "frame slice image picture frame_number slice_n axis_0 frame_y",
@@ -146,7 +146,8 @@ def read_film(source: Any, particles: Any, solids: float, lengths: Units) -> Fil
         shared = _calibrated(shared, solids)
     which = ", particles " + (of_films or " and ".join("+".join(ids) for ids in pair)) if long or len(every) > 2 else ""
     how = ", linked from frame to frame by their distance" if linked else ""
-    where = f", positions in {shared['x1'].unit}" if shared["x1"].unit else ""
+    written = " and ".join(dict.fromkeys(shared[place].unit or "px" for place in PLACES))
+    where = f", positions in {written}" * (written != "px")
     remark = f"the table was taken for {kind or 'two paths side by side'}{which}{how}{where}"
     return Film(shared, lines, remark, header)
 
@@ -338,7 +339,7 @@ def _chosen(names: list[str], particles: Any) -> tuple[list[str], list[str]] | N
     pair = [[_name(number) for number in str(particle).split("+")] for particle in parts]
     every = [number for numbers in pair for number in numbers]
     if len(pair) != 2 or len(set(every)) < len(every) or not set(every) <= set(names):
-        accepted = f'two of {", ".join(names[:12])}{" ..." * (len(names) > 12)}, as "A,B"'
+        accepted = f'two of {several(names)}, as "A,B"'
         raise InputError("particles", str(particles), accepted)
     return pair[0], pair[1]
 
@@ -351,12 +352,12 @@ def _meeting(table: pd.DataFrame, solids: float) -> tuple[pd.DataFrame, tuple[li
     if meet and all(len(pairs) == 1 for pairs in films) and table.particle.index.is_unique:
         number = {(film, name): str(k + 1) for film, pairs in enumerate(films) for k, name in enumerate(pairs[0])}
         names = [number.get(key, "") for key in zip(table.film, table.particle)]
-        text = "; ".join(" and ".join(pairs[0]) for pairs in films[:6]) + " ..." * (len(films) > 6)
+        text = several([" and ".join(pairs[0]) for pairs in films], "; ")
         return table.assign(particle=names), (["1"], ["2"]), text
-    accepted = 'two that meet, or particles="A,B" (--particles); "A+C,B" if the tracker goes on with A as C'
-    several = "; ".join(f"{a},{b}" for a, b in meet[:6]) + " ..." * (len(meet) > 6)
+    accepted = 'two that meet, a column impact, or particles="A,B" (--particles); "A+C,B" if A goes on as C'
     nowhere = "come near each other nowhere: do their tracks break, or is the scale off?"
-    problem = f"may be several that come near each other: {several}" if meet else nowhere
+    near = several([",".join(pair) for pair in meet], "; ")
+    problem = f"may be several that come near each other: {near}" if meet else nowhere
     raise InputError("particles", None, accepted, problem)
 
 

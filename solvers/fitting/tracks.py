@@ -24,15 +24,15 @@ from .trackers import PLACES, read_film, with_one_clock
 
 _ACCEPTED = {
     "rate": 'a frequency > 0, as 4000 or "150 kHz"',
-    "scale": 'a length of a pixel > 0, as "12.5 um", "2 um/px", "80 px/mm"',
+    "scale": 'a length of a pixel > 0, as "12.5 um", "2 um/px", "80 px/mm", "1 mm = 80 px"',
     "noise": 'a number > 0 in the unit of the columns, or with a unit, as "0.2 px", "0.4 um"',
     "near": 'a gap >= 0, as "0.1 mm" or "8 px"',
 }
 _UNITS = {name: unit.replace("rad", "deg") for name, unit in (UNITS | {"speed": "m/s", "angle": "rad"}).items()}
 _HIDDEN = (*FLIGHT, CORRELATION)  # written, for `fit`, and not printed
 _PIXELS = (None, "px", "pixel", "pixels", "css_pixel", "")
-_PER_PIXEL = re.compile(r"(.+)/(?:css_)?(?:px|pixels?)")
-_PIXELS_PER = re.compile(r"(?:css_)?(?:px|pixels?)/(.+)")
+_ALIKE = 1e-9  # difference of two positions that are one number, over all that there are
+_COUNT = re.compile(r"(\S*?)\s*(?:css_)?(?:px|pixels?)")
 
 
 @dataclass(frozen=True)
@@ -105,7 +105,7 @@ def tracks(
             Tracker, DLTdv, ImageJ, LapTrack or napari write; a remark says what it was taken for.
         scene: gives the radii, the film thickness and the rupture gap.
         rate: frames per second, or with a unit, as "150 kHz".
-        scale: length of a pixel, in m or with its unit, as "12.5 um"; or as "2 um/px", "80 px/mm".
+        scale: length of a pixel, in m or with its unit, as "12.5 um"; or as "2 um/px", "80 px/mm", "1 mm = 80 px".
         scale_sd: its relative standard deviation.
         noise: standard deviation of a tracked coordinate, in the unit of the columns, or with its own, as "0.2 px";
             default from the scatter about the straight paths.
@@ -147,7 +147,7 @@ def tracks(
     coordinates = [_numbers(columns[name], lines, "m", pixel, "scale", gaps=True) for name in PLACES]
     positions = np.stack(coordinates, axis=1)
     unit = _factor(columns["x1"], "m", pixel, "scale")
-    rounding = _rounding(positions / unit) * unit * math.sqrt(2)  # of a relative coordinate
+    rounding = 2 * _rounding(positions / unit) * unit  # of a relative coordinate: those of both may be the same
 
     given = None if noise is None else math.sqrt(2) * _size(noise, "m", "noise", pixel=pixel, plain=unit)
     gap = None if near is None else _size(near, "m", "near", pixel=pixel, plain=None)
@@ -169,7 +169,7 @@ def tracks(
         times, first, count = np.unique(time[which], return_index=True, return_counts=True)
         names = [f"{clock.name} {str(clock.cells[k]).strip()}{unit_of_clock}" for k in which[first]]
         repeated = [names[k] for k in np.flatnonzero(count > 1).tolist()]
-        path = Flight(times, (positions[:, 2:] - positions[:, :2])[which[first]], names)
+        path = Flight(times, positions[which[first]], names)
         try:
             with np.errstate(divide="raise", over="raise", invalid="raise"):
                 values, sigma, remark = FilmedImpact(
@@ -191,7 +191,7 @@ def tracks(
     if rate is not None and per_frame is None:
         why = "the times are those of the column time. With a column frame the rate counts"
         remarks.append(f"the rate {rate} is not used: {why}")
-    if scale is not None and columns["x1"].unit not in _PIXELS:
+    if scale is not None and not any(columns[name].unit in _PIXELS for name in PLACES):
         remarks.append(f"the scale {scale} is not used for the positions: these are in {columns['x1'].unit}")
     gaps = f"x0 = {1e6 * loaded.liquid.film_thickness:.4g} um and x_f = {1e6 * loaded.rupture_gap:.4g} um"
     remarks.append(
@@ -211,33 +211,44 @@ def _size(value: Any, si: str, option: str, *, pixel: float | None = None, plain
         pixel: length of a pixel, m, for a length in pixels.
         plain: what a number without a unit is in; None if a text must have one.
     """
-    accepted, text = _ACCEPTED[option], with_unit(value)
+    accepted, text, count = _ACCEPTED[option], with_unit(value), 1.0
+    if option == "scale" and isinstance(text, str):
+        sides = [side.strip() for side in re.split(r"/|=|\bper\b", text.replace("dpi", "px/inch"))]
+        pixels = next((match for side in sides if (match := _COUNT.fullmatch(side))), None)
+        if pixels and len(sides) == 2:
+            length, number = sides[pixels[0] == sides[0]], pixels[1] or "1"
+            count = (float(number) or math.nan) if units.is_number(number) else math.nan
+            text = length if units.unit_of(length) else f"1 {length}"
     written = units.unit_of(text) if isinstance(text, str) else ""
     digits = text.strip().removesuffix(written) if isinstance(text, str) else text
-    unit = re.sub(r"\b(k?)fps\b", r"\1Hz", units.spelling(written.replace(" per ", "/").replace("dpi", "px/inch")))
+    unit = re.sub(r"\b(k?)fps\b", r"\1Hz", units.spelling(written.replace(" per ", "/")))
     unit = re.sub(r"\bframes?/", "1/", unit)
     try:
-        size = math.nan if isinstance(digits, bool) else float(digits)
+        size = math.nan if isinstance(digits, bool) else float(digits) / count
     except (TypeError, ValueError):
         size = math.nan
     if not (math.isfinite(size) and (size > 0 or (size == 0 and option == "near"))):
         raise InputError(option, value, accepted)
-    per_pixel, pixels_per = (form.fullmatch(unit) if option == "scale" else None for form in (_PER_PIXEL, _PIXELS_PER))
-    if pixels_per:
-        return units.quantity(f"1 {pixels_per[1]}", si, option, accepted) / size
     if unit not in _PIXELS or (isinstance(text, str) and plain is None and not unit):
-        return units.quantity(f"{str(digits).strip()} {per_pixel[1] if per_pixel else unit}", si, option, accepted)
+        try:
+            return units.quantity(f"{str(digits).strip()} {unit}", si, option, accepted) / count
+        except InputError as reason:
+            raise InputError(option, value, accepted, reason.problem) from None
     factor = pixel if unit else plain
     if unit and (option in ("scale", "rate") or factor is None):
         raise InputError(option, value, accepted, "is in pixels" + ", and no scale is given" * (factor is None))
     return size * (1.0 if factor is None else factor)
 
 
-def _rounding(values: np.ndarray) -> float:
-    """Standard deviation that the digits make with which values are written."""
-    values = values[np.isfinite(values)]
-    steps = (step for step in (1, 0.5, 0.1, 0.05, 0.01, 1e-3, 1e-4) if np.allclose(values / step % 1, 0, atol=1e-6))
-    return next(steps, 0.0) / math.sqrt(12)
+def _rounding(positions: np.ndarray) -> float:
+    """Standard deviation that steps make in which positions (n, 4) come: decimal ones, or any in which values recur."""
+    positions = np.unique(positions[np.isfinite(positions).all(axis=1)], axis=0)  # a picture that recurs tells nothing
+    scaled = ((step, positions / step) for step in (1, 0.5, 0.1, 0.05, 0.01, 1e-3, 1e-4))
+    decimal = next((step for step, values in scaled if np.allclose(values, np.rint(values), rtol=0, atol=1e-6)), 0.0)
+    steps = np.diff(np.sort(positions, axis=0), axis=0)
+    steps = steps[:, steps.any(axis=0)]
+    alike = steps <= _ALIKE * np.ptp(positions) if steps.size else steps > 0
+    return max(decimal, steps[~alike].min() if alike.any() else 0.0) / math.sqrt(12)
 
 
 def _factor(column: Column, si: str, plain: float | None, option: str) -> float:

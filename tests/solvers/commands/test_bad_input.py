@@ -11,9 +11,11 @@ from types import ModuleType, SimpleNamespace
 
 import pytest
 from wetdoublet.solvers.commands.cli import COMMANDS, cli
-from wetdoublet.solvers.errors import CheckFailed, ComputationError, ModelWarning
+from wetdoublet.solvers.commands.texts import entry_range
+from wetdoublet.solvers.errors import CheckFailed, ComputationError, InputError, ModelWarning
 from wetdoublet.solvers.scene.scene import Scene
 from wetdoublet.solvers.scene.scenefile import PRESETS
+from wetdoublet.solvers.scene.schema import FIELDS
 
 from ...helpers.command import quiet, run
 
@@ -89,8 +91,9 @@ BAD = [
     ("map granulation --stokes 0.1:0.2:3", "--angle", "missing", ""),
     ("prove granulation --map --stokes 0.1 --angle 0:10:3", "--stokes", '"0.1" is one edge', "LO:HI:N or log:LO:HI:N"),
     ("prove granulation --map --stokes 0.1:0.5:3 --angle 10", "--angle", '"10" is one edge', "LO:HI:N in degrees"),
-    ("map granulation --speed 0.1:0.2:3 --angle 0:80:3", "--speed", '"0.1:0.2" has no unit', "a number with its unit"),
-    ("map granulation --angle 0:1:2 --vary liquid.viscosity=1:2:3", "--vary liquid.viscosity", '"1:2" has no unit', ""),
+    ("map granulation --speed 0.1:0.2:3 --angle 0:80:3", "--speed", '"0.1:0.2:3" has no unit', '"0.1:0.2 m/s:3"'),
+    ("map granulation --angle 0:1:2 --vary liquid.viscosity=1:2:3", "--vary liquid.viscosity", '"1:2:3" has no unit',
+     '"1:2 Pa s:3"'),
     ("map granulation --angle 0:1:2 --vary impact.angle=1:2:3", "--vary", '"impact.angle"', ""),
     ("map granulation --set bridge.volume=0.2 --vary bridge.volume=0.1:0.2:2", "--vary", '"bridge.volume"', ""),
     ("map granulation --stokes 1:2:90 --angle 0:80:90 --vary bridge.volume=0.1:0.2:9000", "--vary bridge.volume",
@@ -127,6 +130,18 @@ def test_bad_input(line, field, says, accepted):
     assert result.stderr.startswith(field + ": ")
     before, _, after = result.stderr.partition("; accepted: ")
     assert says in before and accepted in after
+
+
+@pytest.mark.parametrize("text", ["log:1:2:2", " 1 : 2 :2", "2:2:1", "1"])
+def test_the_range_that_is_suggested_is_accepted(text):
+    """Numbers without their unit, of every quantity that has one: the example in the message is the range as meant."""
+    for name, entry in FIELDS.items():
+        if entry.unit and entry.unit != "rad":
+            with pytest.raises(InputError, match="has no unit") as error:
+                entry_range(entry, text)
+            example = re.search('as "(.+?)"', str(error.value))[1]
+            low, *_, high = 2 * entry_range(entry, example)
+            assert high / low == pytest.approx(1 if text in ("2:2:1", "1") else 2), name
 
 
 @pytest.mark.parametrize("name", COMMANDS)

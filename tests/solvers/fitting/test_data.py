@@ -137,7 +137,7 @@ def test_rows_that_are_left_out_are_counted_where_not_all_are_named(tmp_path):
     """Eight are named."""
     text = "speed [m/s],angle [deg],outcome\n0.5,30,B\n" + "0.5,30,\n" * 11
     [remark] = [one for one in read_data(written(tmp_path, text), SCENE).remarks if one.startswith("Left out")]
-    assert remark.endswith("row 9 (line 10) ... (11 rows).")
+    assert remark.endswith("row 9 (line 10) and 3 more.")
 
 
 def test_empty_columns_at_the_right_are_no_columns(tmp_path):

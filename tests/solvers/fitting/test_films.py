@@ -1,6 +1,7 @@
 """Films as trackers and people leave them: lost frames, shared times, bent paths, other names and units."""
 
 import math
+import re
 
 import numpy as np
 import pint
@@ -65,12 +66,40 @@ def test_what_would_be_measured_wrong_is_refused(film: dict[str, np.ndarray]) ->
     assert read(flat).to_csv() == read(film).to_csv()
 
 
-def test_whole_pixels_may_repeat_in_contact() -> None:
-    """Centres that hardly move are written alike in frames that follow each other: these are two pictures."""
-    whole = {name: np.round(cells) for name, cells in bounce(2 * RATE, seed=0).items()}
-    apart = np.stack([whole["x2"] - whole["x1"], whole["y2"] - whole["y1"]])
-    assert (np.diff(apart) == 0).all(axis=0).any()
-    assert read(whole, rate=2 * RATE).columns["speed"] == pytest.approx([0.818], rel=0.01)
+@pytest.mark.parametrize("digit", [1.0, 0.5, 1 / 3])
+@pytest.mark.parametrize("times", [2, 3])
+def test_centres_in_coarse_steps_may_repeat(digit: float, times: int) -> None:
+    """Centres that move by one or two pixels are written alike in frames that follow each other: two pictures."""
+    alike = 0
+    for seed in range(6):
+        shot = bounce(times * RATE, seed=seed)
+        coarse = {name: np.round(cells / digit) * digit for name, cells in shot.items()} | {"frame": shot["frame"]}
+        apart = [coarse["x2"] - coarse["x1"], coarse["y2"] - coarse["y1"]]
+        alike += int((np.diff(apart) == 0).all(axis=0).sum())
+        assert read(coarse, rate=times * RATE).columns["speed"] == pytest.approx([0.818], rel=0.02)
+    assert alike > 0
+
+
+@pytest.mark.parametrize("digit", [1.0, 0.5, 0.01, None])
+@pytest.mark.parametrize("held", [False, True])
+def test_pictures_that_are_there_twice_are_named(digit: float | None, held: bool) -> None:
+    """Once, every fifth, or each; inserted, or in place of the next: no motion of several digits stops for a frame."""
+    for seed in range(3):
+        shot = bounce(seed=seed)
+        if digit:
+            shot = {name: np.round(cells / digit) * digit for name, cells in shot.items()} | {"frame": shot["frame"]}
+        size = shot["frame"].size
+        for which in ([9], range(2, size, 5), range(1, size, 2)):
+            rows = np.arange(size)
+            if held:
+                rows[np.array(which[: None if which[-1] + 1 < size else -1]) + 1] -= 1
+            else:
+                rows = np.sort(np.append(rows, which))
+            twice = {name: cells[rows] for name, cells in shot.items()} | {"frame": np.arange(rows.size)}
+            with pytest.raises(InputError, match="same picture again after frame") as error:
+                read(twice)
+            after = int(re.search(r"after frame (\d+)", str(error.value))[1])
+            assert rows[after] == rows[after + 1]
 
 
 def test_films_in_one_table_have_their_own_clocks(film: dict[str, np.ndarray]) -> None:
@@ -178,5 +207,22 @@ def test_a_film_without_positions_is_refused(film: dict[str, np.ndarray]) -> Non
 def test_rate_and_scale_carry_their_units(film: dict[str, np.ndarray]) -> None:
     expected = read(film).columns["speed"]
     for rate, scale in (("150 kHz", "2 um/px"), ("150 kfps", "500 px/mm"), ("150000 frames/s", "12700 dpi"),
-                        (pint.Quantity(150, "kHz"), pint.Quantity(500, "px/mm"))):  # fmt: skip
+                        (pint.Quantity(150, "kHz"), pint.Quantity(500, "px/mm")), (RATE, "1 mm = 500 px"),
+                        (RATE, "500 pixels per mm"), (RATE, ".2 mm/100px"), (RATE, "500px = 1mm")):  # fmt: skip
         assert read(film, rate=rate, scale=scale).columns["speed"] == pytest.approx(expected, rel=1e-12)
+    for option, value, problem in (
+        ("rate", "150,000 fps", "comma"), ("scale", "1 mm = 0 px", "of a pixel"), ("scale", "5 px/1 s", "a time"),
+        ("scale", "1 mm = -5 px", "of a pixel"),
+    ):  # fmt: skip
+        with pytest.raises(InputError, match=f'^{option}: "{value}".*{problem}'):  # as it was typed
+            read(film, **{option: value})
+
+
+def test_columns_in_units_of_their_own_are_said(film: dict[str, np.ndarray]) -> None:
+    """Each coordinate counts in its unit, and the remarks name all; a scale counts for those in pixels."""
+    sizes = {"x1 [mm]": 1e-3, "y1 [mm]": 1e-3, "x2 [um]": 1e-6, "y2": PIXEL}
+    mixed = {"frame": film["frame"]} | {name: film[name[:2]] * PIXEL / size for name, size in sizes.items()}
+    found = read(mixed)
+    assert found.columns["speed"] == pytest.approx(read(film).columns["speed"], rel=1e-9)
+    assert any("positions in mm and um and px" in remark for remark in found.remarks)
+    assert not any("is not used" in remark for remark in found.remarks)
