@@ -157,15 +157,6 @@ def test_the_command_writes_both_formats(tmp_path: Path) -> None:
     assert "--speeds" in done.output
 
 
-def test_speeds_have_densities_of_integral_one() -> None:
-    """The Maxwellian to the share beyond its last knot; a table exactly."""
-    for given in ("maxwell:0.3 m/s", ([1.0, 2.0], [3.0, 3.0])):
-        speeds = Speeds.of(given)
-        assert speeds.density is not None
-        at = np.linspace(speeds.knots[0], speeds.knots[-1], 200_001)
-        assert np.trapezoid(speeds.density(at), at) == pytest.approx(1, abs=1e-9)
-
-
 @pytest.mark.slow
 def test_energies_and_rates_are_those_of_random_pairs_of_a_gas() -> None:
     """Spheres with Maxwellian velocities and spins, met by flux, by `collide_pair`: within four standard errors.
