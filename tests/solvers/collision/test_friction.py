@@ -75,6 +75,7 @@ def test_glass_has_friction_only_if_asked_for() -> None:
     assert touching.reversal == "rough" and not any("friction" in each for each in touching.validity)
 
 
+BOTH = ("taylor", "rosenbrock")
 WRT = ("particles.friction", "particles.contact_tangential_restitution", "liquid.viscosity")
 
 
@@ -96,3 +97,14 @@ def test_no_derivative_at_the_switch_between_sliding_and_sticking() -> None:
 
     with pytest.raises(ComputationError, match="switch between sliding and sticking contact"):
         bisected(low, high)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("friction", [0.05, 0.3])
+def test_derivatives_of_both_engines(friction: float) -> None:
+    """Of a contact that slides and of one that sticks: of the time too, which the rebound leaves as it is."""
+    of, wrt = ("restitution", "contact_time", "final_spin"), [*WRT, "impact.angle"]
+    asked = {"stokes": 8.0, "angle": ANGLE, "rtol": 1e-10}
+    found, other = (sensitivities(rough({}, friction, 0.4), of, wrt, **asked, engine=e) for e in BOTH)
+    for name in of:
+        assert list(found.gradient[name].values()) == pytest.approx(list(other.gradient[name].values()), rel=1e-7)

@@ -145,3 +145,13 @@ def test_a_result_that_no_collision_has_is_said(of, stokes, text):
     """A scene without attraction has no work of it, though it bounces; sticks have no rotation."""
     none = solve(GRANULATION, **{of: 1.0}, free="liquid.viscosity", within=(2.0, 3.0), stokes=stokes)
     assert not none and none.attained is None and text in str(none)
+
+
+def test_a_term_of_the_ledger_may_have_a_value():
+    """The work of the bridge over its volume; other results are those of the harness."""
+    scene = Scene.load("granulation").with_impact(stokes=0.02, angle="75 deg")
+    found = solve(scene, free="bridge.volume", within=(0.03, 0.3), **{"energy.capillary": 2e-10})
+    assert found
+    for value in found:
+        one = collide(scene.with_entries({"bridge.volume": value}), engine="rosenbrock")
+        assert one.energy.capillary == pytest.approx(2e-10, rel=1e-6)
