@@ -75,8 +75,8 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
 
 
 def _quick(config: pytest.Config) -> bool:
-    """Whether slow tests are left out."""
-    return bool(config.option.markexpr == "not slow")
+    """Whether slow tests are left out, or a mutant's first example that fails is enough."""
+    return bool(config.option.markexpr == "not slow") or "WETDOUBLET_MUTANT" in os.environ
 
 
 def _name(case: dict[str, Any]) -> str:

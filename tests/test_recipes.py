@@ -14,7 +14,6 @@ import pytest
 from scipy.integrate import quad
 from scipy.optimize import brentq
 from wetdoublet.solvers import Scene, collide, sensitivities
-from wetdoublet.solvers.host.compiler import compiler
 
 pytestmark = pytest.mark.slow  # derives structures, and compiles a kernel
 
@@ -190,14 +189,11 @@ def options(entries: dict[str, str], stokes: float, engine: str) -> list[str]:
     return [*given, "--stokes", str(stokes), "--angle", "0 deg", "--engine", engine]
 
 
-@pytest.mark.parametrize("engine", ["rosenbrock", "taylor"])
-def test_a_new_rebound_criterion(tree: Tree, engine: str) -> None:
-    """Waves reverse as roughness of their height does without them, by either engine, under their own word."""
-    if engine == "taylor" and compiler() is None:
-        pytest.skip("no C compiler")
-    rough = collide(Scene.load("granulation").with_entries(ROUGH), **FAST, engine=engine)
-    wavy = tree.told("collide", "granulation", *options(WAVY, 5.0, engine))
-    assert (rough.reversal, wavy["reversal"]) == ("rough", "wavy")
+def test_a_new_rebound_criterion(tree: Tree) -> None:
+    """Waves reverse as roughness of their height does, under their own word; Rosenbrock confirms the kernel."""
+    rough = collide(Scene.load("granulation").with_entries(ROUGH), **FAST, engine="rosenbrock")
+    wavy = tree.told("collide", "granulation", *options(WAVY, 5.0, "rosenbrock"))
+    assert (rough.reversal, wavy["reversal"], wavy["engine"]) == ("rough", "wavy", "rosenbrock")
     assert wavy["restitution"] == pytest.approx(rough.restitution, rel=1e-13)
 
 
@@ -207,24 +203,18 @@ ANALYTIC = {"liquid.glass_transition_pressure": "1e6 GPa", "bridge.surface_tensi
 STOKES = 5.0
 
 
-@pytest.mark.parametrize("engine", ["rosenbrock", "taylor"])
-def test_a_new_event_at_a_gap(eventful: Tree, engine: str) -> None:
-    """It ends the collision when the gap is down to its group, by either engine."""
-    if engine == "taylor" and compiler() is None:
-        pytest.skip("no C compiler")
-    told = eventful.told("collide", "granulation", *options(ANALYTIC | CAUGHT, STOKES, engine))
+def test_a_new_event_at_a_gap(eventful: Tree) -> None:
+    """It ends the collision when the gap is down to its group; Rosenbrock confirms the kernel."""
+    told = eventful.told("collide", "granulation", *options(ANALYTIC | CAUGHT, STOKES, "rosenbrock"))
     assert [event["kind"] for event in told["events"]] == ["caught"]
-    assert told["outcome"] == "stick"
+    assert (told["outcome"], told["engine"]) == ("stick", "rosenbrock")
     assert told["events"][0]["time"] == pytest.approx(duration(1.0, 0.5, lambda x: 1 + math.log(x) / STOKES), rel=1e-8)
 
 
-@pytest.mark.parametrize("engine", ["rosenbrock", "taylor"])
-def test_a_new_event_of_another_series(eventful: Tree, engine: str) -> None:
+def test_a_new_event_of_another_series(eventful: Tree) -> None:
     """It happens where u/x is down to its group while opening: the kernel's recurrences of u/x are emitted."""
-    if engine == "taylor" and compiler() is None:
-        pytest.skip("no C compiler")
-    told = eventful.told("collide", "granulation", *options(ANALYTIC | SET, STOKES, engine))
-    assert [event["kind"] for event in told["events"]] == ["rough", "set"]
+    told = eventful.told("collide", "granulation", *options(ANALYTIC | SET, STOKES, "rosenbrock"))
+    assert ([event["kind"] for event in told["events"]], told["engine"]) == (["rough", "set"], "rosenbrock")
 
     def opening(x: float) -> float:
         return 0.6 * (1 + math.log(0.25) / STOKES) - math.log(x / 0.25) / STOKES

@@ -18,7 +18,7 @@ E_N = 0.5022308903692647
 RECORD: dict[str, Any] = {
     "what": "collide", "name": "collide: one", "count": 1,
     "value": {
-        "opening": 1.5.hex(), "restitution": E_N.hex(), "events": ["turned", "rupture"], "text": "flight\nends\n",
+        "opening": 1.5, "restitution": E_N, "events": ["turned", "rupture"], "text": "flight\nends\n",
     },
 }  # fmt: skip
 
@@ -36,7 +36,7 @@ def with_value(**changes: Any) -> list[dict[str, Any]]:
     return [RECORD | {"value": RECORD["value"] | changes}]
 
 
-NEXT = {"restitution": math.nextafter(E_N, 1).hex()}
+NEXT = {"restitution": math.nextafter(E_N, 1)}
 
 
 @pytest.mark.parametrize(

@@ -6,8 +6,7 @@ BEFORE and AFTER are git revisions or folders with derive/, generated/ and solve
 own, with caches of its own, through the public interface (`two_trees_worker.py`), and compiles with -ffp-contract=off,
 lest the compiler fuse products with sums as it likes. What it answers is compared:
 
-* collisions: `collide` and `collide_many` by the CasADi engines, with ledger, events and trajectory;
-* kernels: `collide_many` and `collide` by the Taylor kernel;
+* collisions: `collide` and `collide_many` by each engine, with ledger, events and trajectory;
 * space: `collide_pair` on random vectors, and `collide` where solids chatter until they rest;
 * gradients: `gradients_many`, `sensitivities`, `band`;
 * boundaries: `boundary`, `boundary_sensitivities`, `atlas`, `regime_map`;
@@ -38,7 +37,7 @@ from typing import Any
 
 ROOT = Path(__file__).resolve().parents[1]
 FOLDERS = ("derive", "generated", "solvers")
-KINDS = ("collisions", "kernels", "space", "gradients", "boundaries", "commands")
+KINDS = ("collisions", "space", "gradients", "boundaries", "commands")
 SHOWN = 4  # records of a kind that differ, and differences of a record, that are printed
 _print = partial(print, flush=True)
 
@@ -55,15 +54,15 @@ def leaves(value: Any, path: str = "") -> Iterator[tuple[str, Any]]:
 
 
 def differences(before: dict[str, Any], after: dict[str, Any]) -> Iterator[str]:
-    """What differs between two records of the same name, a text each; floats are in hexadecimal."""
-    old, new = (dict(leaves(record["value"])) for record in (before, after))
+    """What differs between two records of the same name, a text each."""
+    old, new = ({path: repr(each) for path, each in leaves(record["value"])} for record in (before, after))
     for path in {**old, **new}:
         if path not in old or path not in new:
             yield f"{path}: only {'before' if path in old else 'after'}"
-        elif type(old[path]) is not type(new[path]) or old[path] != new[path]:
-            texts = [str(each).splitlines() for each in (old[path], new[path])]
+        elif old[path] != new[path]:
+            texts = [each.replace("\\n", "\n").splitlines() for each in (old[path], new[path])]
             if max(map(len, texts)) < 2:
-                yield f"{path}: {old[path]!r:.200} before, {new[path]!r:.200} after"
+                yield f"{path}: {old[path]:.200} before, {new[path]:.200} after"
             else:
                 yield "\n".join([f"{path}:", *difflib.unified_diff(*texts, "before", "after", n=1, lineterm="")])
 
@@ -146,12 +145,12 @@ def main() -> int:
     parser = argparse.ArgumentParser(description="Whether two trees of this repository compute the same.")
     parser.add_argument("before", metavar="BEFORE")
     parser.add_argument("after", metavar="AFTER")
-    parser.add_argument("--collisions", type=int, help="by the kernel, and in proportion by other engines [2000]")
+    parser.add_argument("--collisions", type=int, help="by each engine [1000]")
     parser.add_argument("--seed", type=int, default=13)
-    parser.add_argument("--quick", action="store_true", help="200 collisions, and less of everything else")
+    parser.add_argument("--quick", action="store_true", help="100 collisions, and less of everything else")
     parser.add_argument("--only", default=",".join(KINDS), help="of " + ",".join(KINDS))
     options = parser.parse_args()
-    options.collisions = options.collisions or (200 if options.quick else 2000)
+    options.collisions = options.collisions or (100 if options.quick else 1000)
     kinds = options.only.split(",")
     for kind in kinds:
         if kind not in KINDS:

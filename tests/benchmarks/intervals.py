@@ -5,7 +5,7 @@
 
 A data set is a liquid with a viscosity of its own between the half and twice a preset's, and impacts in a window of
 speeds about its changes of outcome. Of `ends` half the sets are impacts that all have a change of outcome within two
-standard deviations of their scatter, the others have none there; an end is found again by Newton's method on the
+standard deviations of their scatter, the others have none there; what an end has lost is computed again on the
 likelihood with ten times as many lines. `coverage` counts the intervals of identified entries that hold the truth, and
 fits one and two entries in turn.
 """
@@ -36,8 +36,7 @@ WINDOWS = {  # Stokes numbers that straddle the changes of outcome, and a second
     "lactose-pvp": (3.0, 60.0, "particles.roughness"),
     "pellet-coating": (0.7, 12.0, "liquid.coating_thickness"),
 }
-_CLOSE = 5e-4  # of the log-likelihood, to which the reference's ends are found
-_STEPS = 40
+_CLOSE = 5e-4  # of the log-likelihood, to which the reference's maxima are found
 
 
 @dataclass(frozen=True)
@@ -88,46 +87,26 @@ def maximum(objective: Objective, start: np.ndarray) -> float:
     return float(objective.value(start))
 
 
-def end_again(objective: Objective, top: float, best: np.ndarray, k: int, start: np.ndarray) -> float:
-    """Entry k where the profile has fallen by the drop below the top: within a bracket, others at their maximum."""
-    goal = np.sqrt(2 * objective.drop)
-    others, at = np.flatnonzero(np.arange(best.size) != k), start.copy()
+def beyond(objective: Objective, top: float, best: np.ndarray, k: int, end: np.ndarray) -> float:
+    """How far entry k's end lies beyond the true one, over half the width: the root of twice the drop is linear in it.
 
-    def root(value: float) -> float:
-        """Square root of twice what the profile has lost, from the line through the fit's end on."""
-        at[:] = best + (value - best[k]) / (start[k] - best[k]) * (start - best)
-        for _ in range(12 if others.size else 0):
-            slope = objective.gradient(at)[others]
-            step = np.linalg.solve((objective.information(at) + objective.free.vague)[np.ix_(others, others)], slope)
-            if slope @ step / 2 < _CLOSE:
-                break
-            height, moved = objective.value(at), at.copy()
-            for part in (1.0, 0.5, 0.25, 0.125):
-                moved[others] = at[others] + part * step
-                if objective.value(moved) > height:
-                    at[others] = moved[others]
-                    break
-            else:
-                break
-        return float(np.sqrt(2 * max(top - objective.value(at), 0.0)))
-
-    inside, outside, value = (float(best[k]), 0.0), None, float(start[k])
-    for _ in range(_STEPS):
-        lost = root(value)
-        if abs(lost - goal) < _CLOSE * 0.5:
+    The others are at their maximum there, by Newton's method.
+    """
+    others, at = np.flatnonzero(np.arange(best.size) != k), end.copy()
+    for _ in range(12 if others.size else 0):
+        slope = objective.gradient(at)[others]
+        step = np.linalg.solve((objective.information(at) + objective.free.vague)[np.ix_(others, others)], slope)
+        if slope @ step / 2 < _CLOSE:
             break
-        if lost < goal:
-            inside = value, lost
-        else:
-            outside = value, lost
-        if outside is None:
-            value = best[k] + (value - best[k]) * float(np.clip(goal / max(lost, 1e-9), 1.001, 2.0))
-        else:
-            share = float(np.clip((goal - inside[1]) / (outside[1] - inside[1]), 0.02, 0.98))
-            value = inside[0] + share * (outside[0] - inside[0])
-            if abs(outside[0] - inside[0]) < 1e-7:
+        height, moved = objective.value(at), at.copy()
+        for part in (1.0, 0.5, 0.25, 0.125):
+            moved[others] = at[others] + part * step
+            if objective.value(moved) > height:
+                at[others] = moved[others]
                 break
-    return value
+        else:
+            break
+    return float(np.sqrt(max(top - objective.value(at), 0.0) / objective.drop)) - 1
 
 
 def ends(seeds: range) -> Iterator[tuple[bool, str, str, float, float]]:
@@ -144,11 +123,9 @@ def ends(seeds: range) -> Iterator[tuple[bool, str, str, float, float]]:
         for k, name in enumerate(free.names):
             if found.estimates[name].verdict != IDENTIFIED:
                 continue
-            start = [end.copy() for end in found.ends[k]]
-            again = [end_again(finely(parts, free, end), top, near, k, end) for end in start]
-            half = (again[1] - again[0]) / 2
-            for end, exact in zip(start, again, strict=True):
-                yield changing, drawing.name, name, float(end[k] - exact) / half, spent
+            for end in found.ends[k]:
+                error = beyond(finely(parts, free, end), top, near, k, end)
+                yield changing, drawing.name, name, error, spent
 
 
 def finely(parts: tuple[Part, ...], free: FreeEntries, at: np.ndarray) -> Objective:

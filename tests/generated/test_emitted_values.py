@@ -1,4 +1,7 @@
-"""Every emitted function against the expression it was printed from, in 30 digits."""
+"""Emitted laws and groups against the expressions that they were printed from, in 30 digits.
+
+Functions of structures are integrated beside the kernel, for any scene, by tests/harness/test_equations.py.
+"""
 
 import importlib
 import math
@@ -25,7 +28,6 @@ from wetdoublet.generated.assemble import Laws, casadi_functions
 from wetdoublet.solvers.host.emitted import executed
 
 DIGITS = 30
-REGIONS = ((1, 1), (0, 1), (0, 0))
 RANGES = {
     "gap": (0.02, 0.98), "normal_velocity": (-1.5, 1.5), "orbital_momentum": (6.0, 18.0), "spin": (-0.5, 1.0),
     "rotation": (0.3, 3.0), "stokes": (0.02, 3.0), "aspect": (0.05, 0.3), "obliquity": (0.3, 3.0),
@@ -68,9 +70,6 @@ def magnitude(node: sp.Basic) -> sp.Basic:
 SMALLEST, LARGEST = sp.Function("smallest", real=True), sp.Function("largest", real=True)
 
 
-def inert(expression: Any) -> sp.Expr:
-    """The expression with no bound evaluated."""
-    return sp.sympify(expression).replace(sp.Min, SMALLEST).replace(sp.Max, LARGEST)
 
 
 Exact = Callable[..., list[mpmath.mpf]]
@@ -150,85 +149,18 @@ def test_group(group: sp.Symbol):
 
 # Structures
 
-CHOICES = [
-    {"arm": "midgap", "shear": "immersed", "bridge": "mikami", "strings": "exact", "glass": "literal"},
-    {"arm": "midgap", "shear": "film", "bridge": "rabinovich", "strings": "small-angle", "glass": "film-corrected"},
-]
 
 
-# together they have every state, force, event and term
-STRUCTURES = (
-    Structure(False, True, False),
-    Structure(True, False, False, reduced=True),
-    Structure(True, True, True),
-    Structure(True, True, False, reduced=True, attraction=True, spread=True),
-    Structure(False, False, True, attraction=True),
-    Structure(True, True, False, attraction=True, partner="pair"),
-    Structure(True, True, False, spread=True, partner="wall"),
-)
 
 
-def _law(structure: Structure, choice: int, slot: str) -> Law:
-    films = {"film": "constant-volume" if structure.spread else "finite"}
-    return LAWS[slot][{**films, "attraction": "van-der-waals", **CHOICES[choice]}[slot]]
 
 
-@cache
-def _filled(structure: Structure, choice: int) -> tuple[Model, dict[str, list[sp.Expr]]]:
-    """Every function's outputs as closed expressions, with the Jacobian and the event rates by sympy's derivatives."""
-    model = derive(structure)
-    laws = {slot: _law(structure, choice, slot) for slot in model.slots}
-    whole: dict[sp.Symbol, sp.Expr] = {}
-    for symbol, value in model.definitions:
-        whole[symbol] = fill(inert(value).xreplace(whole), laws)
-    columns = {
-        function.name: [fill(inert(value).xreplace(whole), laws) for _, value in function.outputs]
-        for function in model.functions
-        if not function.certificate
-    }
-    rates = columns["right_hand_side"]
-    columns["jacobian"] = [rate.diff(state) for state in model.states for rate in rates]  # column by column, as CasADi
-    columns["event_rates"] = [
-        sp.Add(*(event.diff(state) * rate for state, rate in zip(model.states, rates, strict=True)))
-        for event in columns["events"]
-    ]
-    return model, columns
 
 
-QUICK = ("head_on_bridge", "oblique_reduced")
 
 
-# laws take turns; the quick structures have every choice, all others are slow: each is derived
-TURNS = [
-    pytest.param(each, choice, marks=() if each.name in QUICK else pytest.mark.slow)
-    for k, each in enumerate(STRUCTURES)
-    for choice in range(len(CHOICES))
-    if each.name in QUICK or choice == k % len(CHOICES)
-]
 
 
-@pytest.mark.parametrize(("structure", "choice"), TURNS)
-def test_structure(structure: Structure, choice: int):
-    """Every function of a structure, its Jacobian and event rates too, is its expression; in all regions."""
-    model, columns = _filled(structure, choice)
-    module = emitted(structure.name)
-    assert [s.name for s in model.states] == [*module.STATES] and [s.name for s in model.groups] == [*module.GROUPS]
-    assert model.slots == module.SLOTS
-    laws = Laws(**{slot: emitted(f"laws.{_law(structure, choice, slot).module}") for slot in module.SLOTS})
-    arguments = [*model.states, *model.groups]
-    exact = {name: exactly([*arguments, FILM, SHEAR], column) for name, column in columns.items()}
-    generator = random.Random(f"{structure.name} {choice}")
-    for film, shear in REGIONS:
-        functions = casadi_functions(module, laws, film=film, shear=shear)
-        assert functions.keys() == columns.keys()
-        for _ in range(2):
-            numbers = draw(generator, [symbol.name for symbol in arguments])
-            state, groups = numbers[: len(model.states)], numbers[len(model.states) :]
-            for name, function in functions.items():
-                found = casadi.densify(function(state, casadi.DM(groups) if groups else casadi.DM(0, 1)))
-                compare(
-                    f"{structure.name}.{name}", exact[name], list(map(float, found.elements())), [*numbers, film, shear]
-                )
 
 
 def test_an_empty_slot_is_named():

@@ -43,9 +43,11 @@ def scene_of(number: int, folder: Path) -> tuple[Scene, dict[str, object]] | str
 def judged(number: int, folder: Path) -> tuple[str, str]:
     """What is found of a model: "refused", "undecided", "right" or "WRONG", and how."""
     drawn = scene_of(number, folder)
-    if isinstance(drawn, str):
-        return "refused", drawn
-    scene, impact = drawn
+    return ("refused", drawn) if isinstance(drawn, str) else compared(*drawn)
+
+
+def compared(scene: Scene, impact: Mapping[str, object]) -> tuple[str, str]:
+    """What is found of a scene with a model, as of `judged`."""
     found, silent = {}, ""
     for engine in ENGINES:
         try:

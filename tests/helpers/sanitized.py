@@ -27,7 +27,6 @@ FLAGS = (
 )
 RTOL = 1e-7
 BUDGET = 3000  # steps: what creeps for longer shows nothing new
-REFERENCE: list[dict[str, Any]] = json.loads((Path(__file__).parents[1] / "data" / "collisions.json").read_text())
 Replay = Callable[[Impacts, bool], bool]  # False where there is no such kernel
 
 
@@ -82,18 +81,6 @@ def replay(preset: str, kind: str, oblique: bool, count: int) -> bool:
     return KINDS[kind](impacts, oblique)
 
 
-def collide_reference(case: dict[str, Any]) -> None:
-    """Integrate a reference collision with its ledger and steps; AssertionError if it is not what it should be."""
-    scene = Scene.from_dict(case["scene"], from_file=True).with_impact(**case["impact"])
-    speed, angle = scene.need_impact()
-    impacts = Impacts(scene, np.array([speed]), np.array([angle]), {})
-    found = run_recorded(impacts, angle > 0, RTOL, ledger=True, trajectory=True)
-    assert found is not None
-    expected, answer = case["results"], found.answers[0]
-    assert ("stick", "stick-rotate-separate", "bounce")[answer["outcome"]] == expected["outcome"]
-    assert abs(answer["shown"][0] - expected["restitution"]) < 1e-4
-
-
 def enclose_random(preset: str, count: int) -> None:
     """Prove random collisions and boxes of a preset, of speeds and angles that no particles have, too."""
     random = np.random.default_rng(count)
@@ -135,11 +122,7 @@ def _inside(what: list[Any]) -> None:
     os.environ.pop("LD_PRELOAD", None)  # the compiler is faster without
     missing: list[str] = []
     for name, *arguments in what:
-        if name == "reference":
-            for case in REFERENCE:
-                if arguments[0] in (None, case["name"]) and case["scene"]["model"]["arm"] == "midgap":
-                    collide_reference(case)
-        elif name == "enclosed":
+        if name == "enclosed":
             enclose_random(*arguments)
         elif not replay(*arguments):
             missing.append(" ".join(map(str, arguments)))

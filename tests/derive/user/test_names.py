@@ -1,22 +1,16 @@
 """Names of declarations: whatever a word means elsewhere, it is refused by name or does no harm."""
 
 import keyword
-from functools import cache
-from pathlib import Path
 
-import casadi
 import pytest
-from wetdoublet.derive.emit.casadi.modules import law_module
-from wetdoublet.derive.laws.modelfile import read
-from wetdoublet.derive.user.declarations import ModelFileError, collecting, let, quantity
+from wetdoublet.derive.user.declarations import ModelFileError, collecting, quantity
 from wetdoublet.derive.user.laws import law
 from wetdoublet.derive.user.motion import event
 from wetdoublet.derive.user.names import taken
-from wetdoublet.derive.vocabulary.quantities import VOCABULARY, sigma, x
+from wetdoublet.derive.vocabulary.quantities import sigma, x
 
 HEAD = "from wetdoublet.derive.user import *\n"
 WORDS = sorted(word for word in taken() if word.islower())
-FREE = [word for word in WORDS if word not in VOCABULARY]
 
 
 def test_the_list_has_every_kind_of_word():
@@ -49,25 +43,3 @@ def test_a_law_may_bear_any_word():
         with collecting() as declared:
             law("bridge", word, force=sigma * x)
         assert ("bridge", word) in declared.laws
-
-
-@pytest.mark.slow
-def test_parts_that_bear_reserved_words_are_the_same_law():
-    """Values of emitted laws whose every part has a word that means something, and with harmless names: equal."""
-
-    @cache
-    def value(*names: str) -> float:
-        parts = "".join(f'p{k} = let("{name}", {k + 2}*x/R + V)\n' for k, name in enumerate(names))
-        total = "+".join(f"p{k}*p{k - 1}" for k in range(len(names)))  # the first by the last
-        body = f'{parts}law("bridge", "mine", force=pi*R*sigma*sqrt({total}))'
-        body = body.replace("p-1", f"p{len(names) - 1}")
-        space: dict = {}
-        exec(law_module(read(Path("mine.py"), HEAD + body).laws[0]), space)  # what is emitted
-        return float(casadi.DM(space["force"](0.3, 0.1, 0.2)))
-
-    for first in range(0, len(FREE), 8):  # many laws of few parts take less than one of all
-        words = FREE[first : first + 8]
-        harmless = value(*(f"part_{k}" for k in range(len(words))))
-        assert value(*words) == pytest.approx(harmless, rel=1e-13)  # terms of a sum are in the order of their names
-    with collecting(), pytest.raises(ModelFileError, match="'viscosity' is taken already: it is a quantity of the lib"):
-        let("viscosity", x)

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 from wetdoublet.solvers import Scene, boundary, boundary_sensitivities, collide_many
-from wetdoublet.solvers.changes.brackets import Brackets, enclose, locate
+from wetdoublet.solvers.changes.brackets import locate
 from wetdoublet.solvers.changes.experiment import Experiment, Rows
 from wetdoublet.solvers.changes.slopes import Lines, outcomes_along, slopes, slopes_by_differences
 
@@ -59,21 +59,6 @@ def test_unknown_labels_are_passed_over() -> None:
     assert changes.low[0] <= 0.49 < 0.51 <= changes.high[0]
     assert changes.high[0] - changes.low[0] < 0.03
     assert changes.low[1] <= 0.505 <= changes.high[1] <= changes.low[1] + 1e-6
-
-
-def test_few_brackets_are_divided_into_many_parts() -> None:
-    """With samples to spare the rounds are few: sixteen parts each, and as many samples as one call may have."""
-    calls = []
-
-    def labels(line: np.ndarray, place: np.ndarray) -> np.ndarray:
-        calls.append(place.size)
-        return (place >= 2.5).astype(int)
-
-    one = Brackets(*(np.array([each]) for each in (0, 1.0, 10.0, 0, 1)))
-    narrow = enclose(labels, one, 1e-9, at_once=16, logarithmic=True)
-    assert np.log(narrow.high / narrow.low).item() <= 1e-9
-    assert narrow.low.item() <= 2.5 <= narrow.high.item()
-    assert calls == [15] * math.ceil(math.log(math.log(10.0) / 1e-9, 16))
 
 
 def test_chatter_is_not_separated() -> None:

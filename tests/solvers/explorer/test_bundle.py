@@ -55,7 +55,7 @@ def embedded(page: str) -> dict[str, bytes]:
 @pytest.mark.slow
 def test_a_law_that_does_not_come_with_the_package_is_compiled(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
     """With an empty cache, and without optimization; the page has the module under the digest of its bytes."""
-    scene = Scene.load("granulation-dry-bridge").with_entries({"attraction.hamaker": 1e-19})
+    scene = Scene.load("granulation-dry-bridge").with_entries({"partner.wall": True})
     source(scene)  # what is derived for it has been derived before
     monkeypatch.setenv("WETDOUBLET_CACHE", str(tmp_path))
     monkeypatch.setattr(modules, "FLAGS", (*QUICK.split(), *modules.FLAGS[1:]))

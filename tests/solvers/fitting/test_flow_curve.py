@@ -127,11 +127,11 @@ def test_a_law_is_found_and_pasted(tmp_path: Path):
 
 
 @pytest.mark.slow
-def test_laws_and_intervals_of_fifteen_liquids():
-    """Fifteen flow curves with 3 % noise: the law of nearly all, and errors as large as the intervals say."""
-    laws, deviations = found(range(15), 1)
-    assert laws >= 14
+def test_laws_and_intervals_of_eight_liquids():
+    """Eight flow curves with 3 % noise: the law of nearly all, and errors as large as the intervals say."""
+    laws, deviations = found(range(8), 1)
+    assert laws >= 7
     size = len(deviations)
-    assert size >= 30
+    assert size >= 16
     assert np.mean(np.square(deviations)) == pytest.approx(1.0, abs=2.5 * np.sqrt(2 / size))
     assert abs(np.mean(deviations)) <= 2.5 / np.sqrt(size)

@@ -128,14 +128,6 @@ def test_what_is_not_committed_is_derived_once(tmp_path: Path, monkeypatch: pyte
     assert emitted.executed("head_on", expected.encode()).STATES == ("gap", "normal_velocity")
 
 
-def test_an_edited_library_module_is_an_error(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
-    """An emitted file of the library that was edited is refused, and the remedy named."""
-    (tmp_path / "head_on.py").write_text("STATES = ()\n")
-    monkeypatch.setattr(emitted, "_FOLDER", tmp_path)
-    with pytest.raises(CheckFailed, match="is not what was emitted .* run `wetdoublet generate`"):
-        emitted._verified.__wrapped__("head_on.py")
-
-
 def test_a_missing_table_of_laws_is_an_error(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
     """No scene is read without it: the file is named, and the remedy."""
     text = Scene.load("granulation").to_toml()

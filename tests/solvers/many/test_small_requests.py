@@ -58,8 +58,9 @@ def test_a_small_map_is_that_of_a_large_request(mine: Path) -> None:
 
 
 _ASKED = """
-from wetdoublet.solvers import Scene, collide, collide_many, regime_map, sensitivities
+from wetdoublet.solvers import Scene, collide, collide_many, compile_kernels, regime_map, sensitivities
 scene = Scene.load("granulation", model={!r}).with_entries({!r})
+assert all(each.already for each in compile_kernels(scene))
 collide(scene, angle=0.5), collide(scene, angle=0.5, trajectory=True), collide(scene, angle=0.5, ledger=False)
 collide_many(scene, stokes=[0.1, 0.2], angle=0.5), regime_map(scene, stokes=[0.1, 0.2], angle=[0.5])
 sensitivities(scene, of=["restitution"], stokes=0.1, angle=0.5)
@@ -74,7 +75,9 @@ def test_compile_has_the_kernels_of_small_requests(mine: Path, tmp_path: Path) -
     compiled = (sys.executable, "-m", "wetdoublet.solvers", "compile", "granulation", "--model", str(mine))
     options = ("--derivatives", "--set", "custom.yield_stress=50 Pa", "--json")
     done = subprocess.run((*compiled, *options), env=environment, capture_output=True, text=True, check=True)
-    there = {path.name for path in (tmp_path / "cache").glob("taylor-*.so")}
-    assert len(there) == len(json.loads(done.stdout)["kernels"])
+    there, said = {path.name for path in (tmp_path / "cache").glob("taylor-*.so")}, json.loads(done.stdout)["kernels"]
+    assert {use for each in said for use in each["serves"]} >= {"collide", "collide_many", "map", "boundary"}
+    assert all(each["seconds"] > 0 and each["bytes"] > 1000 and not each["already"] for each in said)
+    assert len(there) == len(said)
     subprocess.run((sys.executable, "-c", _ASKED.format(str(mine), CUSTOM)), env=environment, check=True)
     assert {path.name for path in (tmp_path / "cache").glob("taylor-*.so")} == there

@@ -2,7 +2,6 @@
 
 import math
 import re
-from collections.abc import Callable
 from functools import cache
 from itertools import pairwise
 
@@ -129,28 +128,6 @@ def test_a_boundary_is_named_by_what_differs(below: Course, above: Course, name:
         assert near is not None
         assert name in near.boundary
         assert near.distance == pytest.approx(abs(place), rel=0.01)
-
-
-@pytest.mark.parametrize(
-    ("speed", "name"),
-    [
-        (lambda past: math.sqrt(past), "rim"),
-        (lambda past: math.sqrt(0.2 + past), "saddle"),
-        (lambda past: 0.4 - 0.1 * math.sqrt(past), GLASS),
-    ],
-)
-def test_the_opening_speed_tells_what_is_lost(speed: Callable[[float], float], name: str) -> None:
-    """A stick that is proved at once, beside a glassy rebound: at the rim the opening speed vanishes, beside a graze it
-    varies with the root of the distance.
-    """
-
-    def courses(factors: np.ndarray) -> list[Course]:
-        past = (factors - 1.01).tolist()
-        return [Course(True, GLASSY, speed(d)) if d > 0 else Course(False, (), 0.0) for d in past]
-
-    near = along_speed(courses, distances.LADDER)
-    assert near is not None
-    assert name in near.boundary
 
 
 @pytest.mark.parametrize(

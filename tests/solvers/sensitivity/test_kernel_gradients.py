@@ -3,12 +3,11 @@
 import numpy as np
 import pytest
 from wetdoublet.generated.automaton import LAST_ANSWER, OUTCOMES, Status
-from wetdoublet.solvers import ComputationError, Scene, collide, gradients_many, sensitivities
+from wetdoublet.solvers import Scene, collide, gradients_many, sensitivities
 from wetdoublet.solvers.engines.taylor.call import Impacts
 from wetdoublet.solvers.engines.taylor.tangent import run_tangent
 from wetdoublet.solvers.host.compiler import compiler
 from wetdoublet.solvers.scene.groups import si_values
-from wetdoublet.solvers.sensitivity import gradients_many as many
 from wetdoublet.solvers.sensitivity.gradients_many import STICK
 
 pytestmark = [pytest.mark.skipif(compiler() is None, reason="no C compiler"), pytest.mark.slow]
@@ -47,24 +46,6 @@ def test_backward_is_forward(preset: str, stokes: tuple[float, float], angle: tu
     units[:, forward.quantities.index("angle")] = impacts.angle
     along, back = (each.slopes[separated, :, 0] * units[separated] for each in (forward, backward))
     assert (np.abs(along - back).max(axis=1) < 1e-9 * np.abs(along).max(axis=1)).all()
-
-
-def test_many_are_taken_back() -> None:
-    """Of more than a hundred, e_n's derivatives are taken back: those carried along where other results are asked for.
-
-    Each is within 1e-6 of its largest elasticity; the same collisions are sticks, and the same are refused.
-    """
-    draw = np.random.default_rng(6)
-    stokes, angle = np.exp(draw.uniform(np.log(0.06), np.log(0.4), 120)), draw.uniform(0.5, 1.3, 120)
-    both = gradients_many("granulation", stokes=stokes, angle=angle, of=OF)
-    back = gradients_many("granulation", stokes=stokes, angle=angle)
-    np.testing.assert_array_equal(both.outcome, back.outcome)
-    np.testing.assert_array_equal(both.reason != "", back.reason != "")
-    along, own = (np.nan_to_num(each.elasticity.values[0]) for each in (both, back))
-    separated = both.outcome.values > 0
-    assert separated.sum() > 40
-    apart = np.abs(along - own).max(axis=1)[separated]
-    assert (apart < 1e-6 * np.abs(along).max(axis=1)[separated]).all()
 
 
 @pytest.mark.parametrize("backward", [False, True])
@@ -128,36 +109,6 @@ def test_a_partner_that_is_equal_varies_alone() -> None:
 
         expected = (at(1e-4) - at(-1e-4)) / 2e-4  # the error is 1e-8 of the third derivative
         assert float(found.gradient["final_spin"][name] or 0) * value == pytest.approx(expected, rel=1e-5)
-
-
-@pytest.mark.parametrize("distance", [6e-4, 5e-5])
-def test_first_touch_needs_no_measuring(distance: float, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Just past the speed at which initial contact is glassy, many say what one says: derivative, or why none.
-
-    The pressure at initial contact is proportional to the speed, so the distance is the speed's own; the limit is 1e-4.
-    """
-    rtol, angle, names = 1e-8, 0.3554, "liquid.viscosity"
-    scene = Scene.load("granulation")
-    probe = 0.2356 / scene.stokes_per_speed
-    seen = run_tangent(Impacts(scene, np.array([probe]), np.array([angle]), {}), True, rtol, False)
-    assert seen is not None
-    assert seen.near[0, 1] == 7
-    speed = probe * np.exp(distance - seen.near[0, 0])
-    one, said = None, ""
-    try:
-        one = sensitivities(scene, ["restitution"], [names], speed=speed, angle=angle, rtol=rtol)
-    except ComputationError as error:
-        said = str(error)
-    monkeypatch.setattr(many, "derivatives", None)  # that nothing is done alone
-    found = gradients_many(scene, speed=speed, angle=angle, wrt=names, rtol=rtol, engine="taylor")
-    assert found.reason.values[0] == said
-    if distance > 1e-4:
-        assert one is not None
-        expected = one.gradient["restitution"]["liquid.viscosity"]
-        np.testing.assert_allclose(found.gradient.values.item(), expected, rtol=1e-6)
-    else:
-        assert f"glass criterion met at initial contact at a relative distance of {distance:.2g}" in said
-        assert np.isnan(found.gradient.values).all()
 
 
 @pytest.mark.parametrize("engine", ["rosenbrock", "cvodes"])

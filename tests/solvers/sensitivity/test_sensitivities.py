@@ -122,6 +122,17 @@ def test_head_on(scene: Scene, stokes: float, engine: str) -> None:
     assert found.gradient["tangential_restitution"]["impact.angle"] is None
 
 
+def test_where_nothing_spins_yet_spins_have_derivatives() -> None:
+    """Head-on, the spins and the rotation after a collision are odd in those before it."""
+    impact = {"speed": 9.0, "angle": 0.0}
+    found = sensitivities(GRANULATION, ["final_spin", "rotation", "restitution"], ["impact.spin"], **impact)
+    near = collide(GRANULATION.with_entries({"impact.spin": 1.0}), **impact, rtol=1e-11, engine="rosenbrock")
+    # the next term is the square of the spin's tangential speed over the normal one: 1e-11
+    assert found.gradient["final_spin"]["impact.spin"] == pytest.approx(near.final_spin, rel=1e-8)
+    assert found.gradient["rotation"]["impact.spin"] == pytest.approx(near.rotation, rel=1e-8)
+    assert found.gradient["restitution"]["impact.spin"] == 0.0
+
+
 @pytest.mark.parametrize("name", ["liquid.viscosity", "particles.reduced_radius", "particles.reduced_mass"])
 def test_holding_the_stokes_number(name: str) -> None:
     """Held St: the speed follows, E_St[p] = E_v[p] - E_v[v] dlnSt/dlnp, St = m v0/(6 pi mu a^2)."""

@@ -1,7 +1,6 @@
 """A replay notices a record of the kernel that is wrong, for each kind of event; the Dataset of a trajectory."""
 
 import json
-import math
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from importlib.metadata import version
@@ -11,7 +10,7 @@ import numpy as np
 import pytest
 import xarray
 from wetdoublet.generated.automaton import KINDS
-from wetdoublet.solvers import ComputationError, Scene, boundary, collide
+from wetdoublet.solvers import ComputationError, Scene, collide
 from wetdoublet.solvers.collision.by_kernel import followed, sequence_in, sequence_of
 from wetdoublet.solvers.engines.casadi import trajectory
 from wetdoublet.solvers.engines.casadi.confirm import Confirmation
@@ -189,23 +188,6 @@ def test_the_kernels_steps_are_confirmed_and_wrong_ones_are_not(name: str) -> No
         except Stopped:
             pass
     assert not confirmed
-
-
-@pytest.mark.slow
-def test_beside_a_separatrix_the_kernel_answers() -> None:
-    """So near that CVODES cannot repeat it the result is the kernel's, confirmed, and says so."""
-    stokes = boundary("granulation", angle=math.radians(55), stokes=(0.03, 0.05)).changes[0][0].stokes
-    stuck, parted = stokes * (1 - 1e-8), stokes * (1 + 1e-8)
-    while parted > stuck * (1 + 1e-11):
-        middle = (stuck + parted) / 2
-        if collide(impact("granulation", middle, "55 deg"), ledger=False).outcome == "stick":
-            stuck = middle
-        else:
-            parted = middle
-    scene = impact("granulation", parted, "55 deg")
-    found = collide(scene, engine="cvodes", ledger=False)
-    assert found.engine == "taylor"
-    assert found == collide(scene, ledger=False)
 
 
 def test_where_an_engine_cannot_follow_the_kernel_answers() -> None:

@@ -10,9 +10,8 @@ from typing import Any
 
 import numpy as np
 import pytest
-from wetdoublet.solvers import Scene, collide, collide_many, sensitivities
+from wetdoublet.solvers import Scene, collide, collide_many
 from wetdoublet.solvers.engines.taylor import build as library
-from wetdoublet.solvers.engines.taylor import headers
 from wetdoublet.solvers.host.compiler import compiler
 from wetdoublet.solvers.scene.scenefile import PRESETS
 
@@ -107,19 +106,3 @@ def test_a_kernel_is_compiled_once(tmp_path: Path, monkeypatch: pytest.MonkeyPat
     library.kernel.cache_clear()
     assert kept[0] == kept[1]
     assert [(name.partition("-")[0], Path(name).suffix) for name, _ in kept[0]] == [("taylor", ".so")]
-
-
-def test_what_has_no_tangent_is_named(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]):
-    """A law whose slopes are not emitted: one line says why, once, and Rosenbrock differentiates."""
-    texts = headers._texts
-    none = ["#error no slopes of it\n"]
-    monkeypatch.setattr(headers, "_texts", lambda choice, tangent: none if tangent else texts(choice, tangent))
-    headers.tangents.cache_clear()
-    headers._say.cache_clear()
-    try:
-        for stokes in (0.3, 0.4):
-            found = sensitivities(Scene.load("granulation"), stokes=stokes, angle=0.5, engine="taylor")
-            assert found.engine == "rosenbrock"
-    finally:
-        headers.tangents.cache_clear()
-    assert capsys.readouterr().err == "derivatives are CasADi's, not the Taylor kernel's (no slopes of it)\n"

@@ -11,7 +11,6 @@ from ....helpers.snapping import BRIDGE, TIMED, TORQUE
 pytestmark = pytest.mark.slow
 
 SAMPLE: list[list[Any]] = [
-    ["reference", "granulation-dry-bridge"],
     ["random", "granulation-dry-bridge", "plain", True, 1000],
     ["random", "granulation-dry-bridge", "ledger and trajectory", True, 300],
     ["random", "granulation-dry-bridge", "steps not kept", True, 300],
@@ -23,7 +22,7 @@ SAMPLE: list[list[Any]] = [
 
 @pytest.mark.skipif(not sanitized.libraries(), reason="the C compiler has no sanitizers")
 def test_sanitizers_find_nothing(tmp_path: Path):
-    """Reference collisions and two thousand random ones, some with numbers that no scene has, under both sanitizers."""
+    """Two thousand random collisions, some with numbers that no scene has, under both sanitizers."""
     done = sanitized.process(SAMPLE, tmp_path)
     assert done.returncode == 0, done.stderr
     assert done.stdout == "done\n"
