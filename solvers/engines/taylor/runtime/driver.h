@@ -147,7 +147,7 @@ static void expand_states(expansion *e, const lanes *l, const fixed *f)
 #endif
 #endif
 #if OWN_EVENTS
-    e->settled = bits(l->alive & l->resting) ? hold_settled(&e->s, l) : splat_mask(0);
+    e->settled = bits(l->alive & l->resting) ? hold_settled(&e->s, &f->c, l) : splat_mask(0);
 #if FRICTION
     if (bits(e->settled))
         expand_damped(&e->r, &e->s, &f->c, l);
@@ -253,8 +253,8 @@ static mask take_step(expansion *e, lanes *l, vec h, mask creeps, vec gap)
     l->steps += 1; /* before a lane may take another collision, which must not depend on this one */
     l->crept = only_whole(creeps, l->crept + 1);
     l->stride = h;
-    mask finite = vec_abs(l->y[GAP]) < INFINITY;
-    finite &= vec_abs(l->y[NORMAL_VELOCITY]) < INFINITY;
+    mask finite = vec_abs(l->y[GAP]) < HUGE_VAL;
+    finite &= vec_abs(l->y[NORMAL_VELOCITY]) < HUGE_VAL;
     return l->alive & NOT(finite);
 }
 
@@ -312,8 +312,8 @@ static void run(queue *q)
             continue;
 #endif /* OWN_EVENTS */
         expand_states(&e, &l, &f);
-#if TURNS
-        if (bits(l.alive & l.resting) && stills_ended(q, &l, &f, (vec (*)[TERMS])&e.s))
+#if TURNS || OWN_EVENTS
+        if (bits(l.alive & (l.y[NORMAL_VELOCITY] == 0.0)) && stills_ended(q, &l, &f, (vec (*)[TERMS])&e.s))
             continue; /* other collisions may have taken these lanes */
 #endif
         mask creeps;
@@ -324,7 +324,7 @@ static void run(queue *q)
 #endif /* KINKS */
         first_event first = event_of_step(q, &e, &l, &f, h);
 #if WITH_LIMIT
-        pass_over_rounding(q, &l, &e.s, h, &first);
+        pass_over_rounding(q, &e.s, h, &first);
 #endif
         mask falls = l.alive & (first.time <= 1.0);
         h = choose(falls, h*first.time, h);
