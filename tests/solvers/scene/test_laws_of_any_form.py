@@ -4,7 +4,7 @@ import math
 from pathlib import Path
 
 import pytest
-from wetdoublet.solvers import InputError, Scene, collide, sensitivities
+from wetdoublet.solvers import InputError, Scene, collide
 
 from ...helpers.judged_models import compared
 
