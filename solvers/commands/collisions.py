@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import math
 import sys
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated, Any
 
 import click
 
@@ -14,7 +13,6 @@ from ..errors import CheckFailed, InputError
 from ..host import files
 from ..host.outputs import check_file
 from ..scene import units
-from ..scene.held import NAMES
 from ..scene.schema import FIELDS
 from . import texts
 from .bar import Bar
@@ -31,11 +29,6 @@ from .options import (
     refuse,
 )
 from .signature import command, passed
-
-if TYPE_CHECKING:
-    import xarray
-
-    from ..scene.scene import Scene
 
 _Radii = Annotated[list[float] | None, partial(texts.entry_range, FIELDS["particles.radius"])]
 _Table = Annotated[Path | None, partial(check_file, label="", suffixes=(".nc", ".csv"), replaced=True)]
@@ -69,29 +62,19 @@ def collide(why: bool, request: Request, output: Shown, **chosen: Any) -> None:
 
 @command("sensitivity.sensitivities:sensitivities")
 def sensitivity(
-    of: Any,
-    wrt: Any,
-    method: Any,
-    uncertainty: Any,
-    over: Any,
-    request: Varied,
-    engine: Any,
-    output: Shown,
-    **chosen: Any,
+    of: Any, wrt: Any, method: Any, uncertainty: Any, request: Varied, engine: Any, output: Shown, **chosen: Any
 ) -> None:
     """Exact derivatives of the results of a collision of SCENE, through its events: gradients and elasticities.
 
     Examples:
       wetdoublet sensitivity granulation --of restitution,contact_time --plot tornado.png
-      wetdoublet sensitivity granulation --uncertainty liquid.viscosity="5 %" --over angle=40:80:17 --plot band.png
+      wetdoublet sensitivity granulation --uncertainty liquid.viscosity="5 %"
 
     Options:
         --of NAMES: Results, as restitution,contact_time,energy.capillary [restitution].
         --wrt NAMES: Parameters, as liquid.viscosity,impact.angle [all of the scene].
         --method M
         --uncertainty
-        --over NAME=RANGE: With --uncertainty: the band over stokes, speed or angle, as stokes=log:0.01:0.5:30 or
-            angle=20:80:25.
         --rtol
         --engine
     """
@@ -108,11 +91,6 @@ def sensitivity(
         raise InputError("--method", method, "forward with --engine taylor", "is not the kernel's")
     scene = request.scene()
     chosen |= passed(hold=request.hold)
-    if over is not None:
-        refuse({"--method": method, "--wrt": wrt, "--engine": engine}, "no {} with --over", "is not for this")
-        data, table = _band(scene, over, uncertainty, of or ["restitution"], chosen)
-        output.put(dataset_text(data) if output.as_json else table, drawn=data.wetdoublet)
-        return
     names = None if wrt is None else check_wrt(scene, wrt)
     scene.need_impact()
     deviation = deviations(scene, uncertainty) if uncertainty else {}
@@ -125,35 +103,6 @@ def sensitivity(
     spread = first_order(gradients, deviation)
     record = gradients.to_dict() | {"standard_deviation": spread}
     output.put(f"{gradients}\n{in_words(gradients, spread)}", record, drawn=gradients)
-
-
-def _band(
-    scene: Scene, over: str, uncertainty: dict[str, str], of: list[str], chosen: dict[str, Any]
-) -> tuple[xarray.Dataset, str]:
-    """The band of one result, and its table."""
-    from ..sensitivity.uncertainty import band
-
-    name, equals, text = over.partition("=")
-    name = name.strip().removeprefix("impact.")
-    units = {"stokes": "", "speed": " (m/s)", "relative_speed": " (m/s)", "angle": " (deg)"}
-    if not equals or name not in units:
-        raise InputError("--over", over, ", ".join(f"{key}=RANGE" for key in units))
-    if not uncertainty:
-        raise InputError("--uncertainty", None, 'NAME=VALUE, such as liquid.viscosity="5 %", with --over')
-    if len(of) != 1:
-        raise InputError("--of", ",".join(of), "one result with --over")
-    entry = FIELDS[f"impact.{name}"]
-    values = texts.entry_range(entry, text, "--over")
-    with Bar("values", "fewer values take less") as progress:
-        data = band(scene, uncertainty, entry.name, values, of=of[0], progress=progress, **chosen)
-    lines = [
-        f"{NAMES.get(name, name) + units[name]:<20} {of[0]:>16} {'± (first order)':>16} {'2.5 %':>12} {'97.5 %':>12}"
-    ]
-    columns = (data[of[0]], data.first_order, data.low, data.high)
-    for value, *row in zip(values, *(column.values.tolist() for column in columns), strict=True):
-        number = math.degrees(value) if name == "angle" else value
-        lines.append(f"{number:<20.6g}" + "".join(f" {x:>{n}.6g}" for x, n in zip(row, (16, 16, 12, 12), strict=True)))
-    return data, "\n".join(lines)
 
 
 @command(free=_FREE, target=_FOR)

@@ -10,9 +10,8 @@ import numpy as np
 
 from ...generated.automaton import OUTCOMES
 from ..errors import InputError
-from ..host.arguments import check_function, check_mapping, check_name, check_whole
+from ..host.arguments import check_mapping, check_name, check_whole
 from ..host.pictures import register
-from ..host.progress import Progress
 from ..many.arguments import checked_numbers
 from ..many.collide_many import collide_many
 from ..results import BY_DEFAULT, attributes
@@ -31,7 +30,6 @@ if TYPE_CHECKING:
 
 _MOST = 2**20  # most samples
 LEVELS = (0.025, 0.975)
-_BLOCK = 64  # values that are computed together where progress is reported
 
 
 def deviations(scene: Scene, uncertainty: Mapping[str, Any], label: str = "uncertainty") -> dict[str, float]:
@@ -102,7 +100,6 @@ def band(
     samples: int = 64,
     hold: str | None = None,
     rtol: float = 1e-8,
-    progress: Progress | None = None,
 ) -> xarray.Dataset:
     """A result over the Stokes number, speed or angle, with its uncertainty.
 
@@ -115,7 +112,6 @@ def band(
         samples: number of scrambled Sobol points for each value (a power of two); normal distributions, truncated to
             valid values.
         hold: what each impact keeps while other parameters vary, as for `sensitivities`.
-        progress: called with (values done, values in all).
 
     Returns:
         Dataset over `over`: the result, `first_order` (its standard deviation; NaN where no derivative exists, with the
@@ -140,15 +136,6 @@ def band(
     if not where.size:
         raise InputError("values", values, "one value at least", "is empty")
     check_samples(samples)
-    check_function(progress, "progress")
-    if progress is not None:
-        parts = []
-        for k in range(0, where.size, _BLOCK):
-            progress(k, where.size)
-            block = where[k : k + _BLOCK].tolist()
-            parts.append(band(loaded, uncertainty, over, block, of=of, samples=samples, hold=hold, rtol=rtol))
-        progress(where.size, where.size)
-        return xr.concat(parts, over, combine_attrs="override")
     at = [loaded.with_impact(**{over.partition(".")[2]: value}) for value in where.tolist()]
     deviations(at[0], uncertainty)
     hold = held_quantity(at[0], hold)

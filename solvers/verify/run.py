@@ -11,7 +11,6 @@ from ..host.arguments import check_flag
 from ..scene.scene import Scene
 from ..scene.scenefile import OF_THE_PAPER
 from .audit import stick_audit
-from .closed import closed_forms
 from .conserved import conserved
 from .identities import symbolic
 from .region import argument, beside_cvodes, grid
@@ -64,7 +63,6 @@ def numeric(scene: Scene, head_on: bool = False, extent: Extent = WHOLE) -> Iter
     sample = collisions(scene, angles, extent)
     checks: dict[str, Callable[[], Iterator[Finding]]] = {
         "conservation": lambda: conserved(sample),
-        "closed forms": lambda: closed_forms(scene, head_on),
         "stick certificate": lambda: stick_audit(scene, angles, extent.audited),
     }
     if not head_on:

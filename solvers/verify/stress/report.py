@@ -1,15 +1,12 @@
-"""Report of the stress test: a record, tables in Markdown, the worst cases as scene files."""
+"""Report of the stress test: a record, its disagreements in Markdown, the worst cases as scene files."""
 
 import json
 import math
 import re
 from collections import Counter
-from collections.abc import Iterable, Sequence
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any
-
-import numpy as np
 
 from ....generated.automaton import OUTCOMES
 from ...formatting.markdown import table
@@ -17,7 +14,7 @@ from ...host import files
 from .judge import SHARE, runs
 from .run import Stress
 from .sample import SEED
-from .verdict import DISAGREEMENTS, FAST, RTOL, Issue, Result, Verdict
+from .verdict import DISAGREEMENTS, FAST, RTOL, Verdict
 
 WORST = 20  # cases written as scene files, of each sort
 
@@ -25,10 +22,10 @@ WORST = 20  # cases written as scene files, of each sort
 def write(stress: Stress, folder: Path) -> list[Path]:
     """Write stress.json, stress.md and the worst cases as scene files; returns their paths."""
     folder.mkdir(parents=True, exist_ok=True)
-    data, text, named = folder / "stress.json", folder / "stress.md", tables(stress)
-    files.write(data, json.dumps(record(stress) | {"tables": named}, indent=1, allow_nan=False) + "\n")
+    data, text = folder / "stress.json", folder / "stress.md"
+    files.write(data, json.dumps(record(stress), indent=1, allow_nan=False) + "\n")
     scenes = worst(stress, folder / "worst")
-    files.write(text, report(stress, named, scenes))
+    files.write(text, report(stress, scenes))
     return [data, text, *scenes]
 
 
@@ -39,6 +36,7 @@ def record(stress: Stress) -> dict[str, Any]:
         "environment": stress.where,
         "settings": {"seed": SEED, "rtol": RTOL, "share": SHARE, "engines": list(runs()), "fast": FAST},
         "summary": stress.summary(),
+        "disagreements": disagreements(stress),
         "outside_of_ranges": dict(stress.remarks),
         "outcomes": {name: sum(case["outcome"] == name for case in cases) for name in OUTCOMES},
         "cases": cases,
@@ -60,16 +58,6 @@ def _case(verdict: Verdict) -> dict[str, Any]:
         "conditioning": verdict.conditioning if verdict.conditioning != math.inf else None,
         "found": {name: {key: getattr(result, key) for key in columns} | result.more for name, result in results},
         "issues": [asdict(issue) for issue in verdict.issues],
-    }
-
-
-def tables(stress: Stress) -> dict[str, str]:
-    """The report's tables by name, also used for documentation pages."""
-    return {
-        "disagreements": _disagreements(stress),
-        "failures": _failures(stress),
-        "engines": _engines(stress),
-        "ledgers": _ledgers(stress),
     }
 
 
@@ -95,13 +83,11 @@ def worst(stress: Stress, folder: Path) -> list[Path]:
     return list(scenes.values())
 
 
-def report(stress: Stress, named: dict[str, str], scenes: list[Path]) -> str:
+def report(stress: Stress, scenes: list[Path]) -> str:
     """Text of `stress.md`."""
     surroundings = "\n".join(f"* {name}: {value}" for name, value in stress.where.items() if value is not None)
     parts = ["# wetdoublet verify --stress", f"**{stress.summary()}**", surroundings]
-    parts += ["## Disagreements", named["disagreements"]]
-    parts += ["## Failures", named["failures"]]
-    parts += ["## Engines", named["engines"], named["ledgers"]]
+    parts += ["## Disagreements", disagreements(stress)]
     if stress.remarks:
         rows = [[text, str(count)] for text, count in sorted(stress.remarks.items())]
         parts += ["## Outside the range of a law", table(["entry and law", "scenes"], rows)]
@@ -110,53 +96,11 @@ def report(stress: Stress, named: dict[str, str], scenes: list[Path]) -> str:
     return "\n\n".join(parts) + "\n"
 
 
-def _counted(head: Sequence[str], keys: Iterable[tuple[str, ...]], none: str) -> str:
-    """A table of how often each row occurs, the most frequent first."""
-    rows = [[*key, str(count)] for key, count in Counter(keys).most_common()]
-    return table([*head, "count"], rows) if rows else none
-
-
-def _disagreements(stress: Stress) -> str:
+def disagreements(stress: Stress) -> str:
+    """How often engines disagreed, by kind and explanation, and each place that has none; in Markdown."""
     issues = stress.issues(*DISAGREEMENTS)
-    keys = ((issue.kind, issue.explained or "**unexplained**") for _, issue in issues)
+    keys = Counter((issue.kind, issue.explained or "**unexplained**") for _, issue in issues)
+    rows = [[*key, str(count)] for key, count in keys.most_common()]
     lines = [f"* {verdict.case.name}: {issue.message}" for verdict, issue in issues if not issue.explained]
-    counted = _counted(["kind", "explanation"], keys, "None.")
+    counted = table(["kind", "explanation", "count"], rows) if rows else "None."
     return "\n\n".join([counted, *(["\n".join(lines)] if lines else [])])
-
-
-def _failures(stress: Stress) -> str:
-    def key(issue: Issue) -> tuple[str, str, str]:
-        """Engines, message without its numbers, and explanation."""
-        words = re.split(r" in phase | at t = |; state|: the collision", issue.message)[0]
-        return ", ".join(issue.between), re.sub(r"[-+]?\d[\d.e+-]*", "#", words), issue.explained or "unexplained"
-
-    keys = (key(issue) for _, issue in stress.issues("failure"))
-    return _counted(["engine", "what it says", "explanation"], keys, "None.")
-
-
-def _engines(stress: Stress) -> str:
-    results: dict[str, list[Result]] = {}
-    for verdict in stress.verdicts:
-        for name, result in verdict.results.items():
-            results.setdefault(name, []).append(result)
-    rows = [
-        [name, str(sum(not result.failure for result in those)), str(sum(result.certified for result in those))]
-        for name, those in results.items()
-    ]
-    return table(["engine", "completed", "proved sticks"], rows)
-
-
-def _ledgers(stress: Stress) -> str:
-    pairs = [(verdict, result.more) for verdict in stress.verdicts for result in verdict.results.values()]
-    figures = {
-        "energy residual over the largest term": [more["residual"] for _, more in pairs if "residual" in more],
-        "drift of L (midgap arm)": [
-            more["drift"] for entry, more in pairs if "drift" in more and entry.case.scene.law_has("arm", "balanced")
-        ],
-        "difference in e_n between engines": [entry.error for entry in stress.verdicts if entry.error is not None],
-    }
-    return "\n".join(
-        f"* {name}: median {np.median(values):.1e}, largest {max(values):.1e}"
-        for name, values in figures.items()
-        if values
-    )

@@ -20,8 +20,6 @@ from wetdoublet.solvers import (
 )
 from wetdoublet.solvers.verify import Finding, Report
 
-from ...helpers.command import run
-
 IMPACT: dict[str, Any] = {"stokes": 0.05, "angle": "75 deg"}
 WRT = ("liquid.viscosity", "impact.speed")
 SOME = {"stokes": [0.02, 0.05, 0.2], "angle": 1.2}
@@ -73,19 +71,6 @@ def test_tables() -> None:
     assert moved.to_dataset().stokes_gradient.sel(parameter=WRT[0]).values.tolist() == slopes
     kinds = moved.boundaries.to_dataset().kind.values.ravel()
     assert [kind for kind in kinds if kind] == [one.change.kind for one in changes]
-
-
-@pytest.mark.slow
-def test_bands_from_the_command_line(tmp_path: Path) -> None:
-    """`--over` prints a table or JSON and draws it."""
-    told = ("--uncertainty", "liquid.viscosity=5 %", "--over", "stokes=0.05:0.2:2", "--plot", tmp_path / "b.png")
-    done = run("sensitivity", "granulation", *told)
-    assert (done.exit_code, done.stderr) == (0, "")
-    expected = band("granulation", **BAND)
-    assert float(done.stdout.splitlines()[2].split()[2]) == pytest.approx(float(expected.first_order[1]), rel=1e-4)
-    assert (tmp_path / "b.png").stat().st_size > 10_000
-    data = json.loads(run("sensitivity", "granulation", *told, "--json").stdout)
-    assert data["data_vars"]["first_order"]["data"] == pytest.approx(list(expected.first_order.values))
 
 
 FINDINGS = (Finding("g", "a", "it holds", "1e-9", "1e-8", True), Finding("g", "b", "told", "2", "", None))

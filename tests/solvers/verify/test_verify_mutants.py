@@ -9,8 +9,7 @@ from typing import Any
 import pytest
 from wetdoublet.solvers import Collision, ComputationError, Scene, collide
 from wetdoublet.solvers.collision.by_kernel import recorded
-from wetdoublet.solvers.engines.casadi.integrators import plain
-from wetdoublet.solvers.verify import audit, closed, conserved, region, sample
+from wetdoublet.solvers.verify import audit, conserved, region, sample
 from wetdoublet.solvers.verify.report import Finding
 
 pytestmark = pytest.mark.slow
@@ -91,19 +90,6 @@ def test_a_collision_that_fails_does_not_lose_the_others() -> None:
     assert failures(found.values()) == ["completed"]
     assert "St 0.12, 60 deg, cvodes" in found["completed"].about[0] and "no event" in found["completed"].about[0]
     assert found["energy ledger"].ok and found["cvodes = rosenbrock"].ok
-
-
-@pytest.mark.parametrize("name", ["granulation", "pendulum"])
-def test_equations_that_are_off_miss_their_closed_forms(name) -> None:
-    """Every group of the equations off by 1e-5: film, straight line, spin and swing all miss, bound 1e-7."""
-
-    def off(flow, engine, told):
-        integrate = plain(flow, engine, told)
-        return lambda y, p, duration: integrate(y, p * (1 + 1e-5), duration)
-
-    swing = ["swinging"] if name == "pendulum" else []
-    laws = ["film alone", "straight line", "spin relaxes", *swing]
-    assert failures(closed.closed_forms(Scene.load(name), plain=off)) == laws
 
 
 def overeager(n, rtol, until=None):

@@ -27,8 +27,7 @@ def page(bench: Record, stress: Record | None, folder: str, law: Record | None =
     if law is not None:
         parts.append(exported_law(law))
     if stress is not None:
-        parts += ["## Engines against each other", STRESS, f"**{stress['summary']}**"]
-        parts += [stress["tables"]["disagreements"], stress["tables"]["engines"], stress["tables"]["ledgers"]]
+        parts += ["## Engines against each other", STRESS, f"**{stress['summary']}**", stress["disagreements"]]
     parts += ["## The machine", tables.surroundings(bench)]
     return "\n\n".join(parts) + "\n"
 
