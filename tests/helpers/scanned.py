@@ -87,7 +87,7 @@ class Scan(Mechanics):
             watch("turned" if self.closing else "fell back", lambda y: sign * self.opening(y))
             if self.closing:
                 if math.isfinite(b.glass):
-                    watch("glass", lambda y: 1 - b.pressure(y[X], self.opening(y), 0.0)[0] / b.glass)
+                    watch("glass", lambda y: 1 - b.pressure(y[X], self.opening(y)) / b.glass)
                 watch("solid", lambda y: y[X] - self.solid)
             elif not (self.rim and self.inside):
                 watch("rupture", lambda y: b.rupture - y[X])
@@ -113,7 +113,7 @@ class Scan(Mechanics):
     def criterion(self) -> str:
         """The rebound criterion that holds at present."""
         b = self.b
-        if b.pressure(self.y[X], self.opening(self.y), 0.0)[0] >= b.glass:
+        if b.pressure(self.y[X], self.opening(self.y)) >= b.glass:
             return "glass"
         return "elastic" if self.y[X] <= self.elastic else "rough" if self.y[X] <= b.roughness else ""
 

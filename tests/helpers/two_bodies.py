@@ -146,11 +146,10 @@ class Bodies:
             return 8 * k * one**2, 2 * k * one, 8 * k
         return 8 * k * one**2, 2 * k * one * other, 8 * k * other**2
 
-    def pressure(self, x: float, u: float, acceleration: float) -> tuple[float, float]:
-        """Pressure on the axis of the glass criterion, and its rate."""
+    def pressure(self, x: float, u: float) -> float:
+        """Pressure on the axis of the glass criterion."""
         rim = 1 / self.film_thickness**2 if self.glass_law == "film-corrected" else 0.0
-        k, shape = -3 * self.viscosity * self.a, 1 / x**2 - rim
-        return k * u * shape, k * (acceleration * shape - 2 * u * u / x**3)
+        return -3 * self.viscosity * self.a * u * (1 / x**2 - rim)
 
     def pull(self, x: float) -> float:
         """All that attracts: bridge and van der Waals."""

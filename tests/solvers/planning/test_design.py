@@ -114,7 +114,9 @@ def test_the_table_is_what_a_fit_reads(found: Design, tmp_path: Path) -> None:
 
 @pytest.mark.slow
 def test_the_table_shows_the_impacts(found: Design) -> None:
-    """A row for each distinct impact, the expected intervals, and what the design is compared with."""
+    """A row for each distinct impact, the expected intervals, what it is compared with; progress came to its end."""
+    done = [each for each, _ in reported]
+    assert (done[0], done, done[-1]) == (0, sorted(done), reported[-1][1])
     text = str(found)
     assert text.startswith("6 impacts for liquid.viscosity, liquid.film_thickness")
     assert all(f"{each.stokes:.4g}" in text for each in found.impacts)

@@ -80,8 +80,7 @@ def scene(model: Path, **custom: object) -> Scene:
 @pytest.mark.parametrize(
     ("engine", "model", "torque"),
     [
-        ("taylor", "bridge", 0.0), ("cvodes", "bridge", 0.0), ("taylor", "torque", 1e-11),
-        ("taylor", "torque", -3e-12), ("rosenbrock", "torque", -3e-12),
+        ("taylor", "bridge", 0.0), ("cvodes", "torque", 1e-11), ("rosenbrock", "torque", -3e-12),
     ],
 )  # fmt: skip
 def test_cut_offs_come_when_the_rotation_or_the_time_is_there(
@@ -192,17 +191,6 @@ def test_a_proof_stands_beside_a_cut_off(tmp_path: Path):
         assert [event.kind for event in found.events] == ["glass", "rests", "far enough"]
         assert found.until == pytest.approx(2e-3, rel=1e-7)
         assert found.certified
-
-
-def test_many_collisions_have_the_events_of_each(models: dict[str, Path]):
-    """In lanes side by side, with cut-offs at rest at different times."""
-    ends = np.linspace(1e-3, 5e-3, 13)
-    own = scene(models["torque"], twist=1e-11)
-    expected = Rotation(own, own.speed_of(IMPACT["stokes"]), 1e-11)
-    angles = [expected.angle(end) for end in ends]
-    many = collide_many(own, **IMPACT, vary={"custom.largest": angles}, of=("outcome", "rotation", "certified"))
-    assert (many["outcome"].values == 0).all()
-    assert not many["certified"].values.any()
 
 
 NEVER = """

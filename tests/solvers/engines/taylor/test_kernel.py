@@ -8,7 +8,6 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 import pytest
 from wetdoublet.solvers import Scene, collide, collide_many
 from wetdoublet.solvers.engines.taylor import build as library
@@ -51,25 +50,6 @@ def test_reference_collisions(reference: dict[str, Any]):
         assert mine.time == pytest.approx(theirs["time"], rel=1e-10, abs=1e-300)
     for term, value in found.energy.to_dict().items():
         assert value == pytest.approx(expected["energy"][term], abs=1e-11 * expected["energy"]["initial"]), term
-
-
-def test_collisions_that_end_at_initial_contact_do_not_move():
-    """Solids that meet at x0 rebound and separate there: e_n = e_dry, e_t = 1, no time, whoever had the lane before."""
-    soft = {"particles.youngs_modulus": "1 MPa", "particles.poisson_ratio": 0.3, "particles.dry_restitution": 0.9}
-    film = {"liquid.film_thickness": "5 um", "liquid.glass_transition_pressure": "1 GPa"}
-    scene = Scene.load("granulation-dry-bridge").with_entries(soft | film)
-    count = 40  # more than are computed side by side, several times over
-    found = collide_many(
-        scene,
-        stokes=np.geomspace(0.5, 5.0, count),
-        angle=np.linspace(0.1, 1.5, count),
-        engine="taylor",
-        of=("outcome", "restitution", "tangential_restitution", "contact_time", "smallest_gap"),
-    )
-    assert (found["outcome"] == 2).all() and (found["contact_time"] == 0.0).all()
-    np.testing.assert_allclose(found["restitution"], 0.9, rtol=1e-15)
-    np.testing.assert_allclose(found["tangential_restitution"], 1.0, rtol=1e-14)
-    np.testing.assert_allclose(found["smallest_gap"], 5e-6, rtol=1e-15)
 
 
 @pytest.mark.skipif(os.name != "posix", reason="environments as on POSIX")
