@@ -12,7 +12,7 @@ static inline vec next_gap(const lanes *l, const fixed *f, mask *event)
     const mask inside = splat_mask(TRUTH), beyond = inside;
 #endif
     const vec zero = splat(0.0), one = splat(1.0), away = choose(l->closing, one, -one);
-    vec gap = away*-INFINITY;
+    vec gap = away*-HUGE_VAL;
     mask nearer;
     (void)zero; (void)inside; (void)beyond;
     *event = splat_mask(0);

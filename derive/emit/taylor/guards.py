@@ -53,7 +53,7 @@ def guards_header(provenance: str) -> str:
 
 
 def _next_gap() -> list[str]:
-    body = [*_film(), _AWAY, "vec gap = away*-INFINITY;", "mask nearer;", "(void)zero; (void)inside; (void)beyond;",
+    body = [*_film(), _AWAY, "vec gap = away*-HUGE_VAL;", "mask nearer;", "(void)zero; (void)inside; (void)beyond;",
             "*event = splat_mask(0);"]  # fmt: skip
     for event in EVENTS:
         if event.at_gap:

@@ -32,6 +32,11 @@ _OWN_EVENTS, _OWN_TERMS, _KINKS, _STOPPED = (
     re.compile(rf"#if {name}\n.*?^#endif /\* {name} \*/\n", re.MULTILINE | re.DOTALL)
     for name in ("OWN_EVENTS", "OWN_TERMS", "KINKS", r"\(KINKS \|\| !FILM_MOMENTUM\) && !OWN_EVENTS")
 )
+# Of what a model need not have: 0 where no emitted header defines it.
+_OPTIONAL = (
+    "FRICTION", "KINKS", "OWN_EVENTS", "OWN_TERMS",
+    "ATTRACTION_MARGINS", "ORBITAL_MARGINS", "PENDULUM_MARGINS", "SPIN_DOWN_MARGINS",
+)  # fmt: skip
 _GUARDS = re.compile(r"^#define (\w+)_kinks\(s\) (.*)$", re.MULTILINE)
 _STRUCT, _MEMBER = re.compile(r"typedef struct \{([^}]*)\} series;"), re.compile(r"\b(\w+)_series (\w+);")
 
@@ -111,6 +116,8 @@ def files(variant: Variant, emitted: tuple[str, ...]) -> dict[str, str]:
     }
     kinks, layout = _kinks(emitted), declarations(variant.ledger, books_own(variant.choice), variant.space)
     settings["READS_SERIES"] |= int(bool(kinks))
+    model = "\n".join([*emitted, *kinks])
+    absent = [f"#define {name} 0" for name in _OPTIONAL if f"#define {name} " not in model]
     return {
         **({} if own else {"own_events.h": ""}),
         **({} if kinks else {"kinks.h": ""}),
@@ -119,7 +126,7 @@ def files(variant: Variant, emitted: tuple[str, ...]) -> dict[str, str]:
         ),
         "layout.h": f'{_ONCE}\n#include "vector.h"\n{layout}\n',
         **automaton(variant.choice),
-        "model.h": "\n".join([_ONCE, '#include "series.h"', '#include "whole_series.h"', *emitted, *kinks]),
+        "model.h": "\n".join([_ONCE, '#include "series.h"', '#include "whole_series.h"', *absent, model]),
     }
 
 

@@ -22,6 +22,7 @@ OWN = Scene.load("granulation").with_entries(  # equal masses, which is far from
     }
 )  # fmt: skip
 STRICT = (*QUICK.split(), "-pedantic", "-Wall", "-Wextra", "-Werror")
+STRICT += ("-Wconversion", "-Wdouble-promotion", "-Wshadow", "-Wundef")
 
 
 @pytest.fixture(scope="session")

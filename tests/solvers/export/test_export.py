@@ -13,14 +13,15 @@ from wetdoublet.derive.emit.casadi.modules import law_module
 from wetdoublet.derive.emit.compare import compare, equations, plain, same
 from wetdoublet.derive.emit.read import ReadError, functions
 from wetdoublet.derive.laws.modelfile import read
-from wetdoublet.solvers import Scene, collide
+from wetdoublet.solvers import Scene, collide, collide_many
 from wetdoublet.solvers.export import differences
 from wetdoublet.solvers.export.functions import texts as c_texts
-from wetdoublet.solvers.export.law.texts import source
 from wetdoublet.solvers.model.dimensionless import nondimensionalise
 from wetdoublet.solvers.model.model import load, select_model
 
 from ...helpers.command import run
+from ...helpers.exported_law import FOUND, Law, law_alone
+from .conftest import STRICT
 
 GENERATED = Path(differences.__file__).parents[2] / "generated"
 RULES = ("__init__.py", "assemble.py", "automaton.py", "references.py")  # no equations
@@ -176,12 +177,20 @@ def test_exported_c_is_the_model(tmp_path: Path):
     np.testing.assert_allclose([float(word) for word in found], expected, rtol=1e-13)
 
 
+@pytest.mark.skipif("gcc" not in FOUND, reason="needs gcc and g++")
 @pytest.mark.slow
-def test_each_kernel_of_a_law_has_its_own_table_of_declared_events(tmp_path: Path):
-    """Head-on and oblique kernels stand in one file: a name that both define would not compile."""
+def test_the_law_of_a_model_with_declared_events_does_as_its_kernel(tmp_path: Path):
+    """Head-on and oblique kernels in one file of plain doubles, without a warning; outcomes and proofs are the same."""
     snap = 'event("snap", guard=limit - u/x, where="opening beyond the film", ends="separated")\n'
-    limit = 'limit = quantity("limit", unit="1/s", default="1e5 1/s")\n'
+    limit = 'limit = quantity("limit", unit="1/s", default="1e4 1/s")\n'
     (tmp_path / "snap.py").write_text("from wetdoublet.derive.user import *\n" + limit + snap)
-    text = source(Scene.load("granulation", model=tmp_path / "snap.py")).c
-    tables = re.findall(r"^static const struct \{[^}]*\} (\w+)\[", text, re.M)
-    assert len(tables) > 1 and len({*tables}) == len(tables)
+    scene = Scene.load("granulation", model=tmp_path / "snap.py")
+    law = Law(scene, law_alone(scene, tmp_path), *STRICT, "-DGRANULATION_LANES=1")
+    stokes, angles = np.array([0.02, 0.08, 0.2, 0.05, 0.3]), np.radians([60, 60, 60, 0, 0])
+    found = law.collide(law.impacts(speed=scene.speed_of(1.0) * stokes, angle=angles))
+    expected = collide_many(scene, stokes=stokes, angle=angles, of=("outcome", "restitution", "certified"))
+    assert collide(scene, stokes=stokes[1], angle=angles[1], ledger=False).events[-1].kind == "snap"
+    for name in ("outcome", "certified"):
+        np.testing.assert_array_equal(found[name], expected[name])
+    assert found["certified"].any()
+    np.testing.assert_allclose(found["restitution"], expected["restitution"], rtol=1e-9, atol=0)

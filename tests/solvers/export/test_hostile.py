@@ -8,7 +8,7 @@ import pytest
 from wetdoublet.solvers.export.law.texts import law_name
 
 from ...helpers.exported_law import FOUND, SANITIZED
-from .conftest import SPHERES
+from .conftest import SPHERES, STRICT
 
 pytestmark = [pytest.mark.slow, pytest.mark.skipif("gcc" not in FOUND, reason="needs gcc and g++")]
 HOSTILE = r"""
@@ -96,8 +96,7 @@ def test_hostile_numbers_under_sanitizers(folder: Path, tmp_path: Path) -> None:
     folder, name = Path(shutil.copytree(folder, tmp_path / "law")), law_name(SPHERES)
     text = HOSTILE.replace("LAW_", f"{name.upper()}_").replace("law_", f"{name}_").replace("NAME", name)
     (folder / "hostile.c").write_text(text)
-    warned = ["-pedantic", "-Wall", "-Wextra", "-Wconversion", "-Wshadow", "-Werror"]
-    command = ["gcc", "-std=c99", *warned, "-fsyntax-only", f"{name}.c", "hostile.c", "check.c"]
+    command = ["gcc", "-std=c99", *STRICT, "-fsyntax-only", f"{name}.c", "hostile.c", "check.c"]
     subprocess.run(command, cwd=folder, check=True)
     flags = ["-std=c99", *SANITIZED["gcc"], f"-D{name.upper()}_LANES=2"]
     built = subprocess.run(["gcc", *flags, "-c", f"{name}.c"], cwd=folder, check=False, capture_output=True, text=True)

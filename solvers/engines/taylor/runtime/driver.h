@@ -253,8 +253,8 @@ static mask take_step(expansion *e, lanes *l, vec h, mask creeps, vec gap)
     l->steps += 1; /* before a lane may take another collision, which must not depend on this one */
     l->crept = only_whole(creeps, l->crept + 1);
     l->stride = h;
-    mask finite = vec_abs(l->y[GAP]) < INFINITY;
-    finite &= vec_abs(l->y[NORMAL_VELOCITY]) < INFINITY;
+    mask finite = vec_abs(l->y[GAP]) < HUGE_VAL;
+    finite &= vec_abs(l->y[NORMAL_VELOCITY]) < HUGE_VAL;
     return l->alive & NOT(finite);
 }
 
@@ -324,7 +324,7 @@ static void run(queue *q)
 #endif /* KINKS */
         first_event first = event_of_step(q, &e, &l, &f, h);
 #if WITH_LIMIT
-        pass_over_rounding(q, &l, &e.s, h, &first);
+        pass_over_rounding(q, &e.s, h, &first);
 #endif
         mask falls = l.alive & (first.time <= 1.0);
         h = choose(falls, h*first.time, h);

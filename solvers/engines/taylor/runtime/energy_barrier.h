@@ -11,9 +11,6 @@
 #include "proofs.h"
 
 #define ATTRACTS (BRIDGE || ATTRACTION)
-#if !defined(ORBITAL_MARGINS)
-#define ORBITAL_MARGINS 0
-#endif
 
 typedef struct {
     vec near_gap, near_height; /* the first maximum not exceeded by any beyond it, and the next such maximum */
@@ -150,7 +147,7 @@ static vec summit(const constants *c, const vec *y, vec low, vec high)
 
 static void find_barriers(const constants *c, const vec *y, vec contact, vec end, barrier *b)
 {
-    vec none = splat(-INFINITY);
+    vec none = splat(-HUGE_VAL);
     vec start = vec_min(vec_max(contact, splat(1e-6)), splat(0.5));
     vec ratio = vec_exp(vec_log(start)*(-1.0/(int)INNER)), width = (end - 1.0)*(1.0/(int)OUTER);
     vec low = start, slope = slope_at(c, y, start);
@@ -202,7 +199,7 @@ static void find_barriers(const constants *c, const vec *y, vec contact, vec end
 /* The height of the barrier ahead of a gap; -infinity if there is none. */
 static inline vec height_ahead(const vec *y, const barrier *b)
 {
-    vec none = splat(-INFINITY), gap = y[GAP];
+    vec none = splat(-HUGE_VAL), gap = y[GAP];
     return choose(b->near_gap > gap, b->near_height, choose(b->far_gap > gap, b->far_height, none));
 }
 #endif

@@ -86,6 +86,7 @@ static const series *along_rates(series *s, const vec *y, const vec *rate)
     return s;
 }
 #endif /* OWN_EVENTS */
+
 /* Central differences: extrapolation does not remove an error of the Jacobian from the stiff part. */
 static void find_rates(slow *w, const vec *y)
 {

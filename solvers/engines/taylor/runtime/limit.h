@@ -113,12 +113,13 @@ static void leave_within(queue *q, lanes *l, const fixed *f, vec (*a)[TERMS], do
 static const double NO_MOTION = 1e-13; /* in v0: rounding alone turns a stick that is as slow */
 
 /* Passes over the turning points of a stick that no longer moves along the line of centres. */
-static void pass_over_rounding(const queue *q, const lanes *l, const series *s, vec h, first_event *first)
+static void pass_over_rounding(const queue *q, const series *s, vec h, first_event *first)
 {
     if (!q->contact || !q->contact->stuck)
         return;
-    mask still = (first->event == splat_mask(AT_TURNING)) & (vec_abs(l->y[NORMAL_VELOCITY]) < NO_MOTION);
-    still &= (vec_abs(sum_at(s->normal_velocity, h)) < NO_MOTION) & (vec_abs(sum_at(s->normal_velocity, 0.5*h)) < NO_MOTION);
+    mask still = first->event == splat_mask(AT_TURNING);
+    for (int half = 0; half <= 2; half++)
+        still &= vec_abs(sum_at(s->normal_velocity, 0.5*half*h)) < NO_MOTION;
     first->time = choose(still, splat(NO_ROOT), first->time);
 }
 

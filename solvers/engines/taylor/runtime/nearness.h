@@ -26,7 +26,7 @@ OUTLINE vec least_pressure_margin(const fixed *f, const series *s, vec h)
 {
     const vec (*a)[TERMS] = (const vec (*)[TERMS])s;
     const vec *clearance = s->glass.result;
-    vec slope[TERMS], bend[TERMS], lowest = splat(INFINITY), place = splat(0.0);
+    vec slope[TERMS], bend[TERMS], lowest = splat(HUGE_VAL), place = splat(0.0);
     slope[ORDER] = bend[ORDER] = splat(0.0);
     for (int k = 0; k < ORDER; k++)
         slope[k] = (k + 1.0)*clearance[k + 1];
@@ -62,7 +62,7 @@ static double flatness(const fixed *f, const series *s, const vec *at, double h,
         bend = bend*h + (double)k*(k - 1)*LANE(s->glass.result[k], lane);
     memcpy(still, at, sizeof still);
     still[NORMAL_VELOCITY] = splat(0.0);
-    return bend > 0.0 ? slope*slope/(2.0*bend*in_lane(glass_clearance(&f->c, still), lane)) : INFINITY;
+    return bend > 0.0 ? slope*slope/(2.0*bend*in_lane(glass_clearance(&f->c, still), lane)) : HUGE_VAL;
 }
 
 #if PROOF_BY_ENERGY
@@ -71,10 +71,10 @@ static double near_saddle(const fixed *f, double gap, int lane, int *saddle)
 {
     double gaps[2] = {LANE(f->b.near_gap, lane), LANE(f->b.far_gap, lane)};
     double heights[2] = {LANE(f->b.near_height, lane), LANE(f->b.far_height, lane)};
-    double least = INFINITY;
+    double least = HUGE_VAL;
     *saddle = 0;
     for (int k = 0; k < 2; k++)
-        if (heights[k] > -INFINITY && gaps[k] < LANE(f->end, lane)*(1.0 - 1e-12)) {
+        if (heights[k] > -HUGE_VAL && gaps[k] < LANE(f->end, lane)*(1.0 - 1e-12)) {
             double off = gap/gaps[k] - 1.0;
             *saddle = 1;
             least = fmin(least, off*off);

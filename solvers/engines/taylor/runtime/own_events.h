@@ -59,13 +59,13 @@ static mask own_guards_kept(const constants *c, const vec *from, const vec *to, 
     return kept;
 }
 
-#if defined(POTENTIAL) && !defined(OWN_TERMS) && (!DRIFTS || WALL || !OBLIQUE)
+#if defined(POTENTIAL) && !OWN_TERMS && (!DRIFTS || WALL || !OBLIQUE)
 #define OWN_PROOFS 1
 enum { OWN_PARTS = 24 }; /* of the film, and as many beyond it, within which the potential is bounded by its parts at their ends */
 
 static inline vec gap_of_part(vec start, vec end, int k)
 {
-    double part = (double)(k < OWN_PARTS ? k : k - OWN_PARTS)/OWN_PARTS;
+    double part = (double)(k < OWN_PARTS ? k : k - OWN_PARTS)/(int)OWN_PARTS;
     return k < OWN_PARTS ? start*vec_exp(vec_log(start)*-part) : vec_exp(vec_log(end)*part);
 }
 

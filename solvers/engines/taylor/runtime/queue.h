@@ -36,7 +36,7 @@ static unsigned constants_of(const queue *q, long first, int many, fixed *f, vec
     start(&f->c, y);
     f->contact = contact_gap(&f->c);
     f->end = splat(1.0);
-    f->edge = splat(INFINITY);
+    f->edge = splat(HUGE_VAL);
 #if BRIDGE
     f->end = f->c.rupture_gap;
 #endif
@@ -220,7 +220,7 @@ static void settle(queue *q, const lanes *l, const fixed *f, int lane, int statu
         vec first[STATES];
         start(&f->c, first);
         double slip = in_lane(surface_slip(&f->c, first), lane);
-        a->slip = fabs(slip) < LEAST_SLIP ? NAN : in_lane(surface_slip(&f->c, l->y), lane)/slip;
+        a->slip = fabs(slip) < LEAST_SLIP ? (double)NAN : in_lane(surface_slip(&f->c, l->y), lane)/slip;
 #endif
 #if GRADIENTS
         nearness *near = q->near + LANE(l->index, lane);

@@ -130,7 +130,7 @@ static vec contraction(const panel *p, int from, int to, vec metric)
 static vec on_manifold(slow_series *s, const constants *c, vec gap, vec *normal_velocity, vec *momentum)
 {
     vec u[TERMS], j[TERMS], rise[TERMS], turn[TERMS], bent[TERMS], lag[TERMS], square_of_j[TERMS], force[TERMS];
-    vec film[TERMS], over, least_change = splat(INFINITY);
+    vec film[TERMS], over, least_change = splat(HUGE_VAL);
     s->gap[0] = gap;
     for (int k = 1; k <= SWEEPS; k++)
         s->gap[k] = splat(k == 1 ? 1.0 : 0.0);
@@ -187,7 +187,7 @@ static mask forgets(
     mask late = from->lowest < from->highest; /* it may have begun as late as at the end of this panel */
     t.slowest = choose(late | (gap == from->lowest), splat(0.0), t.slowest);
     t.lag = choose(late, from->lag + vec_abs(at[1].rigid - at[0].rigid), t.lag);
-    vec ratio = vec_exp(vec_log(to/gap)*(1.0/PANELS)), low = splat(0.0), high = splat(INFINITY);
+    vec ratio = vec_exp(vec_log(to/gap)*(1.0/PANELS)), low = splat(0.0), high = splat(HUGE_VAL);
     tube first = t;
     for (int k = 0; k < PANELS + BEYOND; k++) {
         at[0] = at[1];
@@ -275,7 +275,7 @@ static mask descends(slow_series *s, const fixed *f, const vec *y, opening *o)
         at[0] = at[1];
     }
     o->lag += there_rigid - at[0].rigid; /* on the way from the highest gap to the lowest */
-    return sound & (o->lag < INFINITY);
+    return sound & (o->lag < HUGE_VAL);
 }
 
 /* Lanes at initial contact that may jump from there: shear acts from there on, and the manifold is reached well inside

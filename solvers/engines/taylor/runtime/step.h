@@ -57,7 +57,7 @@ static inline vec step_size(const series *s, const fixed *f, mask *creeps)
     /* for a mode exp(-z), z is ORDER times the ratio of the last two terms */
     *creeps = step + before - last > log2(STIFF_FROM/ORDER)*4503599627370496.0;
     if (bits(*creeps)) {
-        vec damped = splat(INFINITY);
+        vec damped = splat(HUGE_VAL);
         for (int k = EXACT + 1; k <= ORDER; k++) {
             vec own = ROOM(k, STRICTER*(1.0 - damping(k)));
             damped = vec_min(damped, (allowed + own)*(1.0/k));

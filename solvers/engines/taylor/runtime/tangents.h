@@ -53,7 +53,7 @@ static void along_near(carried *a, int lane, double measure, int boundary)
 #if BACKWARD
 static void along_start(carried *a, int lane)
 {
-    LANE(a->near, lane) = LANE(a->hint, lane) = INFINITY;
+    LANE(a->near, lane) = LANE(a->hint, lane) = HUGE_VAL;
     LANE(a->boundary, lane) = FAR;
 }
 #else
@@ -80,7 +80,7 @@ static void along_start(carried *a, const constants *v, int lane)
         LANE(a->time[group], lane) = LANE(a->smallest[group], lane) = 0.0;
     }
     LANE(a->least, lane) = 1.0;
-    LANE(a->near, lane) = LANE(a->hint, lane) = INFINITY;
+    LANE(a->near, lane) = LANE(a->hint, lane) = HUGE_VAL;
     LANE(a->boundary, lane) = FAR;
 }
 

@@ -288,7 +288,7 @@ static inline vec vec_exp(vec x)
 /* log: x = 2^n (1 + f), after fdlibm's e_log.c; below one unit in the last place. NaN unless x > 0 and finite. */
 static inline vec vec_log(vec x)
 {
-    mask sound = (x > 0.0) & (x < INFINITY);
+    mask sound = (x > 0.0) & (x < HUGE_VAL);
     mask small = x < 2.2250738585072014e-308;
     x = choose(small, x*18014398509481984.0, x);
     mask high = (mask)(pattern(x) + (0x3ff0000000000000 - 0x3fe6a09e667f3bcd));
@@ -308,7 +308,7 @@ static inline vec vec_log(vec x)
     vec half = 0.5*f*f;
     vec exponent = to_vec(n) - only(small, splat(54.0));
     vec result = exponent*6.93147180369123816490e-01 - ((half - (s*(half + r) + exponent*1.90821492927058770002e-10)) - f);
-    return choose(sound, result, splat(NAN));
+    return choose(sound, result, splat((double)NAN));
 }
 
 /* sin and cos: argument minus a multiple of pi/2 in three parts (|x| < 1e5), then fdlibm's polynomials. */

@@ -30,7 +30,7 @@ static ending beside_wall(const bodies *b, const arrival *a, const law_collision
     made.spin[0] = times(dot(a->spin[0], a->normal), a->normal);
     made.spin[0] = plus(made.spin[0], 1.0/radius, cross(rolls, a->normal));
     double first = length(plus(sliding, -1.0, rolling)), last = length(plus(made.sliding, -1.0, rolls));
-    made.slip = first > 0.0 ? last/first : NAN;
+    made.slip = first > 0.0 ? last/first : (double)NAN;
     return made;
 }
 

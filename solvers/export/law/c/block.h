@@ -27,9 +27,9 @@ static void set_unknown(law_collision *found, int status)
     found->outcome = LAW_UNDECIDED;
     found->certified = 0;
     found->rebound = LAW_NO_REBOUND;
-    found->restitution = found->tangential_restitution = found->slip_restitution = NAN;
-    found->contact_time = found->rotation = found->smallest_gap = found->final_gap = NAN;
-    found->final_spin = found->final_partner_spin = found->final_rotation_rate = NAN;
+    found->restitution = found->tangential_restitution = found->slip_restitution = (double)NAN;
+    found->contact_time = found->rotation = found->smallest_gap = found->final_gap = (double)NAN;
+    found->final_spin = found->final_partner_spin = found->final_rotation_rate = (double)NAN;
 }
 
 /* Of a stick only outcome and restitution are defined by the physics. */

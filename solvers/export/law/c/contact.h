@@ -2,7 +2,7 @@
 
 int law_advance(law_contact *c, double t)
 {
-    if (!(t >= c->time && t < INFINITY))
+    if (!(t >= c->time && t < HUGE_VAL))
         return LAW_BAD_TIME;
     if (c->motion == LAW_APART || c->motion == LAW_CUT_OFF || c->motion == LAW_LOST)
         return c->status;

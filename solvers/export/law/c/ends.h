@@ -21,7 +21,7 @@ static ending as_arrived(const bodies *b, const arrival *a)
     made.time = 0.0;
     made.gap = b->film;
     made.opening = -a->speed;
-    made.slip = NAN;
+    made.slip = (double)NAN;
     made.normal = a->normal;
     made.turning = a->turning;
     made.sliding = times(-1.0, a->sliding);
@@ -87,7 +87,7 @@ static void sphere_after(const bodies *b, const arrival *a, const ending *e, law
 static void unknown(double *numbers, int count)
 {
     while (count--)
-        *numbers++ = NAN;
+        *numbers++ = (double)NAN;
 }
 
 /* Nothing known but a status. */
@@ -96,7 +96,7 @@ static void refuse(int status, law_pair_after *made)
     made->status = status;
     made->outcome = LAW_UNDECIDED;
     made->certified = 0;
-    made->restitution = made->slip_restitution = made->time = made->gap = NAN;
+    made->restitution = made->slip_restitution = made->time = made->gap = (double)NAN;
     unknown(made->position, 3);
     unknown(made->normal, 3);
     for (int k = 0; k < 2; k++) {
@@ -141,7 +141,7 @@ static void both_after(const bodies *b, const arrival *a, const ending *end, law
         put_vector(before[1][k], a->spin[k]);
     }
     grown *= energy_of(b, (const double (*)[3])before[0], (const double (*)[3])before[1]);
-    if (!(fabs(sum) < INFINITY
+    if (!(fabs(sum) < HUGE_VAL
             && energy_of(b, (const double (*)[3])made->velocities, (const double (*)[3])made->spins) <= grown)) {
         refuse(LAW_UNDECIDED_NOT_FINITE, made);
         return;
@@ -149,7 +149,7 @@ static void both_after(const bodies *b, const arrival *a, const ending *end, law
     made->outcome = e->outcome;
     made->certified = end->certified;
     made->restitution = e->outcome == LAW_STICK ? 0.0 : e->opening/a->speed;
-    made->slip_restitution = e->outcome == LAW_STICK ? NAN : e->slip;
+    made->slip_restitution = e->outcome == LAW_STICK ? (double)NAN : e->slip;
     made->time = e->time;
     made->gap = e->gap;
     put_vector(made->normal, times(1.0/length(place), place));

@@ -32,7 +32,7 @@ static double follow_line(line *l, const bodies *b, double time, law_pair_histor
     for (int k = 0; left > 0.0; k++) {
         space_response r, here;
         double gap, velocity, taken = left;
-        if (k == SUBSTEPS || !(fabs(l->velocity) + dot(w->moment, w->moment) < INFINITY)) {
+        if (k == SUBSTEPS || !(fabs(l->velocity) + dot(w->moment, w->moment) < HUGE_VAL)) {
             found->status = k == SUBSTEPS ? LAW_UNDECIDED_NO_BUDGET : LAW_UNDECIDED_NOT_FINITE;
             return -1.0;
         }
@@ -91,11 +91,11 @@ static double follow_line(line *l, const bodies *b, double time, law_pair_histor
 
 static void unforced(law_pair_force *found, int status)
 {
-    double value = status == LAW_OK ? 0.0 : NAN;
+    double value = status == LAW_OK ? 0.0 : (double)NAN;
     found->status = status;
     found->events = 0;
     found->outcome = LAW_UNDECIDED;
-    found->gap = found->restitution = NAN;
+    found->gap = found->restitution = (double)NAN;
     for (int k = 0; k < 3; k++)
         found->force[k] = found->torques[0][k] = found->torques[1][k] = value;
 }
@@ -266,7 +266,7 @@ int law_contact_force(const law_material *material, const law_pair_motion *motio
     law_pair_history s = *history;
     double acts = dt;
     unforced(found, bad_motion(motion, dt));
-    if (found->status == LAW_OK && !(b.contact + b.film < INFINITY && b.film > 0.0))
+    if (found->status == LAW_OK && !(b.contact + b.film < HUGE_VAL && b.film > 0.0))
         unforced(found, check_material(material));
     if (found->status != LAW_OK)
         return found->status;
@@ -279,7 +279,7 @@ int law_contact_force(const law_material *material, const law_pair_motion *motio
         }
     }
     if (!(s.joined == 1 && s.gap > 0.0 && known_speed(&b, s.speed) && s.spare >= 0.0
-            && s.spare + fabs(s.lead) < INFINITY)) {
+            && s.spare + fabs(s.lead) < HUGE_VAL)) {
         unforced(found, LAW_BAD_HISTORY);
         return found->status;
     }
@@ -321,7 +321,7 @@ int law_contact_force(const law_material *material, const law_pair_motion *motio
         found->restitution = l.velocity/s.speed;
         found->outcome = s.rebound == LAW_NO_REBOUND ? LAW_STICK_ROTATE_SEPARATE : LAW_BOUNCE;
     }
-    if (!(largest(vector_of(found->force)) + largest(impulse[0]) + largest(impulse[1]) + s.spare + s.gap < INFINITY)) {
+    if (!(largest(vector_of(found->force)) + largest(impulse[0]) + largest(impulse[1]) + s.spare + s.gap < HUGE_VAL)) {
         unforced(found, LAW_UNDECIDED_NOT_FINITE);
         return found->status;
     }

@@ -51,7 +51,7 @@ static int arrives(const bodies *b, const law_pair *given, arrival *a)
 {
     vector3 n = vector_of(given->normal);
     double size = largest(n), fastest, spinning = 0.0;
-    if (!(size > 0.0 && size < INFINITY))
+    if (!(size > 0.0 && size < HUGE_VAL))
         return LAW_NO_DIRECTION;
     n.x /= size; /* no square overflows */
     n.y /= size;
@@ -65,7 +65,7 @@ static int arrives(const bodies *b, const law_pair *given, arrival *a)
         a->spin[1] = times(0.0, a->normal);
     for (int k = 0; k < 2; k++) {
         double spins = largest(a->spin[k]);
-        if (!(largest(a->velocity[k]) < INFINITY && spins < INFINITY))
+        if (!(largest(a->velocity[k]) < HUGE_VAL && spins < HUGE_VAL))
             return LAW_NOT_A_NUMBER;
         spinning = larger(spinning, spins*b->radius[k]);
     }

@@ -34,7 +34,7 @@ static void run_block(const law_material *m, const block *b, double rtol, int bu
         c->final_gap = (a->status == PROVED_AT_TOUCH ? 1.0 : a->final_gap)*m->film_thickness;
         show(a, unit[k], c);
         if (b->angle[k] == 0.0)
-            c->tangential_restitution = NAN; /* a ratio to nothing */
+            c->tangential_restitution = (double)NAN; /* a ratio to nothing */
     }
 }
 
@@ -55,7 +55,7 @@ static int inconsistent(const law_material *m)
         return LAW_ROUGHNESS_BEYOND_FILM;
 #if BRIDGE
     double end = LANE(c.rupture_gap, 0);
-    if (!(end > 1.0 && end < INFINITY))
+    if (!(end > 1.0 && end < HUGE_VAL))
         return LAW_RUPTURE_WITHIN_FILM;
 #else
     double end = 1.0;

@@ -71,5 +71,5 @@ static double largest(vector3 v)
     double most = fabs(v.x);
     most = fabs(v.y) <= most ? most : fabs(v.y);
     most = fabs(v.z) <= most ? most : fabs(v.z);
-    return v.x != v.x || v.y != v.y || v.z != v.z ? NAN : most;
+    return v.x != v.x || v.y != v.y || v.z != v.z ? (double)NAN : most;
 }

@@ -81,7 +81,7 @@ static double time_to_touch(const bodies *b, vector3 apart, vector3 moving)
     double distance = b->contact + b->film, square = dot(moving, moving), along = dot(apart, moving);
     double beyond = dot(apart, apart) - distance*distance, root = along*along - square*beyond;
     if (!(root >= 0.0 && square > 0.0))
-        return INFINITY;
+        return HUGE_VAL;
     root = sqrt(root);
     return along < 0.0 ? beyond/(root - along) : (-along - root)/square;
 }
