@@ -97,11 +97,12 @@ class SceneRequest:
         refuse(self.options, "a SCENE with {}", "needs a SCENE")
         return None
 
-    def scene(self, remark: bool = False) -> Scene:
+    def scene(self, remark: bool = False, whole: bool = True) -> Scene:
         """Read the scene and apply the changes; InputError for any wrong entry.
 
         Arguments:
             remark: write what was held of the impact to standard error, for commands that show no impact.
+            whole: quantities of a user's model that have no default must be there.
         """
         from ..scene.scene import Scene
         from ..scene.scenefile import PRESETS
@@ -112,15 +113,18 @@ class SceneRequest:
         changed = loaded.with_entries(self.entries, self.hold).with_impact(**self.impact)
         if remark and changed.held:
             click.echo(changed.held, err=True)
-        return Scene.load(changed)  # checks the entries that a user's model requires
+        return Scene.load(changed) if whole else changed
 
     def scene_without_impact(self, problem: str) -> Scene:
-        """Read the scene for a command with impacts of its own, of which --set may set the spins alone."""
+        """Read the scene for a command with impacts of its own, of which --set may set the spins alone.
+
+        What a user's model requires is not demanded: it may vary.
+        """
         for name in self.entries:
             if name.startswith("impact.") and name not in SPINS:
                 accepted = "entries that are not of the impact, or " + " and ".join(SPINS)
                 raise InputError("--set", name, accepted, problem)
-        return self.scene()
+        return self.scene(whole=False)
 
     def numeric(self, name: str) -> Field | None:
         """The entry of this name if it is a number, of a user's model too."""

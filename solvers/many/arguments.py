@@ -86,7 +86,9 @@ def checked_columns(
         most: dimensions of a column; None for any number.
         texts: choices may vary as well.
     """
-    loaded, varied = checked_vary(Scene.load(scene), {} if vary is None else vary, most=most, texts=texts)
+    loaded = scene if isinstance(scene, Scene) else Scene.load(scene)
+    loaded, varied = checked_vary(loaded, {} if vary is None else vary, most=most, texts=texts)
+    loaded = Scene.load(loaded)  # a model's quantities that do not vary are there
     quantity = held_quantity(loaded, hold)
     holds = (varied or hold) and not any(impact.get(name) is not None for name in HOLDS)
     columns = checked_impact(loaded, impact, most, quantity if holds else None) | varied
@@ -98,30 +100,33 @@ def checked_vary(
 ) -> tuple[Scene, dict[str, np.ndarray]]:
     """The scene and the columns of entries that vary other than the impact's speed and angle, SI.
 
-    A spin that varies becomes an entry of the scene. Values of `bridge.volume` with a unit are volumes in m^3 and plain
-    numbers are V/R^3; the scene's own volume is turned into the same. InputError for a wrong entry.
+    A spin or a model's missing quantity that varies becomes an entry. Values of `bridge.volume` with a unit
+    are volumes in m^3 and plain numbers are V/R^3; the scene's own volume is turned into the same. InputError for a
+    wrong entry.
 
     Arguments:
         most: dimensions; None for any number.
         texts: choices may vary as well.
     """
     vary = check_mapping(vary, label, "entries by dotted name, such as {'liquid.viscosity': [1.0, 2.0]}")
-    tables = {"impact", *(name.partition(".")[0] for name, _ in scene.given)}
+    package = scene.package
+    missing = package.missing(scene.entries) if package is not None else ()
+    tables = {name.partition(".")[0] for name in ("impact.", *scene.entries, *missing)}
     for name, values in vary.items():
-        check_varies(name, values, label, scene.package, texts)
+        check_varies(name, values, label, package, texts)
         if "." in name and name.partition(".")[0] not in tables:
             accepted = ", ".join(entry for entry, _ in scene.given if entry not in MEETING)
             raise InputError(label, name, accepted, f"is of a table that the scene {scene.name} has not".strip())
     columns = {}
     for name, values in vary.items():
-        entry = fields(scene.package)[name]
+        entry = fields(package)[name]
         if entry.choices:
             columns[name] = checked_choices(name, values, entry)
             continue
         measured = bool(entry.or_unit) and carries_unit(values, name)
         column = columns[name] = checked_numbers(name, values, entry.measured if measured else entry, most)
         other_unit = entry.or_unit and scene.ways.volume != ("absolute" if measured else "relative")
-        if column.size and (other_unit or (name in SPINS and name not in scene.entries)):
+        if column.size and (other_unit or (name in (*SPINS, *missing) and name not in scene.entries)):
             unit = f" {entry.or_unit}" if measured else ""
             texts_of = (f"{value!r}{unit}" if unit else value for value in column.ravel().tolist())
             # the first value that the scene accepts makes its entry of the same kind as the values

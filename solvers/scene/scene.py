@@ -88,10 +88,11 @@ class Scene(System, NotebookTable):
             InputError: no such file or preset (the nearest is named), broken TOML (file and line), bad entry.
         """
         if isinstance(source, Scene):
-            loaded = source if model is None else source.with_model(model)
-            if loaded.package is not None:
-                loaded.package.demand(loaded.entries)
-            return loaded
+            if model is not None:
+                return source.with_model(model)
+            if source.package is not None:
+                source.package.demand(source.entries)
+            return source
         text, origin = scenefile.read_text(source)
         if model is None:
             return _read(text, origin)

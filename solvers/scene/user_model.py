@@ -108,9 +108,13 @@ class Package:
         if turning is not None and entries.get("partner.wall"):
             accepted = f"another partner, or a model without the event {turning}"
             raise InputError("partner.wall", True, accepted, "has no rotation, of which this event speaks")
-        for name in (f"{self.table}.{name}" for name in self.quantities):
-            if name not in entries and self.fields[name].default is None:
-                raise InputError(name, None, self.fields[name].accepts)
+        for name in self.missing(entries):
+            raise InputError(name, None, self.fields[name].accepts)
+
+    def missing(self, entries: Mapping[str, Any]) -> tuple[str, ...]:
+        """Its quantities without a default that are not among the entries, by dotted name."""
+        names = (f"{self.table}.{name}" for name in self.quantities)
+        return tuple(name for name in names if name not in entries and self.fields[name].default is None)
 
     def chosen(self, entries: Mapping[str, Any]) -> dict[str, str]:
         """Entries that select the model's laws; InputError if the scene lacks the table that a law needs."""

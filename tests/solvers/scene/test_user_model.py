@@ -14,7 +14,20 @@ from wetdoublet.derive.checks.user import model_checks
 from wetdoublet.derive.user.names import EMITTED, taken
 from wetdoublet.derive.user.template import TEMPLATE
 from wetdoublet.derive.vocabulary.quantities import VOCABULARY
-from wetdoublet.solvers import InputError, Scene, collide, collide_many, regime_map
+from wetdoublet.solvers import (
+    InputError,
+    Scene,
+    boundary,
+    collide,
+    collide_many,
+    critical,
+    equations,
+    fit,
+    regime_map,
+    sensitivities,
+    solve,
+)
+from wetdoublet.solvers.host.compiler import compiler
 from wetdoublet.solvers.many.regime_map import scene_of
 from wetdoublet.solvers.verify.conserved import conserved
 from wetdoublet.solvers.verify.identities import of_the_model
@@ -176,6 +189,49 @@ def test_every_word_compiles(tmp_path: Path):
     for language in ("c", "c++"):
         command = ["gcc", "-fsyntax-only", "-x", language, str(tmp_path / "law" / "granulation.c")]
         assert subprocess.run(command, capture_output=True, text=True, check=False).stderr == ""
+
+
+PULLED = """from wetdoublet.derive.user import *
+pull = quantity("pull", unit="N", meaning="pull")
+law("bridge", "pulling", force=pull * exp(-x / R))
+"""
+MEASURED = {"speed [m/s]": [0.1, 0.3], "angle [deg]": [60, 60], "restitution": [0.1, 0.3]}
+CALLS = {
+    "collide": collide,
+    "collide_many": lambda scene: collide_many(scene, stokes=0.1, angle=1.0),
+    "regime_map": lambda scene: regime_map(scene, stokes=[0.1], angle=[1.0]),
+    "sensitivities": lambda scene: sensitivities(scene, of=["restitution"]),
+    "boundary": lambda scene: boundary(scene, angle=[1.0]),
+    "critical": critical,
+    "solve": lambda scene: solve(scene, free="impact.stokes", within=(0.01, 0.1), restitution=0.1),
+    "fit": lambda scene: fit(scene, MEASURED, free=["liquid.viscosity"]),
+    "equations": equations,
+}
+
+
+@pytest.mark.parametrize("call", CALLS)
+def test_a_missing_quantity_of_a_model_is_demanded_by_a_call(call: str, tmp_path: Path):
+    """Not by the loading, from a preset or a Scene."""
+    (tmp_path / "pull.py").write_text(PULLED)
+    for source in ("granulation", Scene.load("granulation")):
+        scene = Scene.load(source, model=tmp_path / "pull.py")
+        with pytest.raises(InputError, match="custom.pull: missing"):
+            CALLS[call](scene)
+
+
+@pytest.mark.skipif(compiler() is None, reason="no C compiler")
+def test_a_missing_quantity_of_a_model_may_vary(tmp_path: Path):
+    """The same collisions as of scenes that have it, from Python and from the command line."""
+    (tmp_path / "pull.py").write_text(PULLED)
+    scene = Scene.load("granulation", model=tmp_path / "pull.py")
+    found = collide_many(scene, stokes=0.1, angle=1.0, vary={"custom.pull": ["1 uN", "2 uN"]})
+    for pull, restitution in zip(("1 uN", "2 uN"), found.restitution.values, strict=True):
+        one = collide(scene.with_entries({"custom.pull": pull}), stokes=0.1, angle=1.0, ledger=False)
+        assert one.restitution == pytest.approx(restitution, rel=1e-9)
+    ranges = ["--stokes", "0.1:0.2:2", "--angle", "1 rad", "--vary", "custom.pull=1:2 uN:2"]
+    drawn = run("map", "granulation", "--model", tmp_path / "pull.py", *ranges, "--json")
+    variables = json.loads(drawn.stdout)["data_vars"]
+    np.testing.assert_allclose(np.ravel(variables["restitution"]["data"])[:2], found.restitution, rtol=1e-9)
 
 
 def test_a_law_of_a_slot_without_a_table_names_the_slot(tmp_path: Path):
