@@ -21,7 +21,7 @@ static uint64_t seed = 1;
 static uint64_t next(void) { seed ^= seed << 13; seed ^= seed >> 7; seed ^= seed << 17; return seed; }
 static double number(void)
 {
-    static const double odd[] = {0.0, -0.0, 1e-308, 1e308, -1e308, 1e-30, 1e30, 5e-324, -1.0, NAN, INFINITY};
+    static const double odd[] = {0.0, -0.0, 1e-308, 1e308, -1e308, 1e-30, 1e30, 5e-324, -1.0, (double)NAN, HUGE_VAL};
     if (next()%4 == 0) { double x; uint64_t bits = next(); memcpy(&x, &bits, 8); return x; }
     return next()%3 ? ((double)(next()%2000) - 1000.0)*1e-3 : odd[next()%11];
 }
@@ -46,7 +46,7 @@ int main(void)
         int status = law_material_of(&entries, &made.m);
         double sum = 0.0;
         for (unsigned n = 0; n < sizeof made/8; n++) sum += fabs(made.numbers[n]);
-        wrong += !(sum < INFINITY) || (status != 0) != (sum == 0.0);
+        wrong += !(sum < HUGE_VAL) || (status != 0) != (sum == 0.0);
         answered[0] += status == 0;
         law_material m = next()%4 ? law_default_material() : made.m;
         spoil(&m, sizeof m, next()%4 == 0);
@@ -54,14 +54,14 @@ int main(void)
         spoil(&i, sizeof i, (unsigned)(next()%3));
         law_collision c;
         status = law_collide(&m, &i, next()%8 ? 1e-6 : number(), 20000, &c);
-        wrong += status == 0 && !(fabs(c.restitution) + (c.outcome ? fabs(c.smallest_gap) : 0.0) < INFINITY);
+        wrong += status == 0 && !(fabs(c.restitution) + (c.outcome ? fabs(c.smallest_gap) : 0.0) < HUGE_VAL);
         answered[1] += status == 0;
 #if LAW_IN_SPACE
         law_pair p;
         law_pair_after after;
         fill(&p, sizeof p);
         status = law_collide_pair(&m, &p, 1e-6, 20000, &after);
-        wrong += status == 0 && !(fabs(after.velocities[0][0]) + fabs(after.spins[0][1]) < INFINITY);
+        wrong += status == 0 && !(fabs(after.velocities[0][0]) + fabs(after.spins[0][1]) < HUGE_VAL);
         answered[2] += status == 0;
 #endif
 #if LAW_FORCES
