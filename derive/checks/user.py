@@ -157,7 +157,8 @@ def _tried(model: UserModel, symbol: sp.Symbol) -> tuple[float, ...]:
     if quantity.symbol == symbol and math.isfinite(low) and math.isfinite(high):
         return (low + 1e-3 * (high - low), (low + high) / 2, high - 1e-3 * (high - low))
     least = (0.0,) if quantity.bounds.not_negative and not quantity.bounds.low_open else ()
-    return (*least, 0.01, 1.0, 100.0) if quantity.bounds.not_negative else (-1.0, -0.01, 0.01, 1.0)
+    # 1.09: no gap of `PASSED`, where a kink at a multiple of x0 has no slope
+    return (*least, 0.01, 1.09, 100.0) if quantity.bounds.not_negative else (-1.09, -0.01, 0.01, 1.09)
 
 
 def _evaluated(function: LawFunction) -> sp.Lambda:

@@ -52,8 +52,8 @@ def momentum_functions(model: Model, constants: Constants, calls: Calls) -> list
     force = next(value for symbol, value in model.definitions if symbol.name == "film_force").subs(FILM, 1)
     (call,) = slot_calls(force)
     name = next(name for name, (slot, _, _) in calls.items() if slot == "film")
-    if call.has(normal_velocity):
-        return ["#define FILM_MOMENTUM 0 /* its force is not proportional to the velocity */", ""]
+    if call.free_symbols & {*model.states[1:]}:
+        return ["#define FILM_MOMENTUM 0 /* its resistance varies with more than the gap */", ""]
     factor = constants.factor(sp.cancel(force / call / normal_velocity), "film_momentum_factor")
     slowing, momentum = (
         function(

@@ -14,11 +14,13 @@ from typing import Any
 import numpy as np
 
 from ....generated.automaton import LOOSEST
+from ...errors import InputError
 from ...model.dimensionless import Problem, nondimensionalise
 from ...model.model import select_model
 from ...scene.contact import NEVER_MET
 from ...scene.groups import rate_scales, sideways
 from ...scene.scene import Scene
+from ...scene.schema import FIELDS
 from ..settings import KERNEL_STEPS, KERNEL_STEPS_IN_SPACE
 from .build import kernel
 from .headers import books_own
@@ -164,11 +166,19 @@ def task(library: ctypes.CDLL, impacts: Impacts, rtol: float, budget: int, answe
     Arguments:
         answers: array for the answers, zeros of ANSWER.
         budget, jumps: as for `run_kernel`.
+
+    Raises:
+        InputError: the scene lacks a quantity.
     """
     call = Task(library, impacts.size, min(rtol, LOOSEST), budget)
     call.number("jumps", jumps)
     values = {"poisson_ratio": 0.0, **NEVER_MET, **impacts.values}
-    call.columns([_column(values[name]) for name in names(library, "quantity_names")])
+    needed = names(library, "quantity_names")
+    for name in needed:
+        if name not in values:  # of a table that the scene has not, read by a model's law or term
+            entry = next(entry for entry in FIELDS.values() if entry.quantity == name)
+            raise InputError(entry.name, None, f"{entry.accepts}, which the model reads")
+    call.columns([_column(values[name]) for name in needed])
     call.buffer("answers", answers)
     return call
 

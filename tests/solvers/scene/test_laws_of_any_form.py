@@ -4,7 +4,7 @@ import math
 from pathlib import Path
 
 import pytest
-from wetdoublet.solvers import Scene, collide
+from wetdoublet.solvers import InputError, Scene, collide
 
 from ...helpers.judged_models import compared
 
@@ -146,3 +146,33 @@ def test_what_the_film_stops_beyond_the_step_of_a_force_sticks(tmp_path: Path):
         found = collide(own, relative_speed=speed, angle=0, engine="taylor", trajectory=True)
         assert (found.outcome, found.certified, found.steps < 300) == ("stick", False, True)
         assert 12e-6 < float(found.trajectory.gap[-1]) < 20e-6
+
+
+@pytest.mark.parametrize("engine", ["taylor", "rosenbrock"])
+def test_a_film_with_the_mark_of_an_event_head_on(engine: str, tmp_path: Path):
+    """It takes Lf(q/x0)/St of the speed, times its factor, on the way to the event's gap and on the way back."""
+    body = (
+        'q = quantity("q", unit="m", default="4 um")\n'
+        'before = event("flip", guard=x - q, where="closing", jump={u: -u})\n'
+        'law("film", "mine", resistance=6*pi*mu*a**2*u/x*(1 - x/x0)**2*(before + Rational(3, 10)))'
+    )
+    own = scene(tmp_path, body, "granulation-dry-bridge", liquid__glass_transition_pressure="1e6 MPa")
+    found = collide(own, stokes=0.2, angle=0, engine=engine)
+    s = 4e-6 / own.liquid.film_thickness
+    taken = math.log(1 / s) - 1.5 + 2 * s - s**2 / 2
+    assert [event.kind for event in found.events] == ["flip", "rupture"]
+    assert found.restitution == pytest.approx(1 - (1.3 + 0.3) * taken / 0.2, rel=1e-8)
+
+
+def test_what_a_law_reads_and_the_scene_has_not_is_named(tmp_path: Path):
+    """An attraction that reads the surface tension, where there is no bridge."""
+    own = scene(tmp_path, 'law("attraction", "mine", force=pi*R*sigma*x0/(x + x0))', "granulation-dry-bridge")
+    with pytest.raises(InputError, match=r"bridge.surface_tension: missing"):
+        collide(own)
+
+
+def test_a_kink_may_lie_at_a_multiple_of_the_film_thickness(tmp_path: Path):
+    """The forms of a law are not compared on its kinks, where it has no slope."""
+    body = 'kink = quantity("kink", unit="1", default="0.9")\n'
+    body += 'law("film", "mine", resistance=6*pi*mu*a**2*u/x*(1 - x/x0)**2*(1 + Abs(x/x0 - kink)))'
+    assert collide(scene(tmp_path, body), stokes=0.1, angle=0, ledger=False).outcome == "stick"
