@@ -7,6 +7,7 @@ import sympy as sp
 from ...equations import terms
 from ...equations.automaton import EVENTS, WORDS
 from ...equations.model import Model
+from ...user.kinks import WIDTH
 from ...user.own_events import AT_REST, OwnEvent
 from ...vocabulary import quantities as q
 from .constants import Constants
@@ -52,6 +53,12 @@ def own_event_functions(
         {event.name: f"guard[{k}]" for k, event in enumerate(present)},
         "Guards of declared events, positive before them.",
     )
+    lines += valued(
+        [(event.name, _least_over_time(guards[event.name])) for event in present],
+        "static inline void own_least(const constants *c, const vec *y, vec *least)",
+        {event.name: f"least[{k}]" for k, event in enumerate(present)},
+        "Bounds below which no guard falls while nothing but the time goes on: of one that swings.",
+    )
     cases = []
     for k, event in enumerate(present):
         jump, release = model[f"jump_{event.name}"], model[f"release_{event.name}"]
@@ -90,3 +97,13 @@ def own_event_functions(
         texts = [*map(str, numbers), event.mark.name.upper(), *map(str, signs), str(int(reach.is_known))]
         table.append(f"    {{{', '.join([*texts, str(harmless), ' | '.join(varies) or '0'])}}},")
     return [*table, "};", ""], [*lines, ""]
+
+
+def _least_over_time(guard: sp.Expr) -> sp.Expr:
+    """A guard at its least for any time, where sines and cosines of the time are all that varies; else -1."""
+    swings = {node: sp.Dummy() for node in guard.atoms(sp.sin, sp.cos) if node.has(q.time_passed)}
+    plain = guard.xreplace(swings)
+    slopes = [plain.diff(swing) for swing in swings.values()]
+    if plain.has(q.time_passed) or any(slope.has(*swings.values()) for slope in slopes):
+        return sp.Integer(-1)
+    return plain.xreplace(dict.fromkeys(swings.values(), sp.Integer(0))) - sum(sp.sqrt(slope**2 + WIDTH**2) for slope in slopes)

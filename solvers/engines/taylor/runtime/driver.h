@@ -147,7 +147,7 @@ static void expand_states(expansion *e, const lanes *l, const fixed *f)
 #endif
 #endif
 #if OWN_EVENTS
-    e->settled = bits(l->alive & l->resting) ? hold_settled(&e->s, l) : splat_mask(0);
+    e->settled = bits(l->alive & l->resting) ? hold_settled(&e->s, &f->c, l) : splat_mask(0);
 #if FRICTION
     if (bits(e->settled))
         expand_damped(&e->r, &e->s, &f->c, l);
@@ -312,8 +312,8 @@ static void run(queue *q)
             continue;
 #endif /* OWN_EVENTS */
         expand_states(&e, &l, &f);
-#if TURNS
-        if (bits(l.alive & l.resting) && stills_ended(q, &l, &f, (vec (*)[TERMS])&e.s))
+#if TURNS || OWN_EVENTS
+        if (bits(l.alive & (l.y[NORMAL_VELOCITY] == 0.0)) && stills_ended(q, &l, &f, (vec (*)[TERMS])&e.s))
             continue; /* other collisions may have taken these lanes */
 #endif
         mask creeps;

@@ -23,26 +23,16 @@ static inline mask own_watched(const vec *y, int which, mask closing, mask resti
     return wanted;
 }
 
-/* Lanes at rest in which a declared event is to come whose guard varies with any of these. */
-static mask own_to_come(const vec *y, vec film, int varies)
-{
-    mask rests = splat_mask(TRUTH), come = splat_mask(0);
-    for (int which = 0; which < OWN_EVENTS; which++)
-        if (OWN[which].varies & varies)
-            come |= own_watched(y, which, NOT(rests), rests, film);
-    return come;
-}
-
 /* Lanes at rest that no declared event sets free: each has happened, does no harm, or has a guard that stays positive. */
 static mask rests_beside_events(const constants *c, const vec *y, vec film)
 {
     vec guard[OWN_EVENTS];
     mask rests = splat_mask(TRUTH), stays = rests;
-    own_guards(c, y, guard);
+    own_least(c, y, guard); /* the guard where no time is in it */
     for (int which = 0; which < OWN_EVENTS; which++)
         if (!OWN[which].harmless) {
             mask comes = own_watched(y, which, NOT(rests), rests, film);
-            stays &= NOT(OWN[which].varies ? comes : comes & NOT(guard[which] > 0.0));
+            stays &= NOT(OWN[which].varies & ~BY_TIME ? comes : comes & NOT(guard[which] > 0.0));
         }
     return stays;
 }

@@ -61,6 +61,20 @@ static mask has_rested_long(const lanes *l)
     return rested & (l->y[NORMAL_VELOCITY] == 0.0);
 }
 
+/* Lanes that do not move in which a declared event may come whose guard varies with any of these. */
+static mask own_to_come(const constants *c, const lanes *l, int varies)
+{
+    vec least[OWN_EVENTS];
+    mask come = splat_mask(0);
+    own_least(c, l->y, least);
+    for (int which = 0; which < OWN_EVENTS; which++)
+        if (OWN[which].varies & varies) {
+            mask comes = own_watched(l->y, which, l->closing, l->resting, l->film);
+            come |= OWN[which].varies == BY_TIME ? comes & NOT(least[which] > 0.0) : comes;
+        }
+    return come;
+}
+
 static mask is_constant(const vec *a)
 {
     mask constant = splat_mask(TRUTH);
@@ -88,10 +102,10 @@ static mask floating(const lanes *l, const series *s)
  *
  * Only guards then limit the step. Otherwise rounding of what has decayed would, to some decay times of it.
  */
-static mask hold_settled(series *s, const lanes *l)
+static mask hold_settled(series *s, const constants *c, const lanes *l)
 {
     vec (*a)[TERMS] = (vec (*)[TERMS])s;
-    mask settled = l->alive & l->resting & own_to_come(l->y, l->film, BY_ROTATION | BY_ANGLE | BY_TIME);
+    mask settled = l->alive & l->resting & own_to_come(c, l, BY_ROTATION | BY_ANGLE | BY_TIME);
     for (int state = 0; state < MODEL_STATES; state++)
         if (state != ANGLE_CLOCK && state != TIME_CLOCK)
             settled &= is_constant(a[state]) | has_decayed(a[state]);
@@ -108,13 +122,14 @@ static mask hold_settled(series *s, const lanes *l)
 }
 #endif /* OWN_EVENTS */
 
-#if TURNS
-/* Ends as sticks the resting lanes whose series are constant: no force changes any more. */
+#if TURNS || OWN_EVENTS
+/* Ends as sticks the lanes at rest, or floating, whose series are constant: no force changes any more. */
 static int stills_ended(queue *q, lanes *l, fixed *f, vec (*a)[TERMS])
 {
     mask still = l->resting;
 #if OWN_EVENTS
-    mask by_angle = own_to_come(l->y, l->film, BY_ANGLE), by_time = own_to_come(l->y, l->film, BY_TIME);
+    mask by_angle = own_to_come(&f->c, l, BY_ANGLE), by_time = own_to_come(&f->c, l, BY_TIME);
+    still |= l->y[NORMAL_VELOCITY] == 0.0;
 #endif /* OWN_EVENTS */
     for (int state = 0; state < MODEL_STATES; state++)
         for (int k = 1; k <= ORDER; k++) {
