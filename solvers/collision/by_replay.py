@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..engines.casadi.confirm import Confirmation
-from ..engines.casadi.replay import Replay, Stopped, replayed
+from ..engines.casadi.replay import PHASES, Replay, Stopped, replayed
 from ..engines.casadi.sequence import EventSequence
 from ..errors import ComputationError
 from ..model.dimensionless import Problem
@@ -71,10 +71,12 @@ def by_replay(
 
 
 def _confirmed(problem: Problem, rtol: float, plugin: str, until: float | None) -> bool:
-    """True if the kernel's trajectory agrees with the equations step by step."""
+    """True if the kernel's trajectory, if it is not too long, agrees with the equations step by step."""
     try:
         ran = followed(problem, rtol, until, ledger=True, trajectory=True)
         assert ran.steps is not None  # requested
+        if ran.steps.rows.size > 10 * PHASES:  # each is integrated: minutes
+            return False
         Confirmation(sequence_in(problem, ran), ran.steps, problem.key(full=True), plugin, rtol).run()
     except (ComputationError, Stopped):
         return False

@@ -106,5 +106,5 @@ def _least_over_time(guard: sp.Expr) -> sp.Expr:
     slopes = [plain.diff(swing) for swing in swings.values()]
     if plain.has(q.time_passed) or any(slope.has(*swings.values()) for slope in slopes):
         return sp.Integer(-1)
-    still = plain.xreplace(dict.fromkeys(swings.values(), sp.Integer(0)))
-    return still - sum(sp.sqrt(slope**2 + WIDTH**2) for slope in slopes)
+    middle = plain.xreplace(dict.fromkeys(swings.values(), sp.Integer(0)))
+    return middle - sum(sp.sqrt(slope**2 + WIDTH**2) for slope in slopes)

@@ -17,6 +17,7 @@ from ...model.key import ModelKey
 from ...model.model import Model, load
 from ...model.phases import Flow, Phase, extra_units, kinks_along
 from ...model.rebound import grip, reset
+from ..settings import KERNEL_STEPS, casadi_steps
 from .integrators import IntegrationFailed, Tolerance, landing, plain, tolerance_for
 from .sequence import EventSequence, PhaseRun
 from .watch import POINTS, Crossing, first_crossing, guards
@@ -32,7 +33,8 @@ _SLOW = 1e-2  # in v0: least speed by which that noise is divided, or slow phase
 _ON_KINK = 1e-11  # of a guard: below it the side is that towards which it changes
 _REST = 10.0  # factor in the height of a rebound within which two engines may differ on whether it comes to rest
 TIGHTEST = 1e-13  # relative tolerance at which a phase is tried last
-PHASES = 10_000  # most phases of a collision, a few seconds
+PHASES = 10_000  # most phases of a collision, of a record a few seconds
+_LONGEST = 10  # times Rosenbrock's steps of one phase: most of a replay, at all of its tolerances
 _PANELS, _BARRIER = 256, 1e-4  # of the work up to a barrier, and its error
 
 
@@ -111,11 +113,14 @@ def replayed(
         ComputationError: there is no sequence, as `record` says.
     """
     used, looser, path = rtol, None, record(rtol)
+    left = KERNEL_STEPS if plugin == "cvodes" else _LONGEST * casadi_steps(rtol)
     while True:
         tolerance = looser or tolerance_for(used, plugin, path.groups)
+        run = Run(path, choice, extras, plugin, tolerance, used, left)
         try:
-            return path, Run(path, choice, extras, plugin, tolerance, used).run()
+            return path, run.run()
         except Stopped as stopped:
+            left -= run.at.steps
             looser = None if stopped.missed else tolerance.loosened(used)
             if looser is not None:
                 continue
@@ -134,6 +139,7 @@ class Run:
     Arguments:
         choice: the model that is integrated, with the quadratures `extras`.
         rtol: relative tolerance of the record.
+        most: steps of the engine.
     """
 
     def __init__(
@@ -144,9 +150,10 @@ class Run:
         plugin: str,
         tolerance: Tolerance,
         rtol: float,
+        most: float = np.inf,
     ) -> None:
         self.path, self.choice, self.extras = path, choice, extras
-        self.plugin, self.tolerance, self.rtol = plugin, tolerance, rtol
+        self.plugin, self.tolerance, self.rtol, self.most = plugin, tolerance, rtol, most
         self.model: Model = load(choice)
         self.p = self.model.group_values(path.groups)
         start = np.concatenate([self.model.start(self.p), np.full(len(extras), tolerance.offset)])
@@ -304,6 +311,8 @@ class _Solution:
     def states(self, duration: float, parts: np.ndarray) -> np.ndarray:
         """States at parts of a duration, as columns."""
         at = self.run.at
+        if at.steps > self.run.most:
+            raise Stopped(f"has not replayed the record in {at.steps} steps", self.phase, at.time, at.y)
         grid = tuple(parts[parts > 0].tolist())
         engine = plain(self.flow, self.run.plugin, self.run.tolerance, grid)
         try:

@@ -135,6 +135,21 @@ def test_a_barrier_that_does_not_hold_is_noticed(plugin: str) -> None:
         done += step.duration
 
 
+def test_a_replay_ends_when_its_steps_are_spent() -> None:
+    """The error has phase, time and state, and what to try, however often the engine begins again."""
+    n, path = recorded(impact(*PARTS))
+    tolerance = tolerance_for(RTOL, "rosenbrock", n.groups)
+    whole = Run(path, n.key(full=True), (), "rosenbrock", tolerance, RTOL).run()
+    spent = Run(path, n.key(full=True), (), "rosenbrock", tolerance, RTOL, most=whole.steps // 2)
+    with pytest.raises(Stopped, match=r"has not replayed the record in \d+ steps") as raised:
+        spent.run()
+    error = raised.value.error("rosenbrock", n.model(full=True))
+    assert 0 < error.time < whole.time
+    assert error.state["gap"] > 0
+    assert error.advice == "try the default engine, or another impact"
+    assert spent.at.steps < whole.steps
+
+
 def test_more_phases_than_it_takes_are_refused_at_once() -> None:
     """The error has the phase and time at which the budget ends, and what to try."""
     scene = impact(*PARTS)
