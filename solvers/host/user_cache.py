@@ -6,7 +6,7 @@ the entries, moved into place and never changed, so several processes may write 
 verified copy that is removed at once, so later changes of the file do not affect a running process.
 
 A folder that other users can write to is refused, because its content is executed. If no folder can be written, entries
-go to a private temporary folder that is removed with the process, or to memory, with one remark.
+go to a private temporary folder that is removed with the process, with one remark.
 """
 
 import atexit
@@ -35,7 +35,6 @@ _DIGITS = 32  # hexadecimal digits of the digest in a name
 _LARGEST = 1 << 28  # bytes; larger than any entry
 _ROOM = 16 << 20  # bytes; ample for a compilation
 _PROBE = bytes(1 << 18)  # content of a trial entry, larger than most
-_MEMORY: dict[str, bytes] = {}  # entries kept in memory if no folder can be written
 _REFUSED: set[Path] = set()  # folders whose failure was reported
 _LOCK = threading.RLock()
 _BY_NAME = Locks()
@@ -73,8 +72,6 @@ def fetch(name: str, make: Callable[[], bytes]) -> bytes:
 
 def lookup(name: str) -> bytes | None:
     """The content of the entry of that name; None if it is missing or damaged."""
-    if name in _MEMORY:
-        return _MEMORY[name]
     stem, _, suffix = name.rpartition(".")
     for shelf in _shelves():
         for file in _names(shelf):
@@ -88,8 +85,7 @@ def lookup(name: str) -> bytes | None:
 
 def has(prefix: str) -> bool:
     """True if an entry's name begins with `prefix`; the entry is not read."""
-    listed = (name for shelf in _shelves() for name in _names(shelf))
-    return any(name.startswith(prefix) for name in (*_MEMORY, *listed))
+    return any(name.startswith(prefix) for shelf in _shelves() for name in _names(shelf))
 
 
 def loaded(content: bytes, opened: Callable[[str], Loaded]) -> Loaded:
@@ -254,7 +250,7 @@ def why_unwritable() -> str:
 
 
 def _put(name: str, content: bytes) -> None:
-    """Write an entry to the first folder that accepts it, or keep it in memory."""
+    """Write an entry to the first folder that accepts it."""
     with _LOCK:
         refused = folder() in _REFUSED
         reason = "" if refused else _write_failure(folder(), name, content)
@@ -263,8 +259,6 @@ def _put(name: str, content: bytes) -> None:
         private = os.environ.get(_PRIVATE)
         usable = private and not _write_failure(Path(private), name, content)
         where = private if usable else _put_in_private_folder(name, content)
-        if where is None:
-            _MEMORY[name] = content
         if not refused:
             _refuse(reason, where)
 
@@ -272,8 +266,8 @@ def _put(name: str, content: bytes) -> None:
 def _refuse(reason: str, where: str | None) -> None:
     """Remember and say once that the user's folder cannot be written."""
     _REFUSED.add(folder())
-    kept_in = "in memory" if where is None else f"in {where}"
-    say(f"{folder()}: {reason}; what is derived or compiled is kept {kept_in} while this runs")
+    place = "not kept" if where is None else f"kept in {where} while this runs"
+    say(f"{folder()}: {reason}; what is derived or compiled is {place}")
 
 
 def _write_failure(place: Path, name: str, content: bytes) -> str:
