@@ -113,14 +113,14 @@ def replayed(
         ComputationError: there is no sequence, as `record` says.
     """
     used, looser, path = rtol, None, record(rtol)
-    left = KERNEL_STEPS if plugin == "cvodes" else _LONGEST * casadi_steps(rtol)
+    budget = KERNEL_STEPS if plugin == "cvodes" else _LONGEST * casadi_steps(rtol)
     while True:
         tolerance = looser or tolerance_for(used, plugin, path.groups)
-        run = Run(path, choice, extras, plugin, tolerance, used, left)
+        run = Run(path, choice, extras, plugin, tolerance, used, budget)
         try:
             return path, run.run()
         except Stopped as stopped:
-            left -= run.at.steps
+            budget -= run.at.steps
             looser = None if stopped.missed else tolerance.loosened(used)
             if looser is not None:
                 continue
