@@ -102,13 +102,19 @@ def _by_casadi(function: LawFunction, emitted: Callable[..., Any]) -> _Values:
     return lambda at: [float(number) for number in compiled([*at.values()]).full()[:, 0]]
 
 
+_STEPS = {
+    "side": lambda value: math.copysign(1.0, complex(value).real),
+    "half": lambda value: float(complex(value).real >= 0),
+}
+
+
 def _by_kernel(function: LawFunction, moving: tuple[sp.Symbol, ...]) -> _Values:
     """The same by the operations of the kernel's programs, at order zero."""
     value, result, program, slopes = slope_program(function, moving)
     lines = [*_lines(value), *_lines(program)]
     results = ", ".join(form if isinstance(form, str) else _text(form) for form in (result, *slopes.values()))
     names = ", ".join(argument.name for argument in function.arguments)
-    space: dict[str, Any] = {"cmath": cmath, "side": lambda value: math.copysign(1.0, complex(value).real)}
+    space: dict[str, Any] = {"cmath": cmath, **_STEPS}
     exec("\n    ".join([f"def values({names}):", *lines, f"return [{results}]"]), space)  # our own text
 
     def values(at: Mapping[sp.Symbol, float]) -> list[float]:
@@ -127,7 +133,7 @@ def _lines(program: Program) -> list[str]:
 
 
 def _text(expression: sp.Expr) -> str:
-    text = sp.pycode(expression, fully_qualified_modules=True, user_functions={"side": "side"})
+    text = sp.pycode(expression, fully_qualified_modules=True, user_functions={name: name for name in _STEPS})
     return str(text).replace("math.", "cmath.")
 
 
@@ -144,6 +150,7 @@ def _expression(operation: Operation) -> sp.Expr:
         case "power":
             return sp.Pow(parts[0], operation.factors[0], evaluate=False)
     functions = {"square": lambda a: a**2, "reciprocal": lambda a: 1 / a, "sqrt": sp.sqrt, "exp": sp.exp, "log": sp.log}
-    functions |= {"sine": sp.sin, "cosine": sp.cos, "arctangent": sp.atan, "side": sp.Function("side")}
+    functions |= {"sine": sp.sin, "cosine": sp.cos, "arctangent": sp.atan}
+    functions |= {name: sp.Function(name) for name in _STEPS}
     result: sp.Expr = functions[operation.kind](parts[0])
     return result

@@ -222,11 +222,19 @@ def cancelled(label: str, by_term: sp.Expr, whole: sp.Expr) -> sp.Expr:
 def as_product(expression: sp.Expr) -> sp.Expr:
     """An expression in factors, in common ones of its terms only where full ones take sympy too long.
 
-    That time grows exponentially with the number of roots and functions: 0.3 s for seven, 6 s for twelve.
+    That time grows exponentially with the number of roots and functions: 0.3 s for seven, 6 s for twelve. exp(50 z)
+    is exp(z)**50 to it, of a polynomial of that degree, so that such an exponential has a name meanwhile.
     """
+    high = {node: sp.Dummy(positive=True) for node in expression.atoms(sp.exp) if _degree(node.exp) > _MANY}
+    if high:
+        return as_product(expression.xreplace(high)).xreplace({name: node for node, name in high.items()})
     atoms = expression.atoms(sp.Pow, sp.Function)
     irrational = {atom.base if isinstance(atom, sp.Pow) else atom for atom in atoms if not _is_whole_power(atom)}
     return sp.factor(expression) if len(irrational) <= _MANY else sp.factor_terms(expression)
+
+
+def _degree(exponent: sp.Expr) -> sp.Expr:
+    return max(abs(term.as_coeff_Mul()[0]) for term in sp.Add.make_args(exponent))
 
 
 def _is_whole_power(atom: sp.Basic) -> bool:

@@ -19,7 +19,7 @@ from ..casadi.printer import EmissionError
 # Cost of an operation in products of whole series; a square counts one half.
 COST = {
     "linear": 0.0, "product": 1.0, "square": 0.5, "quotient": 1.0, "reciprocal": 1.0, "sqrt": 0.5, "exp": 1.0,
-    "log": 1.0, "side": 0.0, "power": 2.0, "sine": 2.0, "cosine": 0.0, "arctangent": 1.0, "call": 0.0,
+    "log": 1.0, "side": 0.0, "half": 0.0, "power": 2.0, "sine": 2.0, "cosine": 0.0, "arctangent": 1.0, "call": 0.0,
 }  # fmt: skip
 Call = tuple[str, str, tuple[str | sp.Expr, ...]]
 """Slot, function and arguments of a law's call: a series by name, a constant as an expression."""
@@ -180,8 +180,11 @@ class Program:
             return self._sine_or_cosine(node, name)
         if isinstance(node, sp.tan):
             return self.series(sp.sin(node.args[0]) / sp.cos(node.args[0]), name)
-        if isinstance(node, sp.tanh):  # by exponentials that fall, which never overflow
-            side = sp.sign(node.args[0])
+        if isinstance(node, sp.Heaviside):
+            inner = self.series(node.args[0])
+            return self._add("half", (inner,), name, f"half_of_{inner}")
+        if isinstance(node, sp.tanh):  # by exponentials that fall, which never overflow; at zero either will do
+            side = 2 * sp.Heaviside(node.args[0], 1) - 1
             fallen = sp.exp(-2 * side * node.args[0])
             return self.series(side * (1 - fallen) / (1 + fallen), name)
         if isinstance(node, (sp.sinh, sp.cosh)):

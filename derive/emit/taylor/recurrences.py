@@ -16,17 +16,20 @@ _NUMBER = re.compile(r"\(?-?[\d.]+(e[-+]?\d+)?\)?")  # as `number` prints it
 # C text of the recurrence of an operation and of its value at order zero: `{0}`, `{1}` are its operands, `whole` is
 # its own series; `over`, `slope` and `inner` are auxiliary series (functions of `engines/taylor/runtime/series.h`).
 _SIDE = "vec_larger(splat(-1.0), vec_smaller(splat(1.0), 2.5e9*{}))"  # 1/ON_KINK of engines/taylor/runtime/kinks.h
+_HALF = "choose({} < 0.0, splat(0.0), splat(1.0))"
 _RECURRENCES = {
     "square": "square({0}, k)", "reciprocal": "reciprocal({0}, {whole}, k)",
     "quotient": "quotient({0}, {1}, {whole}, {over}, k)", "sqrt": "root({0}, {whole}, {over}, k)",
     "power": "power({0}, {whole}, {factor}, {over}, k)", "exp": "exponential({0}, {inner}, {whole}, k)",
     "log": "logarithm({0}, {whole}, {slope}, {over}, k)", "arctangent": "arctangent({0}, {inner}, {1}, k)",
     "side": f"k == 0 ? {_SIDE.format('{0}[0]')} : splat(0.0)",
+    "half": f"k == 0 ? {_HALF.format('{0}[0]')} : splat(0.0)",
 }  # fmt: skip
 _VALUES = {
     "square": "{0}*{0}", "reciprocal": "1.0/{0}", "quotient": "{0}/{1}", "power": "vec_exp({factor}*vec_log({0}))",
     "sqrt": "vec_sqrt({0})", "exp": "vec_exp({0})", "log": "vec_log({0})", "sine": "vec_sin({0})",
     "cosine": "vec_cos({0})", "arctangent": "vec_atan({0})", "side": _SIDE.format("{0}"),
+    "half": _HALF.format("{0}"),
 }  # fmt: skip
 
 
