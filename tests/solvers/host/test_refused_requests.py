@@ -84,9 +84,9 @@ REFUSED: dict[str, list[tuple[Any, ...]]] = {  # what is changed of it, the fiel
     "design": [
         ({"free": ["liquid.viscosty"]}, "free"),
         ({"free": ["bridge.contact_angle"], "over": {"stokes": (1e-4, 2e-4), "angle": 0.0}, "n": 1}, "free"),
-        ({"over": {"stokes": (0.1, 0.2)}}, "over"),
-        ({"over": {"stokes": (0.1, 0.2), "angle": (0.0, 1.6)}}, "over angle"),
-        ({"over": {"stokes": 0.1, "speed": 1.0, "angle": 0.0}}, "over"), ({"n": 0}, "n"),
+        ({"over": {"stokes": (0.1, 0.2), "angle": (0.0, 1.6)}}, "impact.angle"),
+        ({"over": {"stokes": (0.1, 0.2), "angle": (0.5, 0.2)}}, "over angle"),
+        ({"over": {"stokes": 0.1, "speed": 1.0, "angle": 0.0}}, "speed"), ({"n": 0}, "n"),
         ({"target": "particles.roughness"}, "target"), ({"speed_sd": "40 %"}, "speed_sd"),
         ({"restitution_sd": 0}, "restitution_sd"), ({"prior": {"particles.roughness": "1 um +- 10 %"}}, "prior"),
     ],
