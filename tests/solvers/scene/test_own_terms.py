@@ -178,6 +178,7 @@ def test_a_term_may_give_energy_in_space(tmp_path: Path):
     exported = law.collide_pairs(law.pairs(pair[0], np.array([pair[1]]), np.array([pair[2]])))
     values = [float(collide_pair(own, *pair, engine=engine).restitution) for engine in ("taylor", "rosenbrock")]
     assert exported["status"].tolist() == [0]
+    assert f"#define {law.name.upper()}_FORCES 0" in law.header  # the response along a held line has no terms
     assert values[0] > 1
     assert [values[1], exported["restitution"].item()] == pytest.approx([values[0]] * 2, rel=1e-8)
 
