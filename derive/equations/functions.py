@@ -171,14 +171,15 @@ def _least_energy(structure: Structure, states: tuple[sp.Symbol, ...]) -> Emitte
                 "twist."
             )
             yield "wobble", doc, {"wobble": q.normal_velocity**2 / 2 + motion.wobble}
-            doc = (
-                "Angular momentum over m a^2 Omega, and the rate per v0/x0, over its length, at which a rigid "
-                "doublet turns about it."
-            )
-            yield "precession", doc, motion.rigid_rotation
         else:
             doc = "The state with this least energy: no normal velocity, rigid rotation."
             yield "rigid_rotation", doc, _by_state(states, observables.rigid_rotation(structure))
+    if structure.partner == "space":
+        doc = (
+            "Angular momentum over m a^2 Omega, and the rate per v0/x0, over its length, at which a rigid doublet "
+            "turns about it."
+        )
+        yield "precession", doc, rotation(structure).rigid_rotation
     if structure.partner == "wall":  # the energy of the motion along the wall cannot lead to separation
         doc = (
             "Kinetic energy over m v0^2 of the motion along the line of centres, the only one that can separate "

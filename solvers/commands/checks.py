@@ -108,7 +108,7 @@ def verify(
         [SCENE] (source):
         -o FILE (output): Write the report to FILE as well.
         --stress [N=500]: Instead: compare all engines on N scenes, drawn and beside boundaries.
-        --out DIR: Folder for record, tables and worst scenes of --stress [stress].
+        --out DIR: Folder for record, disagreements and worst scenes of --stress [stress].
         --recompute: Prove all symbolic verdicts here, though they are known.
     """
     if stress is not None:

@@ -6,14 +6,13 @@ from dataclasses import dataclass, field
 
 from ..collision.collide import collide
 from ..collision.result import Collision
-from ..engines.settings import CASADI_ENGINES, ENGINES
+from ..engines.settings import ENGINES
 from ..errors import InputError, WetDoubletError
 from ..scene.scene import Scene
 
 RTOL = 1e-10
 ANGLES = (0.0, math.radians(30), math.radians(60), math.radians(80))
 FACTORS = (0.3, 1.0, 4.0)  # relative to the scene's Stokes number
-PLUGINS = CASADI_ENGINES  # engines that can integrate arbitrary phases, not only whole collisions
 REFERENCE = "rosenbrock"  # the most accurate of the engines that replay
 Collide = Callable[..., Collision]
 

@@ -1,4 +1,4 @@
-"""Emitted laws and groups against the expressions that they were printed from, in 30 digits.
+"""Emitted laws and groups against the expressions that they were printed from, in 30 digits; derivatives of structures.
 
 Functions of structures are integrated beside the kernel, for any scene, by tests/harness/test_equations.py.
 """
@@ -13,19 +13,15 @@ from typing import Any
 
 import casadi
 import mpmath
+import numpy as np
 import pytest
 import sympy as sp
-from wetdoublet.derive.emit.first_use import structure_text
-from wetdoublet.derive.equations.model import Model, derive
 from wetdoublet.derive.laws import LAWS
-from wetdoublet.derive.physics.forces import FILM, SHEAR
-from wetdoublet.derive.physics.law import Law, LawFunction, fill
+from wetdoublet.derive.physics.law import Law, LawFunction
 from wetdoublet.derive.physics.scaling import group_definitions
-from wetdoublet.derive.physics.structure import Structure, all_structures, committed
 from wetdoublet.derive.vocabulary.quantities import VOCABULARY
 from wetdoublet.generated import scaling
 from wetdoublet.generated.assemble import Laws, casadi_functions
-from wetdoublet.solvers.host.emitted import executed
 
 DIGITS = 30
 RANGES = {
@@ -46,11 +42,7 @@ RANGES = {
 }  # fmt: skip
 
 
-@cache
 def emitted(name: str) -> ModuleType:
-    """An emitted module: of `generated`, or of a structure that is derived when it is first asked for."""
-    if name in {structure.name for structure in set(all_structures()) - set(committed())}:
-        return executed(name, structure_text(name).encode())
     return importlib.import_module(f"wetdoublet.generated.{name}")
 
 
@@ -66,12 +58,6 @@ def magnitude(node: sp.Basic) -> sp.Basic:
     return sp.Abs(node, evaluate=False)  # sympy would look for its sign, in an expression that grows with every level
 
 
-# in place of sympy's Min and Max, which compare their arguments anew whenever something is put into one of them
-SMALLEST, LARGEST = sp.Function("smallest", real=True), sp.Function("largest", real=True)
-
-
-
-
 Exact = Callable[..., list[mpmath.mpf]]
 
 
@@ -82,8 +68,7 @@ def exactly(arguments: list[sp.Symbol], expressions: list[sp.Expr]) -> Exact:
         return mpmath.sqrt(value) or mpmath.mpf(10) ** -200
 
     made = [*expressions, *map(magnitude, expressions)]
-    known = {"sqrt": root, SMALLEST.__name__: min, LARGEST.__name__: max}
-    return sp.lambdify(arguments, made, modules=[known, "mpmath"], cse=True)
+    return sp.lambdify(arguments, made, modules=[{"sqrt": root}, "mpmath"], cse=True)
 
 
 def compare(label: str, exact: Exact, found: list[float], arguments: list[float]) -> None:
@@ -149,18 +134,29 @@ def test_group(group: sp.Symbol):
 
 # Structures
 
+CHOICE = {"film": "finite", "arm": "midgap", "shear": "immersed", "bridge": "mikami", "glass": "literal"}
 
 
+@pytest.mark.parametrize(("film", "shear"), [(1, 1), (0, 1), (0, 0)])
+def test_derivatives_beside_a_structure(film: int, shear: int):
+    """The Jacobian of the rates and the rates of the events are differences of the functions that they are of."""
+    module = emitted("oblique_bridge")
+    laws = Laws(**{slot: emitted(f"laws.{LAWS[slot][CHOICE[slot]].module}") for slot in module.SLOTS})
+    functions = casadi_functions(module, laws, film=film, shear=shear)
+    state, groups = (np.array(draw(random.Random(7), [*names])) for names in (module.STATES, module.GROUPS))
 
+    def slope(name: str, along: np.ndarray) -> np.ndarray:
+        ahead, behind = (functions[name](state + step * along, groups).full().ravel() for step in (1e-5, -1e-5))
+        return np.asarray(ahead - behind) / 2e-5
 
-
-
-
-
-
-
-
-
+    jacobian = functions["jacobian"](state, groups).full()
+    expected = np.stack([slope("right_hand_side", axis) for axis in np.eye(state.size)], axis=1)
+    np.testing.assert_allclose(jacobian, expected, rtol=1e-6, atol=1e-7 * np.abs(jacobian).max())
+    rates = functions["right_hand_side"](state, groups).full().ravel()
+    found = functions["event_rates"](state, groups).full().ravel()
+    size = np.abs(rates).max()
+    expected = size * slope("events", rates / size)
+    np.testing.assert_allclose(found, expected, rtol=1e-6, atol=1e-7 * np.abs(found).max())
 
 
 def test_an_empty_slot_is_named():

@@ -54,7 +54,7 @@ def source(scene: Scene, rtol: float = RTOL, ledger: bool = False) -> LawSource:
     values: dict[str, Any] = {
         "scene": scene, "material": of_material, "impact": of_impact, "entries": entries,
         "statuses": results((*of_material, *of_impact), entries, in_space=not planar),
-        "ledger": ledger, "planar": planar, "largest": LARGEST,
+        "ledger": ledger, "planar": planar, "unforced": _without_forces(scene), "largest": LARGEST,
     }  # fmt: skip
     header = rendered(
         "law.h.in",
@@ -76,6 +76,13 @@ def source(scene: Scene, rtol: float = RTOL, ledger: bool = False) -> LawSource:
         in_space=not planar and not ledger,
     )
     return LawSource(header, c, entries, of_impact)
+
+
+def _without_forces(scene: Scene) -> str:
+    """Why a scene in space has no forces for time steps; empty if it has."""
+    if scene.package is not None and (scene.package.events or scene.package.terms is not None):
+        return "model: declared events and terms act in whole collisions"
+    return "partner.wall: only of two spheres" if scene.wall else ""
 
 
 def law_name(scene: Scene) -> str:

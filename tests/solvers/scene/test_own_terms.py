@@ -11,6 +11,7 @@ from wetdoublet.solvers import InputError, Scene, collide, collide_many, collide
 from wetdoublet.solvers.export.hybrid import equations
 from wetdoublet.solvers.export.law.kernels import kernels
 
+from ...helpers.exported_law import FOUND, Law, law_alone
 from ...helpers.judged_models import judged
 
 HEAD = "from wetdoublet.derive.user import *\n"
@@ -163,6 +164,23 @@ def test_a_law_is_exported_with_terms_on_the_gap_only(tmp_path: Path):
     with pytest.raises(InputError, match="has terms on a rotation, and the spheres of an exported law have spins"):
         kernels(scene(tmp_path, TORQUE), 1e-9)
     assert len(kernels(scene(tmp_path, GAS), 1e-9)) == 3  # head-on, in a plane and in space
+
+
+@pytest.mark.slow
+@pytest.mark.skipif("gcc" not in FOUND, reason="needs gcc and g++")
+def test_a_term_may_give_energy_in_space(tmp_path: Path):
+    """A drag of the wrong sign, with which no energy holds a stick, by each engine and the exported law; e_n > 1."""
+    wrong = 'gain = quantity("gain", unit="N s/m", default="6e-3 N s/m")\nforce_on("gap", gain*u*x/x0)\n'
+    own = scene(tmp_path, wrong, FREE.replace("0.5 Pa s", "2 Pa s"))
+    speed, angle = own.speed_of(0.1), 0.1
+    pair = [1.0, 0.0, 0.0], [[speed, speed * math.tan(angle), 0.0], [0.0] * 3], [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0]]
+    law = Law(own, law_alone(own, tmp_path))
+    exported = law.collide_pairs(law.pairs(pair[0], np.array([pair[1]]), np.array([pair[2]])))
+    values = [float(collide_pair(own, *pair, engine=engine).restitution) for engine in ("taylor", "rosenbrock")]
+    assert exported["status"].tolist() == [0]
+    assert f"#define {law.name.upper()}_FORCES 0" in law.header  # the response along a held line has no terms
+    assert values[0] > 1
+    assert [values[1], exported["restitution"].item()] == pytest.approx([values[0]] * 2, rel=1e-8)
 
 
 def test_friction_presses_with_the_added_mass(tmp_path: Path):

@@ -130,6 +130,18 @@ def test_a_boundary_is_named_by_what_differs(below: Course, above: Course, name:
         assert near.distance == pytest.approx(abs(place), rel=0.01)
 
 
+def test_a_graze_beside_a_stick_that_is_proved_at_once_is_told_by_its_opening_speed() -> None:
+    """It varies with the root of the distance."""
+
+    def courses(factors: np.ndarray) -> list[Course]:
+        past = (factors - 1.01).tolist()
+        return [Course(True, GLASSY, 0.4 - 0.1 * math.sqrt(d)) if d > 0 else Course(False, (), 0.0) for d in past]
+
+    near = along_speed(courses, distances.LADDER)
+    assert near is not None
+    assert GLASS in near.boundary
+
+
 @pytest.mark.parametrize(
     ("preset", "changes", "stokes", "angle", "distance"),
     [

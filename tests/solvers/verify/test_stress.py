@@ -28,7 +28,7 @@ def run(*arguments: str) -> int:
 
 
 def test_a_small_sample_passes(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    """`verify --stress 8` exits 0, its last line is the summary, and its record, tables and scenes are there."""
+    """`verify --stress 8` exits 0, its last line is the summary, and its record, report and scenes are there."""
     assert run("verify", "--stress", "8", "--out", str(tmp_path / "new")) == 0
     out, err = capsys.readouterr()
     last = out.strip().splitlines()[-1]

@@ -126,3 +126,11 @@ def test_a_budget_that_does_not_add_up_is_found(law, change) -> None:
     found = by_name(region.argument(region.grid(ON_GRID, GRID, doctored(change))))
     assert law in failures(found.values())
     assert found[law].where.startswith("St 0.12, 60 deg")
+
+
+def test_a_grid_by_an_engine_that_is_off_is_found() -> None:
+    """A point of the grid whose e_n is off by 1e-6 differs from CVODES, by name and place."""
+    off = doctored(lambda one: replace(one, restitution=one.restitution * (1 + 1e-6)))
+    (found,) = region.beside_cvodes(region.grid(ON_GRID, GRID, off))
+    assert found.ok is False
+    assert found.where.startswith("St 0.12, 60 deg")

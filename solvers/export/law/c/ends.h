@@ -117,7 +117,7 @@ static double energy_of(const bodies *b, const double (*velocities)[3], const do
     return found;
 }
 
-/* Both particles after a collision; a motion that is not finite or has gained energy is a failure, and not handed on. */
+/* Both particles after a collision; a motion that is not finite, or has energy from nowhere, is a failure. */
 static void both_after(const bodies *b, const arrival *a, const ending *end, law_pair_after *made)
 {
     const ending arrived = as_arrived(b, a), *e = end->outcome == LAW_STICK ? &arrived : end;
@@ -135,7 +135,7 @@ static void both_after(const bodies *b, const arrival *a, const ending *end, law
         if (!(b->wall && k))
             sum += largest(vector_of(made->spins[k]));
     }
-    double before[2][2][3], grown = 1.0 + 1e-3; /* far beyond the error of any tolerance */
+    double before[2][2][3], grown = ENERGY_MAY_GROW ? HUGE_VAL : 1.0 + 1e-3; /* far beyond any tolerance */
     for (int k = 0; k < 2; k++) {
         put_vector(before[0][k], a->velocity[k]);
         put_vector(before[1][k], a->spin[k]);
