@@ -161,9 +161,9 @@ UNITS = {row.name: row.unit for row in DEFINITIONS.values() if row.unit and row.
 """Units of the values in a collision's JSON object, by key; for `events`, the unit of their times."""
 
 
-def check_differentiated(of: Sequence[str] | str, label: str = "of") -> tuple[str, ...]:
+def check_differentiated(of: Sequence[str] | str) -> tuple[str, ...]:
     """The requested results; InputError with the nearest name for one that has no derivative."""
-    return check_names(of, DIFFERENTIATED, label, "names no quantity")
+    return check_names(of, DIFFERENTIATED, "of", "names no quantity")
 
 
 def attributes(name: str) -> dict[str, Any]:

@@ -6,7 +6,7 @@ yet chosen, and logarithms, roots and exponentials of the states, count as indep
 is therefore conserved for any law left open; one that relies on an identity between such functions is not found.
 """
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 from itertools import combinations_with_replacement
@@ -55,20 +55,14 @@ class OpenSystem(System, Protocol):
     def definitions(self) -> tuple[Definition, ...]: ...
 
 
-def open_rates(system: OpenSystem, closed: Callable[[sp.Symbol], bool] = lambda _: False) -> dict[sp.Symbol, sp.Expr]:
-    """Rates with named intermediates as symbols, which an invariant then holds for any values of.
-
-    Arguments:
-        closed: those that are substituted besides the ones that do not vary along a trajectory.
-    """
+def open_rates(system: OpenSystem) -> dict[sp.Symbol, sp.Expr]:
+    """Rates with named intermediates that vary as symbols, which an invariant then holds for any values of."""
     constant: set[sp.Basic] = {quantity.symbol for quantity in VOCABULARY.values()} - set(system.states)
     whole: dict[sp.Symbol, sp.Expr] = {}
     for symbol, value in system.definitions:
         if value.free_symbols <= constant and not value.atoms(AppliedUndef):
             constant.add(symbol)
-        elif not closed(symbol):
-            continue
-        whole[symbol] = value.xreplace(whole)
+            whole[symbol] = value.xreplace(whole)
     named = system["right_hand_side"].by_name
     return {state: sp.sympify(named[state.name]).xreplace(whole) for state in system.states}
 

@@ -130,23 +130,22 @@ class Plane:
         return Impacts.listed(self.scene, columns, self.rtol)
 
 
-def check_plane(scene: Scene, over: str, span: Any, stokes: Any, rtol: float, label: str = "over") -> Plane:
+def check_plane(scene: Scene, over: str, span: Any, stokes: Any, rtol: float) -> Plane:
     """The validated plane of a scene; InputError for invalid arguments.
 
     Arguments:
         stokes: lowest and highest Stokes number; None for what the scenes at both ends of the span may meet.
-        label: name of the argument or option of `over` and `span`.
     """
     if not isinstance(over, str):
-        raise InputError(label, over, "the dotted name of an entry", "is not a name")
+        raise InputError("over", over, "the dotted name of an entry", "is not a name")
     ends = STOKES if stokes is None else ascending("stokes", checked_numbers("impact.stokes", stokes))
     if scene.package is not None and scene.package.bends:  # kinds of curves are unknown with these
-        accepted = "boundaries along lines, or a model without declared events and terms"
-        raise InputError(label, over, accepted, "spans no atlas of a model that declares events or terms")
+        accepted = "boundaries along lines, or a model that declares laws alone"
+        raise InputError("over", over, accepted, "spans no atlas of a model that declares events, terms or criteria")
     if over == ANGLE:
         plane = Plane(scene, over, ascending("span", checked_numbers(ANGLE, span)), ends, rtol)
     else:
-        scene, varied = checked_vary(scene, {over: span}, label)
+        scene, varied = checked_vary(scene, {over: span}, "over")
         plane = Plane(scene, over, ascending("span", varied[over]), ends, rtol)
         if scene.angle is None:
             raise InputError("impact.angle", None, 'an angle, as angle = "60 deg" in [impact] or --set impact.angle')

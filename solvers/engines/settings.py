@@ -12,9 +12,7 @@ KERNEL_STEPS, KERNEL_STEPS_IN_SPACE = 1_000_000, 300_000
 ROSENBROCK_STEPS, ROSENBROCK_STEPS_IN_SPACE = 15_000, 5_000  # most of one phase at the default tolerance
 SMALL = 10_000  # a map of up to this many collisions takes less time than the compiler, for a user's model
 FEW = 100  # up to this many collisions, a second core does not pay
-TOLERANCE = Field(
-    "rtol", "a relative tolerance", "1e-9", Range("from 1e-13 to 1e-3", 1e-13, 1e-3, low_open=False, high_open=False)
-)
+TOLERANCE = Field("rtol", "a relative tolerance", "1e-9", Range("from 1e-13 to 1e-3", 1e-13, 1e-3, False, False))
 UNTIL = Field("until", "a time after initial contact", '"5 ms"', unit="s")  # to which a stick is followed on
 
 
@@ -27,11 +25,11 @@ def casadi_steps(rtol: float, space: bool = False) -> int:
     return round(most * max(1.0, float((RTOL / rtol) ** (1 / 5))))
 
 
-def check_rtol(rtol: object, label: str = "rtol") -> float:
-    """Return the relative tolerance; InputError naming `label` unless it is 1e-13 to 1e-3."""
-    return TOLERANCE.number(rtol, label=label)
+def check_rtol(rtol: object) -> float:
+    """Return the relative tolerance; InputError unless it is 1e-13 to 1e-3."""
+    return TOLERANCE.number(rtol)
 
 
-def check_engine(engine: object, label: str = "engine") -> str | None:
-    """Return the engine, None for the default; InputError naming `label` if it is unknown."""
-    return None if engine is None else check_name(engine, ENGINES, label)
+def check_engine(engine: object) -> str | None:
+    """Return the engine, None for the default; InputError if it is unknown."""
+    return None if engine is None else check_name(engine, ENGINES, "engine")

@@ -196,13 +196,13 @@ def boundary_sensitivities(
     return BoundarySensitivities(traced_lines, tuple(lines), names)
 
 
-def check_boundary_wrt(scene: Scene, wrt: Sequence[str] | str | None, label: str = "wrt") -> tuple[str, ...]:
+def check_boundary_wrt(scene: Scene, wrt: Sequence[str] | str | None) -> tuple[str, ...]:
     """The requested parameters; InputError for one that the scene does not have, and for speed and Stokes number."""
-    names = check_wrt(scene, wrt, label)
+    names = check_wrt(scene, wrt)
     for name in names:
         if wrt is not None and name in SPEEDS:
             accepted = ", ".join(entry for entry in check_wrt(scene, None) if entry not in SPEEDS)
-            raise InputError(label, name, accepted, "is what a boundary is followed in")
+            raise InputError("wrt", name, accepted, "is what a boundary is followed in")
     return tuple(name for name in names if name not in SPEEDS)
 
 

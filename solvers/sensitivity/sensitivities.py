@@ -22,9 +22,9 @@ from .result import Near, Sensitivities
 METHODS = ("forward", "adjoint")
 
 
-def check_method(method: object, label: str = "method") -> str:
+def check_method(method: object) -> str:
     """The method, "forward" or "adjoint"; InputError otherwise."""
-    return check_name(method, METHODS, label)
+    return check_name(method, METHODS, "method")
 
 
 def sensitivities(

@@ -32,14 +32,14 @@ _MOST = 2**20  # most samples
 LEVELS = (0.025, 0.975)
 
 
-def deviations(scene: Scene, uncertainty: Mapping[str, Any], label: str = "uncertainty") -> dict[str, float]:
+def deviations(scene: Scene, uncertainty: Mapping[str, Any]) -> dict[str, float]:
     """Standard deviations of parameters, SI: `"5 %"` is a part of the value, text with a unit and numbers are absolute.
 
     Raises:
         InputError: a name that the scene does not have, or a value that is no uncertainty.
     """
-    check_mapping(uncertainty, label, "standard deviations by dotted name")
-    check_wrt(scene, tuple(uncertainty), label)
+    check_mapping(uncertainty, "uncertainty", "standard deviations by dotted name")
+    check_wrt(scene, tuple(uncertainty), "uncertainty")
     result = {}
     for name, text in uncertainty.items():
         accepted = f'{name} = "5 %", or a standard deviation with its unit, such as {scene.fields[name].example}'
@@ -47,14 +47,14 @@ def deviations(scene: Scene, uncertainty: Mapping[str, Any], label: str = "uncer
             try:
                 value = float(text.strip()[:-1]) / 100 * value_of(scene, name)
             except ValueError:
-                raise InputError(label, text, accepted, "is no percentage") from None
+                raise InputError("uncertainty", text, accepted, "is no percentage") from None
         else:
             try:
-                value = scene.si_number(name, text, f"{label} of {name}")
+                value = scene.si_number(name, text, f"uncertainty of {name}")
             except InputError as error:
                 raise InputError(error.field, text, accepted, error.problem) from None
         if not 0 < value < np.inf:
-            raise InputError(label, text, accepted, f"is no standard deviation of {name}")
+            raise InputError("uncertainty", text, accepted, f"is no standard deviation of {name}")
         result[name] = value
     return result
 

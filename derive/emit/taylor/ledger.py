@@ -4,8 +4,7 @@ Kernels without a ledger have none of these series, constants and functions. Onl
 them, so that a drift of angular momentum is visible.
 """
 
-from collections.abc import Mapping, Sequence
-from typing import Protocol
+from collections.abc import Callable, Mapping
 
 import sympy as sp
 
@@ -35,17 +34,8 @@ BOOKED = "c->ledger."
 """Place of the ledger's constants."""
 
 
-class Valued(Protocol):
-    """The emission of a function of the states (`Header`)."""
-
-    def __call__(
-        self,
-        outputs: Sequence[tuple[str, sp.Expr]],
-        head: str,
-        targets: Mapping[str, str],
-        doc: str,
-        constants: Constants | None = None,
-    ) -> list[str]: ...
+Valued = Callable[..., list[str]]
+"""The emission of a function of the states (`Header`)."""
 
 
 class Ledger:
