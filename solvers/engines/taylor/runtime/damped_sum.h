@@ -9,7 +9,7 @@
  * which the step control accounts for. The idea is that of Chebyshev methods (Abdulle, SIAM J. Sci. Comput. 23, 2041
  * (2002)), applied to a series.
  *
- * tests/solvers/engines/taylor/test_damped_sum.py checks the table; tests/benchmarks/damping.py computes it.
+ * tests/solvers/engines/taylor/test_damped_sum.py checks the table.
  */
 #pragma once
 
