@@ -21,10 +21,10 @@ pytestmark = pytest.mark.filterwarnings("ignore::wetdoublet.solvers.ModelWarning
 @examples(14)
 @given(scenes(few(STRUCTURES)))
 def test_a_certified_stick_followed_on_never_separates(scene: Scene) -> None:
-    """For ten times the time in which its film is closed: it does not separate, and its bridge does not break."""
+    """For twenty times the time in which its film is closed: it does not separate, and its bridge does not break."""
     collision = decided(scene)
     assume(collision.outcome == "stick" and collision.certified)
-    later = 10 * scene.liquid.film_thickness / collision.speed + (collision.until or 0.0)
+    later = 20 * scene.liquid.film_thickness / collision.speed + (collision.until or 0.0)
     try:
         followed = collide(scene, until=later)
     except ComputationError as error:
