@@ -141,7 +141,7 @@ def check_plane(scene: Scene, over: str, span: Any, stokes: Any, rtol: float, la
         raise InputError(label, over, "the dotted name of an entry", "is not a name")
     ends = STOKES if stokes is None else ascending("stokes", checked_numbers("impact.stokes", stokes))
     if scene.package is not None and scene.package.bends:  # kinds of curves are unknown with these
-        accepted = "boundaries along lines, or a model without declared events and terms"
+        accepted = "boundaries at so many angles, as 30:75:10, or a model without declared events and terms"
         raise InputError(label, over, accepted, "spans no atlas of a model that declares events or terms")
     if over == ANGLE:
         plane = Plane(scene, over, ascending("span", checked_numbers(ANGLE, span)), ends, rtol)
