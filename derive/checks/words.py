@@ -44,17 +44,19 @@ def _of_terms(model: UserModel) -> list[str]:
             if terms.takes
             else "That the forces only take energy is not shown. "
         )
-    if terms.admits_barrier:
+    if model.events:
+        line += "Beside them and the events no stick is proved but at rest, head-on and in space."
+    elif terms.admits_barrier:
         line += "Of the stick proofs, that by an energy barrier holds, and that by the film alone beside a mere drag."
     else:
-        line += "No stick is proved: no barrier of the energy is known."
+        line += "No stick is proved but at rest, head-on and in space: no barrier of the energy is known."
     if terms.rotates:
         line += " They are of equal spheres in a plane, whose spin is then not eliminated by the angular momentum."
     return [line]
 
 
-def _of_event(event: OwnEvent) -> str:
-    """A sentence on what the checks show of a declared event."""
+def _of_event(event: OwnEvent, proofs: bool) -> str:
+    """Sentences on what the checks show of a declared event, and on the `proofs` of sticks that it leaves."""
     ends = {"": "", "separated": ", ends the collision as separated", "stick": ", cuts the collision off as a stick"}
     text = f"Event {event.proposed.word}, {event.proposed.where}{ends[event.proposed.ends]}: "
     if event.jump:
@@ -64,6 +66,8 @@ def _of_event(event: OwnEvent) -> str:
         text += "; angular momentum jumps. " if event.spins else "; angular momentum is kept. "
     else:
         text += "the motion is continuous. "
+    if not proofs:
+        return text.rstrip()
     if event.harmless:
         return text + "The energy certificate holds beside it."
     if event.reach(BRIDGED).is_known:
@@ -107,4 +111,4 @@ def in_words(model: UserModel) -> tuple[str, ...]:
         )
         lines.append(f"New group: {name}{as_group}.")
     lines += [] if model.groups else ["No new group."]
-    return (*lines, *map(_of_event, model.events))
+    return (*lines, *(_of_event(event, model.terms is None) for event in model.events))

@@ -158,28 +158,24 @@ def _least_energy(structure: Structure, states: tuple[sp.Symbol, ...]) -> Emitte
             "of the least energy along the gap, capillary work included."
         )
         yield "effective_potential", doc, observables.effective_potential(structure)
-        if structure.partner == "space":
-            motion = rotation(structure)
-            doc = (
-                "Normal forces of a doublet in resting contact from now on, over m v0^2/x0: the largest "
-                "centrifugal force, and the sum of the others, positive inward."
-            )
-            inward = inward_force(structure) + motion.centrifugal
-            yield "resting_bound", doc, {"outward": motion.outward_at_most, "inward": inward}
-            doc = (
-                "Energy over m v0^2 of all motion but rotation as a rigid doublet across the line of centres, and "
-                "twist."
-            )
-            yield "wobble", doc, {"wobble": q.normal_velocity**2 / 2 + motion.wobble}
-        else:
+        if structure.partner != "space":
             doc = "The state with this least energy: no normal velocity, rigid rotation."
             yield "rigid_rotation", doc, _by_state(states, observables.rigid_rotation(structure))
     if structure.partner == "space":
+        motion = rotation(structure)
         doc = (
-            "Angular momentum over m a^2 Omega, and the rate per v0/x0, over its length, at which a rigid doublet "
-            "turns about it."
+            "Normal forces of a doublet in resting contact from now on, over m v0^2/x0: the largest "
+            "centrifugal force, and the sum of the others, positive inward."
         )
-        yield "precession", doc, rotation(structure).rigid_rotation
+        inward = terms.mass(structure) * inward_force(structure) + motion.centrifugal
+        yield "resting_bound", doc, {"outward": motion.outward_at_most, "inward": inward}
+        doc = "Energy over m v0^2 of all motion but rotation as a rigid doublet across the line of centres, and twist."
+        yield "wobble", doc, {"wobble": q.normal_velocity**2 / 2 + motion.wobble}
+        doc = (
+            "Angular momentum over m a^2 Omega, and the rate per v0/x0, over its length, at which a rigid "
+            "doublet turns about it."
+        )
+        yield "precession", doc, motion.rigid_rotation
     if structure.partner == "wall":  # the energy of the motion along the wall cannot lead to separation
         doc = (
             "Kinetic energy over m v0^2 of the motion along the line of centres, the only one that can separate "

@@ -140,7 +140,7 @@ def check_plane(scene: Scene, over: str, span: Any, stokes: Any, rtol: float) ->
         raise InputError("over", over, "the dotted name of an entry", "is not a name")
     ends = STOKES if stokes is None else ascending("stokes", checked_numbers("impact.stokes", stokes))
     if scene.package is not None and scene.package.bends:  # kinds of curves are unknown with these
-        accepted = "boundaries along lines, or a model that declares laws alone"
+        accepted = "boundaries at so many angles, as 30:75:10, or a model that declares laws alone"
         raise InputError("over", over, accepted, "spans no atlas of a model that declares events, terms or criteria")
     if over == ANGLE:
         plane = Plane(scene, over, ascending("span", checked_numbers(ANGLE, span)), ends, rtol)

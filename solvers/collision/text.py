@@ -160,6 +160,9 @@ def _stuck(collision: Outcome) -> str:
         return "decided, not proved: rebound after rebound, none higher than the one before"
     film_alone = scene.bridge is None and scene.pendulum is None and scene.attraction is None
     if not collision.certified:
+        held = [kind for kind in before if kind in (KINDS[EventKind.RESTS], KINDS[EventKind.RELEASED])]
+        if held and held[-1] == KINDS[EventKind.RESTS]:
+            return f"decided{when}, not proved: it rests, and the forces hold it"
         why = "the film has stopped it" if film_alone else "energy below the barrier"
         return f"decided{when}, not proved: {why}"
     if film_alone:

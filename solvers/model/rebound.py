@@ -57,14 +57,19 @@ def _reset(choice: ModelKey, rebounds: bool, rubbing: bool, rests: bool, own: st
     if rests:  # chatter dissipates what remains of the rebound's energy
         dry += y[1] ** 2 / 2
         y = vertcat(y[0], 0, y[2:])
-        if model.own_terms and "own_energy" in model.names("energies"):
-            dry += _energy(model, "own_energy", rebounded, p) - _energy(model, "own_energy", y, p)
+        dry += _own_energy(model, rebounded, p) - _own_energy(model, y, p)
     if own:
         before, y = y, model.function(f"jump_{own}")(y, p)
         taken = _energy(model, "kinetic", before, p) - _energy(model, "kinetic", y, p)
+        taken += _own_energy(model, before, p) - _own_energy(model, y, p)
     names = ["state", "groups"], ["after", "dry_contact", "dry_friction", "own_events", "rebounded"]
     return Function("reset", [model.column, p], [densify(y), dry, friction, taken, densify(rebounded)], *names)
 
 
 def _energy(model: Model, name: str, y: SX, p: SX) -> SX:
     return model.function("energies")(y, p)[model.names("energies").index(name)]
+
+
+def _own_energy(model: Model, y: SX, p: SX) -> SX:
+    """That of declared terms, added inertia included."""
+    return _energy(model, "own_energy", y, p) if "own_energy" in model.names("energies") else SX(0)

@@ -89,8 +89,8 @@ def collide_pair(
         The attribute `validity` has the sentences of `Collision.validity`, for all pairs together.
         With `ledger` also energy.initial, .final (kinetic energies of both particles, with all spins, relative to their
         centre of mass or to the wall), .normal_lubrication, .tangential_lubrication, .capillary, .attraction,
-        .dry_contact, .dry_friction, .own_terms (each where the scene has it) and .residual, J; of a stick up to
-        `until`, where its motion is not yet rigid.
+        .dry_contact, .dry_friction, .own_events, .own_terms (each where the scene has it) and .residual, J; of a
+        stick up to `until`, where its motion is not yet rigid.
 
     Raises:
         InputError: an invalid shape or scene. A collision that fails, as of a pair that does not approach, raises

@@ -307,9 +307,8 @@ class Header:
             held = {key: f"found[HELD_{key.upper()}]" for key in model["held_response"].by_name}
             lines.append(f"enum {{ {', '.join(f'HELD_{key.upper()}' for key in held)}, RESPONSES }};")
             lines += self._value("held_response", head, held)
-            if "wobble" in model:
-                lines += self._vector("resting_bound", "found", {"outward": "found[0]", "inward": "found[1]"})
-                lines += self._scalar("wobble")
+            lines += self._vector("resting_bound", "found", {"outward": "found[0]", "inward": "found[1]"})
+            lines += self._scalar("wobble")
             momenta = {f"momentum_{axis}": f"found[{k}]" for k, axis in enumerate("xyz")}
             lines += self._vector("precession", "found", {**momenta, "per_momentum": "found[3]"})
         elif "rigid_rotation" in model and shape.oblique and shape.partner != "wall":

@@ -333,3 +333,41 @@ def test_models_drawn_at_random(number: int, verdict: str, tmp_path: Path):
     """Terms, criteria, events and laws: refused with a sentence, or right by three engines, with the derivatives."""
     found, how = judged(number, tmp_path)
     assert found == verdict, how
+
+
+JERK = 'delay = quantity("delay", unit="s", default="2 us")\nevent("kick", guard=delay - t, jump={u: u/2})\n'
+
+
+@pytest.mark.parametrize("engine", ["taylor", "rosenbrock"])
+def test_a_jump_takes_from_the_added_mass_too(engine: str, tmp_path: Path):
+    """Half a velocity takes three quarters of the kinetic energy of spheres and added mass: the ledger closes."""
+    found = collide(scene(tmp_path, MASS + JERK), rtol=1e-10, engine=engine)
+    assert found.energy.own_events > 0
+    assert abs(found.energy.residual) < 1e-8 * found.energy.largest
+
+
+def test_an_event_without_a_jump_creates_nothing_where_the_energy_is_negative(tmp_path: Path):
+    """A pull's energy is below that at initial contact in a doublet that rests, when a time comes."""
+    waits = 'delay = quantity("delay", unit="s", default="20 ms")\nevent("sets", guard=delay - t)\n'
+    text = FREE.replace("stokes = 0.6", "stokes = 0.02").replace("60 deg", "10 deg")
+    found = collide(scene(tmp_path, PULL.replace("2e-6", "2e-4") + "energy(pull*x)\n" + waits, text))
+    assert (found.outcome, found.events[-1].kind) == ("stick", "sets")
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("engine", ["taylor", "rosenbrock"])
+@pytest.mark.parametrize("push", [-1, 1])
+def test_a_force_that_may_give_energy_acts_in_space(engine: str, push: int, tmp_path: Path):
+    """A constant force is a potential by another name: the same collision, or stick at rest."""
+    text = FREE.replace("stokes = 0.6", f"stokes = {0.6 if push > 0 else 0.02}").replace("60 deg", "20 deg")
+    pull = PULL.replace("2e-6", "1e-4") + MASS
+    spin, found = np.random.default_rng(3).normal(size=(2, 3)) * 20, []
+    for body in (f'force_on("gap", {push}*pull)\n', f"energy(-{push}*pull*x)\n"):
+        given = scene(tmp_path, pull + body, text)
+        speed = given.need_impact()[0]
+        found.append(collide_pair(given, [1, 0, 0], [[speed, 0.2 * speed, 0], [0] * 3], spin, engine=engine))
+    one, other = found
+    assert int(one.outcome) == int(other.outcome) == (1 if push > 0 else 0)
+    assert one.velocities.values == pytest.approx(other.velocities.values, rel=1e-7, abs=1e-9 * speed)
+    if push < 0:
+        assert bool(one.certified)

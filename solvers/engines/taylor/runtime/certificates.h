@@ -257,7 +257,7 @@ static inline mask spun_down(const constants *c, const vec *y, mask candidates, 
 #define HELD_AT_REST (TURNS && ATTRACTS && !STRINGS)
 #if OWN_TERMS
 #undef HELD_AT_REST
-#define HELD_AT_REST 0 /* its bound is of the library's energy */
+#define HELD_AT_REST SPACE /* in a plane its bound is of the library's energy */
 #endif /* OWN_TERMS */
 #if HELD_AT_REST
 #if SPACE

@@ -194,7 +194,7 @@ static int own_event_jumps(queue *q, lanes *l, fixed *f, int lane, int event)
     memcpy(after, l->y, sizeof after);
     own_jump(&f->c, l->y, which, after, &released);
     double before = in_lane(stored_energy(&f->c, l->y), lane), left = in_lane(stored_energy(&f->c, after), lane);
-    if (!(left - before <= LANE(released, lane) + SAFETY*q->rtol*before)) {
+    if (!(left - before <= LANE(released, lane) + SAFETY*q->rtol*fabs(before))) {
         note_mode(q, l, lane);
         finish(q, l, f, lane, left == left ? UNDECLARED : NOT_FINITE, STICK, 0);
         return 0;
