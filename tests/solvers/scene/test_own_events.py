@@ -124,7 +124,7 @@ def test_a_boundary_is_named_after_its_event(snaps: Path):
 def test_what_needs_the_kinds_of_curves_is_refused(snaps: Path):
     """They are told by functions that know of no declared event: no atlas, no lines over a map."""
     own = scene(snaps, critical_rate="1e4 1/s")
-    with pytest.raises(InputError, match="declares events, terms or criteria; accepted: boundaries along"):
+    with pytest.raises(InputError, match="declares events, terms or criteria; accepted: boundaries at so many angles"):
         atlas(own, over="impact.angle", span=(0.0, 0.3), stokes=(0.1, 0.2))
     assert map_curves(regime_map(own, stokes=[0.05, 0.1], angle=[0.5, 1.0]), own.package) == {}
 
