@@ -237,6 +237,7 @@ UNNAMED = [
 ]  # fmt: skip
 
 
+@pytest.mark.slow
 def test_viscosities_by_name():
     """Text stays as it was given, numbers are close to handbooks', and what no source has is refused with the range."""
     pytest.importorskip("CoolProp")

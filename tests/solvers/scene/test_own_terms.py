@@ -183,6 +183,7 @@ def test_a_term_may_give_energy_in_space(tmp_path: Path):
     assert [values[1], exported["restitution"].item()] == pytest.approx([values[0]] * 2, rel=1e-8)
 
 
+@pytest.mark.slow
 def test_friction_presses_with_the_added_mass(tmp_path: Path):
     """A rebound that slides gives each sphere mu_f (1 + e) (m + M) u r/2 over its inertia, in a film that does nothing.
 
@@ -275,6 +276,7 @@ def test_a_stick_is_proved_with_a_potential_and_a_drag(tmp_path: Path):
     assert (held.outcome, held.certified) == ("stick", True)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("engine", ["taylor", "rosenbrock"])
 def test_chatter_takes_what_moves_alone(engine: str, tmp_path: Path):
     """A doublet with an added mass comes to rest at a height: its potential stays, and the ledger closes."""
