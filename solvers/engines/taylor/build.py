@@ -127,7 +127,7 @@ def compile_all(
                 if progress is not None:
                     progress(len(took), len(variants))
         except BaseException:
-            pool.shutdown(wait=False, cancel_futures=True)  # those that run end, as an interrupt does with them
+            pool.shutdown(wait=False, cancel_futures=True)  # those that run get the interrupt themselves, and end
             raise
     return took
 
