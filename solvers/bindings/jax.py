@@ -19,7 +19,27 @@ import jax  # noqa: E402 # after the check that it is there
 from jax import numpy as jnp  # noqa: E402 # as above
 from jax.custom_derivatives import SymbolicZero  # noqa: E402 # as above
 
-__all__ = ["law"]
+__all__ = ["collide_many", "law"]
+
+
+def collide_many(
+    scene: Scene | str | Path, *, speed: Any, angle: Any, vary: Mapping[str, Any] | None = None,
+    of: Sequence[str] | str = "restitution", rtol: float = RTOL, undifferentiable: str = "nan",
+) -> Any:  # fmt: skip
+    """Results of many collisions, differentiable by speeds, angles and the entries that vary.
+
+    Arguments:
+        scene, of, rtol, undifferentiable: as for `law`.
+        speed, angle, vary: normal speeds (m/s), angles (rad) and entries of the scene by dotted name (SI), arrays that
+            broadcast against each other.
+
+    Returns, Raises: as the function of `law`.
+
+    Example:
+        >>> bool(collide_many("granulation", speed=3.0, angle=0.2) > 0)
+        True
+    """
+    return law(scene, of, rtol=rtol, undifferentiable=undifferentiable)(speed, angle, vary)
 
 
 def law(

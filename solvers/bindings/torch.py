@@ -16,7 +16,27 @@ from .pointwise import OUTCOME, Pointwise, pointwise
 required("torch", "torch")
 import torch  # noqa: E402 # after the check that it is there
 
-__all__ = ["law"]
+__all__ = ["collide_many", "law"]
+
+
+def collide_many(
+    scene: Scene | str | Path, *, speed: Any, angle: Any, vary: Mapping[str, Any] | None = None,
+    of: Sequence[str] | str = "restitution", rtol: float = RTOL, undifferentiable: str = "nan",
+) -> Any:  # fmt: skip
+    """Results of many collisions, differentiable by speeds, angles and the entries that vary.
+
+    Arguments:
+        scene, of, rtol, undifferentiable: as for `law`.
+        speed, angle, vary: normal speeds (m/s), angles (rad) and entries of the scene by dotted name (SI), tensors that
+            broadcast against each other.
+
+    Returns, Raises: as the function of `law`.
+
+    Example:
+        >>> bool(collide_many("granulation", speed=3.0, angle=0.2) > 0)
+        True
+    """
+    return law(scene, of, rtol=rtol, undifferentiable=undifferentiable)(speed, angle, vary)
 
 
 def law(

@@ -46,6 +46,17 @@ def test_jax_has_the_toolkits_numbers(jax: Any) -> None:
     assert np.allclose(jax.jvp(lambda m: one(SPEED, m), (2.0,), (1.0,))[1], slope, rtol=1e-7)
 
 
+def test_many_collisions_are_those_of_the_law(jax: Any, torch: Any) -> None:
+    """`collide_many` in the spelling of the toolkit: the same numbers, differentiable by what varies."""
+    from wetdoublet.solvers.bindings import jax as of_jax
+    from wetdoublet.solvers.bindings import torch as of_torch
+
+    value, slope = expected()
+    found = jax.grad(lambda m: of_jax.collide_many("granulation", speed=SPEED, angle=ANGLE, vary={MU: m}).sum())(2.0)
+    assert found == pytest.approx(slope.sum(), rel=1e-7)
+    assert np.allclose(of_torch.collide_many("granulation", speed=torch.tensor(SPEED), angle=ANGLE), value, rtol=1e-9)
+
+
 def test_torch_has_the_toolkits_numbers(torch: Any) -> None:
     """`backward`, forward mode, `vmap`; in the precision of what it is given."""
     from wetdoublet.solvers.bindings.torch import law
