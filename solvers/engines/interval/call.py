@@ -53,7 +53,7 @@ class Settings(NamedTuple):
 
 SHARP = Settings(14, 900, 0, 1e-13)  # what takes longer is proved with bounds over the gap, to fewer digits
 OUTCOME = Settings(16, 20000, 1, 1e-15, panel=0.004)
-BOX = Settings(12, 200, 2, 1e-10)
+BOX = Settings(8, 200, 2, 1e-9)
 PANEL = 0.08  # bounds over wider panels lose more than they save (maps of 12 x 12 cells of granulation)
 
 

@@ -78,7 +78,7 @@ static void find_barrier(const problem *p, flow *s, barrier *b)
         return;
     while (at < last && b->count < PANELS) {
         const int n = b->count++;
-        double to = b->count == PANELS || at*1.3 >= last ? last : at*1.3;
+        double to = b->count == PANELS || at*1.6 >= last ? last : at*1.6;
         b->middle[n] = 0.5*(at + to);
         b->upper[n] = to;
         attraction(p, s, iv_point(b->middle[n]), WORK_ORDER - 1, b->force[n]);

@@ -101,20 +101,45 @@ static dual d_abs(dual a) { return d_larger(a, d_negative(a)); }
 
 /* ---- series */
 
+/* Sum of a[i] b[-i], 0 <= i < n. As `iv_times`, with two products a register where there are eight doubles in one: a product's
+ * ends are the larger of neighbours there. */
+static inline iv products(const iv *a, const iv *b, int n)
+{
+    iv sum = iv_point(0.0);
+    int i = 0;
+#if defined(__AVX512F__)
+    const __m512d minus = _mm512_set1_pd(-0.0);
+    const __m512i both = _mm512_setr_epi64(0, 1, 0, 1, 2, 3, 2, 3), crossed = _mm512_setr_epi64(2, 3, 3, 2, 0, 1, 1, 0);
+    __m512d all = _mm512_setzero_pd();
+    __mmask8 odd = 0;
+    for (; i + 1 < n; i += 2) {
+        const __m512d left = _mm512_permutexvar_pd(both, _mm512_castpd256_pd512(_mm256_loadu_pd((const double *)(a + i))));
+        const __m512d right =
+            _mm512_permutexvar_pd(crossed, _mm512_castpd256_pd512(_mm256_loadu_pd((const double *)(b - i - 1))));
+        const __m512d one = _mm512_mul_pd(left, right); /* hi hi -lo -lo */
+        const __m512d two = _mm512_mul_pd((__m512d)((__m512i)left ^ (__m512i)minus), right); /* -lo -lo hi hi */
+        const __m512d most = _mm512_max_pd(one, _mm512_shuffle_f64x2(two, two, 0xb1));
+        odd |= _mm512_cmp_pd_mask(one, two, _CMP_UNORD_Q);
+        all = _mm512_add_pd(all, _mm512_max_pd(most, _mm512_permute_pd(most, 0x55)));
+    }
+    if (__builtin_expect(odd, 0))
+        i = 0;
+    else
+        sum = (iv){all[2] + all[6], all[0] + all[4]};
+#endif
+    for (; i < n; i++)
+        sum = iv_add(sum, iv_times(a[i], b[-i]));
+    return iv_checked(sum);
+}
+
 /* Sum of a[i] b[k - i], first <= i <= last. */
 static inline iv convolution(const iv *a, const iv *b, int first, int last, int k)
 {
-    iv sum = iv_point(0.0);
-    for (int i = first; i <= last; i++)
-        sum = iv_add(sum, iv_times(a[i], b[k - i]));
-    return iv_checked(sum);
+    return products(a + first, b + k - first, last - first + 1);
 }
 static inline iv square_sum(const iv *a, int k)
 {
-    iv sum = iv_point(0.0);
-    for (int i = 0; 2*i < k; i++)
-        sum = iv_add(sum, iv_times(a[i], a[k - i]));
-    sum = iv_checked(iv_add(sum, sum));
+    const iv half = products(a, a + k, (k + 1)/2), sum = iv_add(half, half);
     return k & 1 ? sum : iv_add(sum, iv_square(a[k/2]));
 }
 
@@ -136,17 +161,17 @@ static void s_linear(series *z, int n, const series *const *a, const dual *const
     }
     iv sum = k == 0 && offset ? offset->v : iv_point(0.0);
     for (int i = 0; i < n; i++)
-        sum = iv_add(sum, iv_mul(factor[i]->v, a[i]->v[k]));
-    z->v[k] = sum;
+        sum = iv_add(sum, iv_times(factor[i]->v, a[i]->v[k]));
+    z->v[k] = iv_checked(sum);
     EACH_DIRECTION(j, z->mask) {
         sum = k == 0 && offset && HAS(offset, j) ? offset->d[j] : iv_point(0.0);
         for (int i = 0; i < n; i++) {
             if (HAS(a[i], j))
-                sum = iv_add(sum, iv_mul(factor[i]->v, a[i]->d[j][k]));
+                sum = iv_add(sum, iv_times(factor[i]->v, a[i]->d[j][k]));
             if (HAS(factor[i], j))
-                sum = iv_add(sum, iv_mul(factor[i]->d[j], a[i]->v[k]));
+                sum = iv_add(sum, iv_times(factor[i]->d[j], a[i]->v[k]));
         }
-        z->d[j][k] = sum;
+        z->d[j][k] = iv_checked(sum);
     }
 }
 
