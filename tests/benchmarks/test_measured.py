@@ -8,8 +8,7 @@ import numpy as np
 import pytest
 from wetdoublet.solvers import Scene, collide
 
-from .measured import gradient_work, near
-from .measured.gradient_task import Gradients
+from .measured import near
 from .measured.page import document
 from .measured.peers.engines import engines
 from .measured.run import MORE, bench
@@ -85,39 +84,6 @@ def test_compiled_peers_solve_the_same_problem(name: str, preset: str) -> None:
     found = engine.prepare((scene, impacts), 1, 1e-9)()
     assert [each.outcome for each in found] == [each.outcome for each in ours]
     assert [each.restitution for each in found] == pytest.approx([each.restitution for each in ours], abs=1e-6)
-
-
-@pytest.mark.parametrize("task", TASKS, ids=lambda task: task.preset)
-def test_variational_equations_of_heyoka_are_our_derivatives(task: Task) -> None:
-    """With a saltation of its own at each event it agrees with forward derivatives at 1e-12, through events."""
-    pytest.importorskip("heyoka")
-    from .measured.peers.heyoka_gradient import prepare
-
-    asked = Gradients.of(task, 7)
-    batch = prepare(asked.numbers, asked.slopes, 1e-9)
-    batch.run()
-    assert len(asked.names) == 12
-    assert {met for met in batch.criteria if met} == {"glass"}
-    assert None in batch.criteria  # an escape by rotation alone
-    assert asked.errors(batch.gradient).max() < 1e-8
-
-
-@pytest.fixture(scope="module")
-def asked() -> Gradients:
-    """Two collisions, three parameters."""
-    names = ("liquid.viscosity", "bridge.contact_angle", "impact.speed")
-    return Gradients(Scene.load("granulation"), (Impact(0.05, 1.3), Impact(0.3, 0.9)), names)
-
-
-def test_gradients_by_differences_are_the_derivatives(asked: Gradients) -> None:
-    """Two collisions a parameter agree with forward derivatives to the step's error, at the edge of a range as well."""
-    (method,) = (each for each in gradient_work.methods() if "differences" in each.name)
-    if method.missing:
-        pytest.skip(method.missing)
-    found = method.prepare(asked, 2, 1e-5)()
-    assert found.shape == (4, 3)
-    assert found[:2] == pytest.approx(found[2:], abs=0)
-    assert asked.errors(found[:2]).max() < 1e-5
 
 
 def test_the_separatrix_is_the_traced_one() -> None:

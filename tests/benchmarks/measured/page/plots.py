@@ -20,15 +20,8 @@ _STYLES = {  # Okabe-Ito colours, a marker each, peers dashed
     "taylor, kernel alone": ("#E69F00", "1", ":"),
     "heyoka, batch of 8": ("#56B4E9", "P", "--"),
     "heyoka, without callbacks": ("#56B4E9", "x", ":"),
-    "diffrax Tsit5": ("#7F7F7F", "<", "--"),
     "scipy LSODA": ("#CC79A7", "^", "--"),
     "scipy Radau": ("#202020", "v", "--"),
-    "gradients_many": ("#E69F00", "*", "-"),
-    "rosenbrock, forward": ("#D55E00", "s", "-"),
-    "rosenbrock, adjoint": ("#0072B2", "o", "-"),
-    "heyoka, variational equations": ("#56B4E9", "P", "--"),
-    "heyoka's, without callbacks": ("#56B4E9", "x", ":"),
-    "central differences of taylor": ("#CC79A7", "^", "--"),
 }
 _OTHER = ("#AA3377", ".", ":")
 _RC: Any = {"font.size": 8.5, "axes.labelsize": 9, "legend.fontsize": 8, "hatch.linewidth": 0.6}
@@ -36,8 +29,7 @@ _RC: Any = {"font.size": 8.5, "axes.labelsize": 9, "legend.fontsize": 8, "hatch.
 
 def draw(record: Record, folder: Path) -> list[Path]:
     """Draw the pictures; returns their files."""
-    pictures = {"tasks": ("work", work_error), "growth": ("growth", growth_curves), "near": ("near", near_curves),
-                "gradient_work": ("gradients", gradient_curves)}  # fmt: skip
+    pictures = {"tasks": ("work", work_error), "growth": ("growth", growth_curves), "near": ("near", near_curves)}
     files = []
     with rc_context(_RC):
         for name, make in (drawn for part, drawn in pictures.items() if record[part]):
@@ -56,7 +48,7 @@ def work_error(record: Record) -> Figure:
     for axes, task in zip(panels, tasks):
         rows = [point["summary"] | {"engine": point["engine"]} for point in task["points"]]
         rows = [row | {"cpu": row["cpu_mean"], "failed": row["wrong"] or row["failed"]} for row in rows]
-        _draw(axes, rows, "engine", "error_largest", 1e6)
+        _draw(axes, rows, "error_largest", 1e6)
         _grid(axes)
         axes.set_title(f"{task['preset']}: {task['collisions']['counted']} collisions", fontsize=9.5)
         axes.set_xlabel("largest absolute error in $e_n$")
@@ -104,7 +96,7 @@ def near_curves(record: Record) -> Figure:
     rtols = list(dict.fromkeys(row["rtol"] for row in rows))
     figure, panels = _panels(len(rtols), (9.2, 3.9))
     for axes, rtol in zip(panels, rtols, strict=True):
-        _draw(axes, [row for row in rows if row["rtol"] == rtol], "engine", "distance", 1e3)
+        _draw(axes, [row for row in rows if row["rtol"] == rtol], "distance", 1e3)
         _grid(axes)
         axes.set_title(f"rtol {rtol:.0e}", fontsize=9.5)
         axes.set_xlabel("relative distance in St from the separatrix")
@@ -114,25 +106,10 @@ def near_curves(record: Record) -> Figure:
     return figure
 
 
-def gradient_curves(record: Record) -> Figure:
-    """CPU time of a gradient against its largest error, a panel a task."""
-    tasks = record["gradient_work"]
-    figure, panels = _panels(len(tasks), (9.2, 4.3))
-    for axes, task in zip(panels, tasks, strict=True):
-        _draw(axes, task["rows"], "method", "error_largest", 1e6)
-        _grid(axes)
-        title = f"{task['preset']}: {task['collisions']} gradients, {len(task['parameters'])} parameters"
-        axes.set_title(title, fontsize=9.5)
-        axes.set_xlabel("largest error, over the largest derivative")
-    panels[0].invert_xaxis()
-    _legend(figure, panels[0], "CPU time a gradient (us)", 3)
-    return figure
-
-
-def _draw(axes: Axes, rows: Sequence[Record], key: str, x: str, unit: float) -> None:
-    """Draw the CPU time over x, a line for each value of the key; hollow where some failed."""
-    for name in dict.fromkeys(row[key] for row in rows):
-        here = [row for row in rows if row[key] == name and row[x]]
+def _draw(axes: Axes, rows: Sequence[Record], x: str, unit: float) -> None:
+    """Draw the CPU time over x, a line for each engine; hollow where some failed."""
+    for name in dict.fromkeys(row["engine"] for row in rows):
+        here = [row for row in rows if row["engine"] == name and row[x]]
         colour, marker, line = _STYLES.get(name, _OTHER)
         style: Any = {"color": colour, "marker": marker, "markersize": 5.5}
         xs, ys = [row[x] for row in here], [row["cpu"] * unit for row in here]
