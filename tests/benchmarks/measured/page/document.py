@@ -23,8 +23,8 @@ def page(bench: Record, stress: Record | None, folder: str, law: Record | None =
     for task in bench["tasks"]:
         parts += [f"### {task['preset']}", tables.sample(task), tables.of_collisions_at_equal_error(task)]
         parts += [text for text in [tables.failures(task)] if text]
-    for title, picture, body in tables.others(bench):
-        parts += [f"## {title}", f"![{title}]({folder}/{picture}.png)", *body]
+    if bench["growth"]:
+        parts += ["## From one collision to many", f"![From one collision to many]({folder}/growth.png)"]
     if law is not None:
         parts.append(exported_law(law))
     if stress is not None:

@@ -5,8 +5,6 @@ from typing import Any, NamedTuple
 
 from wetdoublet.solvers.formatting.markdown import table
 
-from ..near import near_text
-
 BOUNDS = (1e-4, 1e-6, 1e-8, 1e-10)  # of the largest error, in the table of costs at equal error
 
 Record = dict[str, Any]
@@ -91,9 +89,3 @@ def failures(task: Record) -> str:
 def _some(places: list[str]) -> str:
     """The places, or the first of them and how many more."""
     return ", ".join(places) if len(places) < 4 else f"{places[0]} and {len(places) - 1} others"
-
-
-def others(record: Record) -> list[tuple[str, str, list[str]]]:
-    """What was measured besides, with its picture: the separatrix, growth; nothing for what was not."""
-    parts = [("Near the separatrix", "near", [near_text(record["near"])])] if record["near"] else []
-    return parts + ([("From one collision to many", "growth", [])] if record["growth"] else [])

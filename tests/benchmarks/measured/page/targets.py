@@ -18,7 +18,7 @@ MAP = 10_000  # collisions of a map of 100 x 100
 
 def targets(record: Record) -> list[tuple[str, str, str, bool]]:
     """Rows of: what, target, measured, whether it is met; nothing for what the record does not hold."""
-    return [*_times(record), *_wrong(record), *_near(record), *_use(record)]
+    return [*_times(record), *_wrong(record), *_use(record)]
 
 
 def _times(record: Record) -> list[tuple[str, str, str, bool]]:
@@ -42,18 +42,6 @@ def _times(record: Record) -> list[tuple[str, str, str, bool]]:
 def _wrong(record: Record) -> list[tuple[str, str, str, bool]]:
     wrong = sum(p["summary"]["wrong"] for task in record["tasks"] for p in task["points"] if p["engine"] == "taylor")
     return [("wrong outcomes of taylor", "none", str(wrong or "none"), not wrong)]
-
-
-def _near(record: Record) -> list[tuple[str, str, str, bool]]:
-    rows = [row for row in record["near"] if row["distance"] <= 1.1e-6]
-    ours = {(row["rtol"], row["distance"]): row for row in rows if row["engine"] == "taylor"}
-    ratios = [row["cpu"] / ours[row["rtol"], row["distance"]]["cpu"] for row in rows if row["engine"] == HEYOKA]
-    if not ratios:
-        return []
-    failed = sum(row["failed"] for row in ours.values())
-    said = f"{min(ratios):.0f} times faster or more, {failed or 'none'} failed"
-    what = "within 1e-6 to 1e-12 of the separatrix"
-    return [(what, "never slower than heyoka, none fails", said, min(ratios) >= 1 and not failed)]
 
 
 def _use(record: Record) -> list[tuple[str, str, str, bool]]:

@@ -22,7 +22,7 @@ from .automaton import CERTIFIED, Automaton, automata
 from .heyoka_callbacks import Inside
 
 HORIZON = 1e10  # x0/v0: a trajectory that has not ended by then has failed
-STEPS = 2000
+STEPS = 2000  # of a collision, on average, after which all are given up
 _NEVER = -1e4  # a level of energy that is not reached
 BATCH = 8
 _GENERATED = "wetdoublet.generated"
@@ -77,12 +77,8 @@ class System:
     varying: tuple[str, ...]
 
 
-def system(choice: ModelKey, groups: Sequence[Mapping[str, float]], proved: str, inside: bool = False) -> System:
-    """The equations of these collisions; what is the same for all of them is written in.
-
-    Arguments:
-        inside: coming below a gap, the last parameter, is an event.
-    """
+def system(choice: ModelKey, groups: Sequence[Mapping[str, float]], proved: str) -> System:
+    """The equations of these collisions; what is the same for all of them is written in."""
     import heyoka
 
     structure, laws = translated(choice)
@@ -99,8 +95,6 @@ def system(choice: ModelKey, groups: Sequence[Mapping[str, float]], proved: str,
         events["elastic"] = found["elastic"]
     events["rough"] = found["rough"]
     events["rupture"] = found["rupture"]
-    if inside:
-        events["inside"] = y["gap"] - heyoka.par[len(varying) + 3]
     if bridge:
         events["film_edge"] = found["film_edge"]
     if proved == "energy":
@@ -138,7 +132,6 @@ class Batch:
 
     Arguments:
         dry: restitution of the dry contact.
-        steps: of a collision, on average, after which all are given up.
     """
 
     integrator: Any = None
@@ -148,7 +141,6 @@ class Batch:
     lanes: list[Lane] = field(default_factory=list)
     queue: Any = None
     left: int = 0
-    steps: int = STEPS
     outcomes: list[str] = field(default_factory=list)
     restitutions: list[float] = field(default_factory=list)
 
@@ -188,7 +180,7 @@ class Batch:
             ta.reset_cooldowns(lane)
             ta.state[:, lane], ta.pars[:, lane] = self.starts[0].state, self.starts[0].parameters
             self._next(lane)
-        ta.propagate_until(np.full(size, HORIZON), max_steps=self.steps * (1 + count // size))
+        ta.propagate_until(np.full(size, HORIZON), max_steps=STEPS * (1 + count // size))
 
     def _next(self, lane: int) -> bool:
         """Give a lane its next collision; freeze it if there is none. True while any lane is at work."""
@@ -230,17 +222,8 @@ class Batch:
             ta.pars[self.film, lane] = 1.0 if ta.state[1, lane] < 0 else 0.0
             return True
 
-        def inside(ta: Any, _: int, lane: int) -> bool:
-            """A barrier inside the film is ahead from here on."""
-            level = self.starts[self.lanes[lane].collision].automaton.level(ta.state[:, lane].copy())
-            ta.pars[self.film + 2, lane] = _NEVER if level is None else level
-            return self.ended(lane, False) if self._proved(lane) else True
-
         if event in ("glass", "elastic", "rough"):
             return rebounds
-
-        if event == "inside":
-            return inside
         if event == "film_edge":
             return edge
         separated = event == "rupture"
@@ -262,14 +245,10 @@ def starts(followed: Sequence[Automaton], varying: Sequence[str]) -> list[Start]
     return begun
 
 
-def collisions(
-    scene: Scene, impacts: Sequence[Impact], rtol: float, inside: bool = False, watch: Inside | None = None
-) -> Batch:
+def collisions(scene: Scene, impacts: Sequence[Impact], rtol: float, watch: Inside | None = None) -> Batch:
     """An integrator for a scene's impacts, compiled, with its queue.
 
     Arguments:
-        inside: watch for barriers inside the film, not ahead at initial contact; only beside a separatrix a stick
-            is not proved without.
         watch: takes the time within callbacks.
 
     ComputationError as of `automata`.
@@ -277,13 +256,9 @@ def collisions(
     numbers = [dimensionless(scene, impact) for impact in impacts]
     followed = automata(numbers, rtol)
     proved = followed[0].proof
-    equations = system(followed[0].model.choice, [each.groups for each in numbers], proved, inside)
+    equations = system(followed[0].model.choice, [each.groups for each in numbers], proved)
     batch = Batch(dry=numbers[0].groups["dry_restitution"], film=len(equations.varying))
     batch.starts = starts(followed, equations.varying)
-    if inside:
-        for start in batch.starts:  # just below the outermost barrier
-            outermost = max((barrier.gap for barrier in start.automaton.barriers), default=0.0)
-            start.parameters = np.append(start.parameters, outermost * (1 - 1e-12))
     if not proved:  # heyoka wants no parameter that is not used
         for start in batch.starts:
             start.parameters = start.parameters[:-1]
