@@ -12,7 +12,7 @@ from typing import Any
 from .compiler import compiler
 from .cores import usable_cores
 
-_PACKAGES = ("wetdoublet", "casadi", "numpy", "scipy", "heyoka", "numba", "diffrax", "jax")
+_PACKAGES = ("wetdoublet", "casadi", "numpy", "scipy", "heyoka")
 
 
 @contextmanager

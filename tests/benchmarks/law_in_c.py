@@ -1,16 +1,14 @@
-"""The exported law beside our kernel: speed of single calls and of batches, and agreement on 10,000 random pairs.
+"""The exported law beside our kernel: speed of single calls and of batches.
 
     python -m tests.benchmarks.law_in_c [FOLDER]     measures, prints, writes law_in_c.json
     python -m tests.benchmarks.law_in_c --print      only prints
 
 FOLDER is docs/engineering/performance. The law is compiled with its Makefile's flags; single calls are made from a loop
-in C. All take turns in one process, CPU time, the best of several rounds. Agreement is measured twice: without
-contraction, where both are the same arithmetic, and as each is compiled by default.
+in C. All take turns in one process, CPU time, the best of several rounds.
 """
 
 import ctypes
 import json
-import os
 import subprocess
 import sys
 import tempfile
@@ -34,9 +32,8 @@ from .measured.timing import Call, Least
 
 FOLDER = Path(__file__).resolve().parents[2] / "docs" / "engineering" / "performance"
 PRESETS = ("granulation", "pendulum", "granulation-dry-bridge", "lactose-pvp")
-RTOL, ROUNDS, TIMED, COMPARED = 1e-9, 7, 2000, 10_000
+RTOL, ROUNDS, TIMED = 1e-9, 7, 2000
 FLAGS = ("-O2", "-march=native", "-fno-math-errno", "-ffp-contract=fast", "-funroll-loops")  # of the Makefile
-BESIDE = 1e-9  # relative change of the speed within which outcomes may differ
 LOOP = """
 #include "{name}.h"
 void one_by_one(const {name}_material *m, const {name}_impact *impacts, long count, {name}_collision *found)
@@ -95,27 +92,6 @@ def speed(scene: Scene, law: Law, loops: dict[str, ctypes.CDLL], spinning: bool)
     return best(calls, TIMED)
 
 
-def differences(scene: Scene, law: Law) -> dict[str, float]:
-    """The largest relative difference of e_n from our kernel, and outcomes that differ far from any boundary."""
-    rows = impacts(law, scene, COMPARED, scene.pendulum is None and not scene.wall)
-    found, answers = law.collide(rows), same_kernel(scene, rows)()
-    decided = (found["status"] == 0) & (answers["status"] <= 1)
-    differs = np.flatnonzero(decided & (found["outcome"] != answers["outcome"]))
-    beside = 0
-    for k in differs:
-        near = np.repeat(rows[k : k + 1], 2)
-        near["speed"] *= [1 - BESIDE, 1 + BESIDE]
-        beside += len({*law.collide(near)["outcome"].tolist(), int(found["outcome"][k])}) > 1
-    both = decided & (found["outcome"] == answers["outcome"]) & (found["outcome"] > 0)
-    one, other = found["restitution"][both], answers["shown"][both, 0]
-    return {
-        "e_n": float(np.max(np.abs(one - other) / np.abs(other), initial=0.0)),
-        "undecided": int(np.count_nonzero(found["status"])),
-        "outcomes": len(differs),
-        "beside": int(beside),
-    }
-
-
 def measured(preset: str, folder: Path) -> dict[str, Any]:
     """The row of a preset."""
     scene = Scene.load(preset)
@@ -130,12 +106,6 @@ def measured(preset: str, folder: Path) -> dict[str, Any]:
     row: dict[str, Any] = {"preset": preset, "plain": speed(scene, law, loops, spinning=False)}
     if scene.pendulum is None and not scene.wall:
         row["spinning"] = speed(scene, law, loops, spinning=True)
-    row["as compiled"] = differences(scene, law)
-    os.environ["WETDOUBLET_CFLAGS"] = "-ffp-contract=off"
-    kernel.cache_clear()
-    row["without contraction"] = differences(scene, Law(scene, folder, *FLAGS, "-ffp-contract=off"))
-    del os.environ["WETDOUBLET_CFLAGS"]
-    kernel.cache_clear()
     return row
 
 
@@ -143,27 +113,19 @@ def section(record: dict[str, Any]) -> str:
     """The part of the page."""
     columns = {"single": "single call", "single, in one lane": "with `-DLAW_LANES=1`", "batch": "batch",
                "kernel": "our kernel, same variant", "for maps": "for maps"}  # fmt: skip
-    speeds, other, beside = [], 0, 0
+    speeds = []
     for row in record["rows"]:
         for kind in ("plain", "spinning"):
             if kind in row:
                 cells = (f"{row[kind][way]:.2g}" if way in row[kind] else "-" for way in columns)
                 speeds.append([row["preset"] + ", spinning" * (kind == "spinning"), *cells])
-        for compiled in ("without contraction", "as compiled"):
-            other += row[compiled]["outcomes"]
-            beside += row[compiled]["beside"]
     said = (
         f"`python -m tests.benchmarks.law_in_c`: `export --to c` with the flags of its Makefile, rtol "
         f"{record['rtol']:g}; random impacts over three decades of the speed. The law has a spin for each sphere, "
         "rotation and times. The kernel for maps has none of these, and jumps along the slow manifold. A single call "
         "fills one lane, and is faster where there is only one."
     )
-    agreed = (
-        f"Of {COMPARED} random pairs of each preset, compiled with and without contraction, {other} have another "
-        f"outcome than by our kernel of the same variant; {beside} of these lie within {BESIDE:g} of a boundary in the "
-        "speed."
-    )
-    return "\n\n".join(["## The exported law", table(["CPU us a collision", *columns.values()], speeds), said, agreed])
+    return "\n\n".join(["## The exported law", table(["CPU us a collision", *columns.values()], speeds), said])
 
 
 def main() -> None:

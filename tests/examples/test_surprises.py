@@ -1,4 +1,4 @@
-"""The numbers of `docs/explanation/surprises.md`, by row: the lines of the page, run."""
+"""The numbers of `docs/explanation/surprises.md`, by row: the lines of the page, run, and closed forms."""
 
 import ast
 import math
@@ -10,11 +10,15 @@ from typing import Any
 import numpy as np
 import pytest
 import wetdoublet as wd
-from wetdoublet.solvers import Scene, boundary, collide, critical
+from scipy.optimize import brentq
+from wetdoublet.solvers import Scene, boundary, collide, collide_pair, collision_averages, critical
+
+from ..helpers.two_bodies import bodies_of
 
 pytestmark = pytest.mark.slow
 PAGE = (Path(__file__).parents[2] / "docs/explanation/surprises.md").read_text(encoding="utf-8")
 GRANULATION, PENDULUM = Scene.load("granulation"), Scene.load("pendulum")
+WALL = GRANULATION.with_entries({"partner.wall": True})
 STEEP = math.radians(60)
 VISCOSITY, TENSION = "liquid.viscosity", "bridge.surface_tension"
 EXPECTED = {
@@ -115,3 +119,87 @@ def test_collide_says_that_a_contact_is_not_instantaneous() -> None:
     unequal = GRANULATION.with_entries({"partner.radius": 1.5e-4, "partner.mass": 1.5**3 * 1.04e-8})
     slow = collide(unequal, stokes=1.01 * stokes(unequal, STEEP)[0], angle=STEEP)
     assert f"travels {slow.contact_time * slow.speed / 0.5 / 2.5e-4:.3g} diameters" in slow.long_contact
+
+
+# rows in closed form
+
+
+def loss(s: float) -> float:
+    """What a film takes from x0 to s x0, in units of the Stokes number."""
+    return math.log(1 / s) - 1.5 + 2 * s - s * s / 2
+
+
+def test_15_glass_makes_e_n_larger_than_roughness_does() -> None:
+    """In closed form: the gap at which the pressure is met, and the film's loss to there and back."""
+    one, liquid = PENDULUM.particles, PENDULUM.liquid
+    number = 1.1 * stokes(PENDULUM, 0.0)[0]
+    scale = 3 * liquid.viscosity * one.reduced_radius * PENDULUM.speed_of(number) / liquid.film_thickness**2
+    pressure = liquid.glass_transition_pressure
+    gap = brentq(lambda s: scale * (1 - loss(s) / number) / s**2 - pressure, 0.12, 0.5)
+    expected = one.dry_restitution * (1 - loss(gap) / number) - loss(gap) / number
+    assert collide(PENDULUM, stokes=number, angle=0.0).restitution == pytest.approx(expected, rel=2e-4)  # strings
+    taken = loss(one.roughness / liquid.film_thickness)
+    least = (1 + 1 / one.dry_restitution) * taken
+    rough = one.dry_restitution * (1 - taken / (1.1 * least)) - taken / (1.1 * least)
+    assert rough == pytest.approx(0.0900, rel=1e-3)
+    assert expected / rough == pytest.approx(2.5, rel=0.01)
+
+
+def test_11_the_ceiling_of_rebounds_without_glass() -> None:
+    one, liquid = GRANULATION.particles, GRANULATION.liquid
+    ceiling = one.reduced_mass * liquid.film_thickness**2 * 20e6
+    ceiling /= 18 * math.pi * liquid.viscosity**2 * one.reduced_radius**3
+    assert stokes(GRANULATION, math.radians(85))[-1] == pytest.approx(ceiling, rel=1e-8)
+
+
+def ends() -> tuple[float, float]:
+    """Distances of the centres at initial contact and at rupture."""
+    body = bodies_of(GRANULATION)
+    return body.contact + body.film_thickness, body.contact + body.rupture
+
+
+def test_14_rigid_rotation_would_overspin_less() -> None:
+    """Just below the ceiling, where e_t is least, rigid rotation of the same L would have more."""
+    first, last = ends()
+    assert first * last / (last**2 + 6.4 * bodies_of(GRANULATION).a ** 2) > 0.6448 * (1 + 1e-3)
+
+
+def test_28_a_wall_gives_back_what_the_bridge_leaves() -> None:
+    """In closed form: the dry restitution, less the work of the bridge; whatever the viscosity."""
+    speed, angle = critical(WALL, angle=0.0).rows[0].relative_speed, math.radians(45)
+    body, normal = bodies_of(WALL), 1.5 * speed
+    gap = np.linspace(body.film_thickness, body.rupture, 20_001)
+    work = np.trapezoid([body.pull(float(x)) for x in gap], gap)
+    closed = math.sqrt(body.dry_restitution**2 - 2 * work / (body.m * normal**2))
+    assert closed == pytest.approx(0.967236, abs=1e-6)
+    for viscosity in (2.0, 3.0):
+        thicker = WALL.with_entries({"liquid.viscosity": viscosity})
+        assert collide(thicker, speed=normal, angle=angle).restitution == pytest.approx(closed, rel=1e-8)
+
+
+def test_13_twist_parts_a_stick() -> None:
+    """In closed form: all of L in rigid rotation at the roughness, where the bridge just holds."""
+    body, number = bodies_of(GRANULATION), 0.02
+    omega = math.tan(STEEP) * GRANULATION.speed_of(number) / body.contact
+    r = body.contact + body.roughness
+    holds = (r**2 + 6.4 * body.a**2) * math.sqrt(body.m * body.pull(body.roughness) / r)
+    orbital = body.m * (body.contact + body.film_thickness) ** 2 * omega
+    closed = math.sqrt(holds**2 - orbital**2) / (2 * body.inertias[0]) / omega
+    assert closed == pytest.approx(3.015, rel=5e-3)
+    speed, outcomes = GRANULATION.speed_of(number), []
+    for twist in (0.999 * 3.015 * omega, 1.001 * 3.015 * omega):
+        velocities = ((0.0, 0.0, 0.0), (-speed, math.tan(STEEP) * 1.04 * speed, 0.0))
+        outcomes.append(int(collide_pair(GRANULATION, [1, 0, 0], velocities, [(twist, 0.0, 0.0)] * 2).outcome))
+    assert outcomes == [0, 2]
+
+
+@pytest.mark.usefixtures("optimized")
+def test_35_and_36_what_rigid_rotation_keeps() -> None:
+    """Where all stick, in closed form; and those that part have its tangential restitution."""
+    first, last = ends()
+    a = bodies_of(GRANULATION).a
+    stretch = (first / (4 * a)) ** 2  # squared sideways velocity of the centres, over that of the surfaces
+    closed = 1 - stretch / (1 + stretch) * first**2 / (first**2 + 6.4 * a**2)
+    assert closed == pytest.approx(0.6206806, rel=1e-6)
+    assert float(collision_averages(GRANULATION, speeds=0.5).kinetic_energy_loss) == pytest.approx(closed, rel=1e-9)
+    assert first * last / (last**2 + 6.4 * a**2) == pytest.approx(0.66, abs=0.01)

@@ -1,7 +1,4 @@
-"""Tests named on standard input, each run in a fork of this process, which has loaded libraries but not the package.
-
-Nor hypothesis, whose assertions pytest writes anew.
-"""
+"""Tests named on standard input, each run in a fork of this process, which has loaded libraries but not the package."""
 
 import json
 import os
@@ -10,6 +7,7 @@ import sys
 import tempfile
 
 import casadi  # noqa: F401 -- for the forks, as the next ones
+import hypothesis  # noqa: F401
 import pint  # noqa: F401
 import pytest
 import scipy.integrate
@@ -19,10 +17,7 @@ import sympy  # noqa: F401
 import xarray  # noqa: F401
 
 PATIENCE = 600  # s
-OPTIONS = (
-    "-x", "-o", "addopts=--import-mode=importlib -q",
-    *(word for plugin in ("xdist", "cacheprovider", "zarr") for word in ("-p", f"no:{plugin}")),
-)  # fmt: skip
+OPTIONS = ("-x", "-o", "addopts=--import-mode=importlib -q", "-p", "no:cacheprovider")
 
 
 def answer(test: str) -> tuple[int, str]:
@@ -43,6 +38,7 @@ def answer(test: str) -> tuple[int, str]:
 
 if __name__ == "__main__":
     sys.path.insert(0, sys.argv[1])  # the folder of the package
+    os.environ["PYTEST_DISABLE_PLUGIN_AUTOLOAD"] = "1"  # hypothesis' would have all of its modules rewritten
     for line in sys.stdin:
         sys.stdout.write(json.dumps(answer(line.strip())) + "\n")
         sys.stdout.flush()

@@ -4,7 +4,7 @@
 
 FOLDER is docs/engineering/performance; SCENES (500) is what the stress test takes. Some ten minutes on two cores. With
 the usual folder the figures of README.md are written as well. Parts are bench (time against error beside peers,
-gradients, cost beside a separatrix, growth, cold start and first use), stress, law_in_c, and page, which measures
+growth, cold start and first use), stress, law_in_c, and page, which measures
 nothing. What fails is named at the end, and the rest is measured all the same; the page is then made from the older
 record of that part.
 """

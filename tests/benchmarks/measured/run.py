@@ -7,8 +7,6 @@ from typing import Any
 
 from wetdoublet.solvers.host.environment import environment, one_core
 
-from .gradient_work import gradient_work
-from .near import near
 from .peers.engines import engines
 from .peers.heyoka_callbacks import around
 from .processes import cold_start, first_use, growth
@@ -17,7 +15,7 @@ from .timing import CALL, OFTEN, REPEATS, Engine, Tell
 from .work import Reference, reference, work
 
 Record = dict[str, Any]
-MORE = ("gradient_work", "near", "growth", "first_use")
+MORE = ("growth", "first_use")
 
 
 def bench(
@@ -44,10 +42,6 @@ def bench(
             points = work(task, truths, which, repeats, tell, call)
             sample = {"preset": task.preset, "drawn": str(task), "collisions": _collisions(truths)}
             found.append(sample | {"points": points})
-        if "gradient_work" in more:
-            others["gradient_work"] = gradient_work(tasks, repeats, tell)
-        if "near" in more:
-            others["near"] = near(tell)
     others |= {each.__name__: each(tell=tell) for each in (growth, first_use) if each.__name__ in more}
     around_callback = around() if find_spec("heyoka") else None
     settings = {"seed": SEED, "repeats": repeats, "often": OFTEN, "call": call, "around_callback": around_callback}

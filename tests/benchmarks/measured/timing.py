@@ -6,6 +6,8 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from wetdoublet.solvers.errors import ComputationError
+
 Tell = Callable[[str], None]
 
 CALL = 1000  # of collisions or gradients, at least, in one call of an engine that takes many
@@ -82,7 +84,11 @@ def measured(
             continue
         tell(f"{engine.name} {rtol:.1e}")
         copies = -(-call // size) if engine.many else 1
-        least = Least(engine.prepare(asked, copies, rtol), copies * size)
+        try:
+            least = Least(engine.prepare(asked, copies, rtol), copies * size)
+        except ComputationError as error:  # what a peer does not have
+            tell(f"{engine.name}: {error}")
+            continue
         if least.run() > DEAR and not engine.many:
             dear.add(engine.name)
         least.cpu = math.inf

@@ -56,20 +56,6 @@ def test_one_speed_is_the_mean_over_a_fine_grid_of_angles() -> None:
 
 
 @pytest.mark.slow
-def test_a_gas_of_unequal_spheres_is_what_random_collisions_show() -> None:
-    """Speeds drawn from the Maxwellian of collisions, directions isotropic: within four standard errors."""
-    count, rng = 40_000, np.random.default_rng(5)
-    # V^3 exp(-V^2/(4 s^2)): V^2/(4 s^2) has the gamma distribution of shape 2
-    speed = 2 * 0.8 * np.sqrt(rng.gamma(2.0, size=count))
-    angle = np.arcsin(np.sqrt(rng.uniform(size=count)))
-    found = collision_averages(UNEQUAL, speeds="maxwell:0.8 m/s", tolerance=1e-4)
-    expected = sums(UNEQUAL, speed, angle)
-    assert averages(found) == pytest.approx(expected, abs=4 * 0.7 / np.sqrt(count))
-    assert averages(found)[:3].min() > 0.02
-    assert averages(found)[:3].sum() == pytest.approx(1, abs=1e-8)
-
-
-@pytest.mark.slow
 def test_errors_are_not_larger_than_estimated() -> None:
     """A coarse quadrature differs from a finer one by less than it says, and by less than its tolerance."""
     table = ([1.0, 2.0], [1.0, 3.0])

@@ -8,8 +8,6 @@ from wetdoublet.solvers.model.model import select_model
 
 from ...helpers.reference import collide
 
-# Hardly any film, and no bridge: what is left is the impact of dry spheres.
-DRY = {"liquid.viscosity": "1e-9 Pa s", "particles.roughness": "0.5 um", "particles.dry_restitution": 0.8}
 WET = {"liquid.glass_transition_pressure": "1e12 Pa", "liquid.viscosity": "0.01 Pa s", "particles.roughness": "1 um"}
 ANGLE = math.radians(30)
 
@@ -18,35 +16,6 @@ def rough(entries: dict[str, object], friction: float, reversed_part: float = 0.
     """Granulation with friction."""
     own = {"particles.friction": friction, "particles.contact_tangential_restitution": reversed_part}
     return Scene.load("granulation").with_entries({**WET, **entries, **own})
-
-
-def dry_wall(friction: float, reversed_part: float = 0.0) -> Scene:
-    """A sphere beside a wall, dry but for a trace of film."""
-    own = {"particles.friction": friction, "particles.contact_tangential_restitution": reversed_part}
-    return Scene.load("granulation-dry-bridge").with_entries({**DRY, "partner.wall": "true", **own})
-
-
-def along(scene: Scene, speed: float = 1.0) -> tuple[float, float]:
-    """Sliding velocity and surface speed of the spin after an impact, over the sliding velocity before."""
-    found = collide(scene, speed=speed, angle=ANGLE, engine="rosenbrock")
-    sideways = speed * math.tan(ANGLE)
-    return found.tangential_restitution or 0.0, (found.final_spin or 0.0) * scene.reduced_radius / sideways
-
-
-@pytest.mark.parametrize("reversed_part", [0.0, 0.6])
-def test_a_sphere_that_sticks_to_a_wall_leaves_rolling(reversed_part: float) -> None:
-    """5/7 of its sliding velocity is left, and it rolls; a part of the slip may be reversed (Walton & Braun)."""
-    sliding, rolling = along(dry_wall(5.0, reversed_part))
-    assert sliding == pytest.approx(1 - 2 / 7 * (1 + reversed_part), rel=1e-6)
-    assert rolling == pytest.approx(5 / 7 * (1 + reversed_part), rel=1e-6)
-
-
-def test_a_sphere_that_slides_takes_coulombs_impulse() -> None:
-    """That is mu (1 + e) |u|, whatever the tangential velocity, and 5/2 of that as the speed of its surface."""
-    sliding, rolling = along(dry_wall(0.05))
-    lost = 0.05 * 1.8 / math.tan(ANGLE)
-    assert sliding == pytest.approx(1 - lost, rel=1e-6)
-    assert rolling == pytest.approx(2.5 * lost, rel=1e-6)
 
 
 def test_without_friction_there_is_no_such_term() -> None:

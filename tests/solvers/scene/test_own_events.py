@@ -1,7 +1,6 @@
 """Events that a model file declares: by every engine, with ledger, derivatives, boundaries and proofs."""
 
 import math
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -11,8 +10,7 @@ from wetdoublet.solvers.boundaries.on_map import map_curves
 
 from ...helpers.judged_models import compared
 from ...helpers.reference import collide
-from ...helpers.snapping import EVENTS, Ended, integrated
-from ...helpers.two_bodies import Bodies, bodies_of
+from ...helpers.snapping import EVENTS
 
 pytestmark = pytest.mark.slow
 ANGLE = math.radians(60)
@@ -31,42 +29,6 @@ def scene(model: Path, **custom: object) -> Scene:
     """Granulation with the model's bridge."""
     own = {f"custom.{name}": value for name, value in custom.items()}
     return Scene.load("granulation", model=model).with_entries(own)
-
-
-def bodies(one: Scene) -> Bodies:
-    """Its numbers for the independent integration."""
-    return replace(bodies_of(one), law="constant", wetting=0.0)  # the force of the model's bridge while it holds
-
-
-def same(found, expected: Ended, speed: float, rel: float = 1e-7) -> None:
-    """Restitution, time and rates of a result are those of the independent integration."""
-    assert found.restitution == pytest.approx(expected.velocity / speed, rel=rel)
-    assert found.contact_time == pytest.approx(expected.time, rel=rel)
-    assert found.final_rotation_rate == pytest.approx(expected.rate, rel=rel)
-    assert found.final_spin == pytest.approx(expected.spin, rel=rel)
-
-
-@pytest.mark.parametrize("engine", ["taylor", "cvodes"])
-def test_a_bridge_that_snaps_ends_the_collision(snaps: Path, engine: str):
-    """Opening faster than its rate beyond the film, the pair is separate there, as integrated independently."""
-    own = scene(snaps, critical_rate="1e4 1/s")
-    found = collide(own, stokes=0.08, angle=ANGLE, engine=engine, rtol=1e-10)
-    assert [event.kind for event in found.events] == ["turned", "film edge", "snap"]
-    assert found.outcome == "stick-rotate-separate"
-    film = own.liquid.film_thickness
-    expected = integrated(bodies(own), found.speed, ANGLE, lambda x, u: 1 - x / film, beyond=False)
-    assert expected.velocity / film > 1e4
-    same(found, expected, found.speed)
-
-
-def test_a_bridge_that_lets_go_pulls_no_longer(snaps: Path):
-    """The mark of an event is a factor of the law: beyond it the doublet goes on without the bridge's force."""
-    own = scene(snaps, leaving_speed="0.05 m/s")
-    found = collide(own, stokes=0.08, angle=ANGLE, rtol=1e-10, engine="rosenbrock")
-    assert [event.kind for event in found.events] == ["turned", "let go", "film edge", "rupture"]
-    same(found, integrated(bodies(own), found.speed, ANGLE, lambda x, u: 0.05 - u, beyond=True), found.speed)
-    assert found.energy is not None
-    assert abs(found.energy.residual) < 1e-8 * found.energy.initial
 
 
 def test_what_a_jump_takes_is_booked(snaps: Path):

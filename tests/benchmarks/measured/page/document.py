@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import Any
 
 from ...law_in_c import section as exported_law
-from . import beside_heyoka, tables
+from . import tables
 from .targets import headline, target_table
 
 Record = dict[str, Any]
@@ -18,12 +18,13 @@ def page(bench: Record, stress: Record | None, folder: str, law: Record | None =
     """The page."""
     parts = ["# Performance", INTRODUCTION, "## What was aimed at", target_table(bench)]
     parts += ["## Run time against achieved error", f"![Work against error]({folder}/work.png)"]
-    parts.append(f"{WORK}\n{beside_heyoka.note(bench)}")
+    around = bench["settings"]["around_callback"]
+    parts.append(f"{WORK}\n{ALONE.format(around=f': {1e9 * around:.0f} ns a call' if around else '')}")
     for task in bench["tasks"]:
         parts += [f"### {task['preset']}", tables.sample(task), tables.of_collisions_at_equal_error(task)]
         parts += [text for text in [tables.failures(task)] if text]
-    for title, picture, body in tables.others(bench):
-        parts += [f"## {title}", f"![{title}]({folder}/{picture}.png)", *body]
+    if bench["growth"]:
+        parts += ["## From one collision to many", f"![From one collision to many]({folder}/growth.png)"]
     if law is not None:
         parts.append(exported_law(law))
     if stress is not None:
@@ -47,9 +48,14 @@ core, against the largest absolute error in e_n among those that separate.
 * **heyoka**: batches of 8 lanes with a queue and terminal events, `fast_math`, not in compact mode. The level of energy
   that proves a stick is computed beforehand, for nothing; it does not get our jump along the slow manifold, nor the
   bound of the impulse where a trajectory turns.
-* **scipy's** methods call CasADi functions; **diffrax** is Tsit5, jitted and vectorised, with its own events.
+* **scipy's** methods call CasADi functions.
 * **Reference values** by DOP853 at 1e-13, which no engine under test uses. Below the grey line an error cannot be told
   from the reference's own."""
+
+ALONE = """\
+* **heyoka, without callbacks**: its events end in callbacks, which from Python are Python. This is less the CPU time
+  within them, by a clock in each, and less the way from heyoka to Python, measured on an oscillator whose crossings
+  call a function that does nothing{around}. A caller in C++ waits at least so long."""
 
 STRESS = """\
 `wetdoublet verify --stress N`: a quasi-random sample of everything a scene may say, and points set at 1e-3 to 1e-12 of

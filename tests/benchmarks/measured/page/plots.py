@@ -1,4 +1,4 @@
-"""The benchmark as pictures: time against achieved error, against distance and against number."""
+"""The benchmark as pictures: time against achieved error and against number."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -20,15 +20,8 @@ _STYLES = {  # Okabe-Ito colours, a marker each, peers dashed
     "taylor, kernel alone": ("#E69F00", "1", ":"),
     "heyoka, batch of 8": ("#56B4E9", "P", "--"),
     "heyoka, without callbacks": ("#56B4E9", "x", ":"),
-    "diffrax Tsit5": ("#7F7F7F", "<", "--"),
     "scipy LSODA": ("#CC79A7", "^", "--"),
     "scipy Radau": ("#202020", "v", "--"),
-    "gradients_many": ("#E69F00", "*", "-"),
-    "rosenbrock, forward": ("#D55E00", "s", "-"),
-    "rosenbrock, adjoint": ("#0072B2", "o", "-"),
-    "heyoka, variational equations": ("#56B4E9", "P", "--"),
-    "heyoka's, without callbacks": ("#56B4E9", "x", ":"),
-    "central differences of taylor": ("#CC79A7", "^", "--"),
 }
 _OTHER = ("#AA3377", ".", ":")
 _RC: Any = {"font.size": 8.5, "axes.labelsize": 9, "legend.fontsize": 8, "hatch.linewidth": 0.6}
@@ -36,8 +29,7 @@ _RC: Any = {"font.size": 8.5, "axes.labelsize": 9, "legend.fontsize": 8, "hatch.
 
 def draw(record: Record, folder: Path) -> list[Path]:
     """Draw the pictures; returns their files."""
-    pictures = {"tasks": ("work", work_error), "growth": ("growth", growth_curves), "near": ("near", near_curves),
-                "gradient_work": ("gradients", gradient_curves)}  # fmt: skip
+    pictures = {"tasks": ("work", work_error), "growth": ("growth", growth_curves)}
     files = []
     with rc_context(_RC):
         for name, make in (drawn for part, drawn in pictures.items() if record[part]):
@@ -52,11 +44,10 @@ def work_error(record: Record) -> Figure:
     From large errors on the left to small on the right; grey where the reference cannot tell them from its own.
     """
     tasks = [task for task in record["tasks"] if task["points"]]
-    figure, panels = _panels(len(tasks), (9.2, 4.9))
+    figure = Figure(figsize=(9.2, 4.9), layout="constrained")
+    panels = figure.subplots(1, len(tasks), sharex=True, sharey=True, squeeze=False)[0]
     for axes, task in zip(panels, tasks):
-        rows = [point["summary"] | {"engine": point["engine"]} for point in task["points"]]
-        rows = [row | {"cpu": row["cpu_mean"], "failed": row["wrong"] or row["failed"]} for row in rows]
-        _draw(axes, rows, "engine", "error_largest", 1e6)
+        _draw(axes, [point["summary"] | {"engine": point["engine"]} for point in task["points"]])
         _grid(axes)
         axes.set_title(f"{task['preset']}: {task['collisions']['counted']} collisions", fontsize=9.5)
         axes.set_xlabel("largest absolute error in $e_n$")
@@ -67,14 +58,9 @@ def work_error(record: Record) -> Figure:
         if own:
             axes.axvspan(least, own, color="#DDDDDD", linewidth=0, zorder=0, label="below the reference's own error")
     panels[0].set_xlim(max(drawn, default=1.0) * 5, least)
-    _legend(figure, panels[0], "CPU time a collision (us)", 3)
+    panels[0].set_ylabel("CPU time a collision (us)")
+    figure.legend(*panels[0].get_legend_handles_labels(), loc="outside upper center", ncols=3, frameon=False)
     return figure
-
-
-def _panels(count: int, size: tuple[float, float]) -> tuple[Figure, Sequence[Axes]]:
-    """A figure of panels side by side with common axes."""
-    figure = Figure(figsize=size, layout="constrained")
-    return figure, figure.subplots(1, count, sharex=True, sharey=True, squeeze=False)[0]
 
 
 def growth_curves(record: Record) -> Figure:
@@ -98,53 +84,17 @@ def growth_curves(record: Record) -> Figure:
     return figure
 
 
-def near_curves(record: Record) -> Figure:
-    """CPU time of a collision against its distance from the separatrix, a panel a tolerance."""
-    rows = record["near"]
-    rtols = list(dict.fromkeys(row["rtol"] for row in rows))
-    figure, panels = _panels(len(rtols), (9.2, 3.9))
-    for axes, rtol in zip(panels, rtols, strict=True):
-        _draw(axes, [row for row in rows if row["rtol"] == rtol], "engine", "distance", 1e3)
-        _grid(axes)
-        axes.set_title(f"rtol {rtol:.0e}", fontsize=9.5)
-        axes.set_xlabel("relative distance in St from the separatrix")
-    panels[0].invert_xaxis()
-    _legend(figure, panels[0], "CPU time a collision (ms)", 4)
-    figure.supxlabel("hollow: some collisions failed", fontsize=8, color="#555555")
-    return figure
-
-
-def gradient_curves(record: Record) -> Figure:
-    """CPU time of a gradient against its largest error, a panel a task."""
-    tasks = record["gradient_work"]
-    figure, panels = _panels(len(tasks), (9.2, 4.3))
-    for axes, task in zip(panels, tasks, strict=True):
-        _draw(axes, task["rows"], "method", "error_largest", 1e6)
-        _grid(axes)
-        title = f"{task['preset']}: {task['collisions']} gradients, {len(task['parameters'])} parameters"
-        axes.set_title(title, fontsize=9.5)
-        axes.set_xlabel("largest error, over the largest derivative")
-    panels[0].invert_xaxis()
-    _legend(figure, panels[0], "CPU time a gradient (us)", 3)
-    return figure
-
-
-def _draw(axes: Axes, rows: Sequence[Record], key: str, x: str, unit: float) -> None:
-    """Draw the CPU time over x, a line for each value of the key; hollow where some failed."""
-    for name in dict.fromkeys(row[key] for row in rows):
-        here = [row for row in rows if row[key] == name and row[x]]
+def _draw(axes: Axes, rows: Sequence[Record]) -> None:
+    """Draw the CPU time over the error, a line for each engine; hollow where some failed."""
+    for name in dict.fromkeys(row["engine"] for row in rows):
+        here = [row for row in rows if row["engine"] == name and row["error_largest"]]
         colour, marker, line = _STYLES.get(name, _OTHER)
         style: Any = {"color": colour, "marker": marker, "markersize": 5.5}
-        xs, ys = [row[x] for row in here], [row["cpu"] * unit for row in here]
+        xs, ys = [row["error_largest"] for row in here], [row["cpu_mean"] * 1e6 for row in here]
         axes.loglog(xs, ys, line, linewidth=1.3, label=name, **style)
-        failed = [(at, y) for at, y, row in zip(xs, ys, here, strict=True) if row["failed"]]
+        failed = [(at, y) for at, y, row in zip(xs, ys, here, strict=True) if row["wrong"] or row["failed"]]
         if failed:
             axes.loglog(*zip(*failed), linestyle="none", markerfacecolor="white", **style)
-
-
-def _legend(figure: Figure, first: Axes, label: str, columns: int) -> None:
-    first.set_ylabel(label)
-    figure.legend(*first.get_legend_handles_labels(), loc="outside upper center", ncols=columns, frameon=False)
 
 
 def _grid(axes: Axes) -> None:

@@ -1,7 +1,8 @@
 """A collision through the emitted automaton, for integrators of other libraries: phases, events and proved sticks.
 
 Events and their effects are those of `generated/automaton.py`, equations and guards those of `solvers.model`. A stick
-is proved where the energy is below a barrier ahead, or, on strings, where the film stops every rebound.
+is proved where the energy is below a barrier ahead; on strings it would be by the kernel's own proof, so that there are
+no peers.
 """
 
 from collections.abc import Sequence

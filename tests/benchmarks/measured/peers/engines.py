@@ -36,7 +36,6 @@ def engines() -> tuple[Engine, ...]:
         Engine(KERNEL, _kernel, FINE, missing=absent),
         Engine(HEYOKA, partial(_heyoka, False), FINE, missing=heyoka),
         Engine(HEYOKA_ALONE, partial(_heyoka, True), FINE, missing=heyoka),
-        Engine("diffrax Tsit5", _diffrax, COARSE, missing=_absent("diffrax")),
         Engine("scipy LSODA", partial(_singly, partial(_peer, "LSODA")), COARSE, many=False, missing=scipy),
         Engine("scipy Radau", partial(_singly, partial(_peer, "Radau")), COARSE, many=False, missing=scipy),
     )
@@ -117,10 +116,3 @@ def _heyoka(alone: bool, asked: Asked, copies: int, rtol: float) -> Call:
         return [Answer(outcome, e_n) if outcome else "not decided" for outcome, e_n in pairs]
 
     return Call(run, read, inside.left_out) if alone else Call(run, read)
-
-
-def _diffrax(asked: Asked, copies: int, rtol: float) -> Call:
-    """All collisions side by side."""
-    from .diffrax_engine import collisions
-
-    return collisions(asked[0], [*asked[1]] * copies, rtol)

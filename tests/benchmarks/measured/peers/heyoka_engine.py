@@ -14,7 +14,6 @@ from types import ModuleType, SimpleNamespace
 from typing import Any
 
 import numpy as np
-from wetdoublet.solvers.model.dimensionless import Problem
 from wetdoublet.solvers.model.key import ModelKey
 from wetdoublet.solvers.scene.scene import Scene
 
@@ -23,24 +22,20 @@ from .automaton import CERTIFIED, Automaton, automata
 from .heyoka_callbacks import Inside
 
 HORIZON = 1e10  # x0/v0: a trajectory that has not ended by then has failed
-STEPS = 2000
+STEPS = 2000  # of a collision, on average, after which all are given up
 _NEVER = -1e4  # a level of energy that is not reached
 BATCH = 8
 _GENERATED = "wetdoublet.generated"
 _FUNCTIONS = ("exp", "log", "sqrt", "sin", "cos", "tan", "atan", "fmax", "fmin")
 
 
-def translated(choice: ModelKey, function: Callable[[str], Callable[..., Any]]) -> tuple[ModuleType, Any]:
-    """The structure module of a choice, and its laws as attributes by slot.
-
-    Arguments:
-        function: gives the elementary function of a name.
-    """
-    laws = {slot: _copy(f"laws.{slot}_{law.replace('-', '_')}", function) for slot, law in choice.laws}
-    return _copy(choice.structure, function), SimpleNamespace(**laws)
+def translated(choice: ModelKey) -> tuple[ModuleType, Any]:
+    """The structure module of a choice in heyoka's expressions, and its laws as attributes by slot."""
+    laws = {slot: _copy(f"laws.{slot}_{law.replace('-', '_')}") for slot, law in choice.laws}
+    return _copy(choice.structure), SimpleNamespace(**laws)
 
 
-def _copy(name: str, function: Callable[[str], Callable[..., Any]]) -> ModuleType:
+def _copy(name: str) -> ModuleType:
     spec = find_spec(f"{_GENERATED}.{name}")
     assert spec is not None
     assert spec.loader is not None
@@ -48,7 +43,7 @@ def _copy(name: str, function: Callable[[str], Callable[..., Any]]) -> ModuleTyp
     spec.loader.exec_module(module)
     for word in _FUNCTIONS:
         if hasattr(module, word):
-            setattr(module, word, function(word))
+            setattr(module, word, elementary(word))
     return module
 
 
@@ -56,18 +51,14 @@ def elementary(name: str) -> Callable[..., Any]:
     """An elementary function of numbers and of heyoka's expressions."""
     import heyoka
 
+    def expression(value: Any) -> Any:
+        return value if isinstance(value, heyoka.expression) else heyoka.expression(float(value))
+
     if name in ("fmax", "fmin"):  # of expressions by selection, which heyoka expands as a series too
         first = heyoka.gt if name == "fmax" else heyoka.lt
-        return lambda x, y: heyoka.select(first(as_expression(x), as_expression(y)), as_expression(x), as_expression(y))
+        return lambda x, y: heyoka.select(first(expression(x), expression(y)), expression(x), expression(y))
     of_expression, of_number = getattr(heyoka, name), getattr(math, name)
     return lambda x: of_expression(x) if isinstance(x, heyoka.expression) else of_number(x)
-
-
-def as_expression(value: Any) -> Any:
-    """A number, or what is an expression already."""
-    import heyoka
-
-    return value if isinstance(value, heyoka.expression) else heyoka.expression(float(value))
 
 
 @dataclass(frozen=True)
@@ -86,15 +77,11 @@ class System:
     varying: tuple[str, ...]
 
 
-def system(choice: ModelKey, groups: Sequence[Mapping[str, float]], proved: str, inside: bool = False) -> System:
-    """The equations of these collisions; what is the same for all of them is written in.
-
-    Arguments:
-        inside: coming below a gap, the last parameter, is an event.
-    """
+def system(choice: ModelKey, groups: Sequence[Mapping[str, float]], proved: str) -> System:
+    """The equations of these collisions; what is the same for all of them is written in."""
     import heyoka
 
-    structure, laws = translated(choice, elementary)
+    structure, laws = translated(choice)
     varying = tuple(name for name in structure.GROUPS if len({each[name] for each in groups}) > 1)
     known = {name: float(groups[0][name]) for name in structure.GROUPS if name not in varying}
     p = known | {name: heyoka.par[k] for k, name in enumerate(varying)}
@@ -108,8 +95,6 @@ def system(choice: ModelKey, groups: Sequence[Mapping[str, float]], proved: str,
         events["elastic"] = found["elastic"]
     events["rough"] = found["rough"]
     events["rupture"] = found["rupture"]
-    if inside:
-        events["inside"] = y["gap"] - heyoka.par[len(varying) + 3]
     if bridge:
         events["film_edge"] = found["film_edge"]
     if proved == "energy":
@@ -147,7 +132,6 @@ class Batch:
 
     Arguments:
         dry: restitution of the dry contact.
-        steps: of a collision, on average, after which all are given up.
     """
 
     integrator: Any = None
@@ -157,11 +141,10 @@ class Batch:
     lanes: list[Lane] = field(default_factory=list)
     queue: Any = None
     left: int = 0
-    steps: int = STEPS
     outcomes: list[str] = field(default_factory=list)
     restitutions: list[float] = field(default_factory=list)
 
-    def build(self, rates: Any, events: Mapping[str, Any], rtol: float, watch: Inside | None) -> None:
+    def build(self, equations: System, rtol: float, watch: Inside | None) -> None:
         """Compile the integrator; `watch` takes the time within callbacks."""
         import heyoka
 
@@ -169,7 +152,7 @@ class Batch:
         self.lanes = [Lane() for _ in range(BATCH)]
         first = self.starts[0]
         self.integrator = heyoka.taylor_adaptive_batch(
-            rates,
+            equations.rates,
             state=np.repeat(first.state[:, None], BATCH, axis=1),
             pars=np.repeat(first.parameters[:, None], BATCH, axis=1),
             t_events=[
@@ -178,7 +161,7 @@ class Batch:
                     callback=watch.watched(self.callback(name)) if watch else self.callback(name),
                     direction=either if name == "film_edge" else falling,
                 )
-                for name, guard in events.items()
+                for name, guard in equations.events.items()
             ],
             tol=rtol,
             compact_mode=False,
@@ -197,7 +180,7 @@ class Batch:
             ta.reset_cooldowns(lane)
             ta.state[:, lane], ta.pars[:, lane] = self.starts[0].state, self.starts[0].parameters
             self._next(lane)
-        ta.propagate_until(np.full(size, HORIZON), max_steps=self.steps * (1 + count // size))
+        ta.propagate_until(np.full(size, HORIZON), max_steps=STEPS * (1 + count // size))
 
     def _next(self, lane: int) -> bool:
         """Give a lane its next collision; freeze it if there is none. True while any lane is at work."""
@@ -239,47 +222,12 @@ class Batch:
             ta.pars[self.film, lane] = 1.0 if ta.state[1, lane] < 0 else 0.0
             return True
 
-        def inside(ta: Any, _: int, lane: int) -> bool:
-            """A barrier inside the film is ahead from here on."""
-            level = self.starts[self.lanes[lane].collision].automaton.level(ta.state[:, lane].copy())
-            ta.pars[self.film + 2, lane] = _NEVER if level is None else level
-            return self.ended(lane, False) if self._proved(lane) else True
-
         if event in ("glass", "elastic", "rough"):
             return rebounds
-
-        if event == "inside":
-            return inside
         if event == "film_edge":
             return edge
         separated = event == "rupture"
         return lambda _ta, _sign, lane: self.ended(lane, separated)
-
-
-def prepare(numbers: Sequence[Problem], rtol: float, inside: bool = False, watch: Inside | None = None) -> Batch:
-    """An integrator for these collisions, compiled, with its queue.
-
-    Arguments:
-        inside: watch for barriers inside the film, not ahead at initial contact; only beside a separatrix a stick
-            is not proved without.
-        watch: takes the time within callbacks.
-
-    ComputationError as of `automata`.
-    """
-    followed = automata(numbers, rtol)
-    proved = followed[0].proof
-    equations = system(followed[0].model.choice, [each.groups for each in numbers], proved, inside)
-    batch = Batch(dry=numbers[0].groups["dry_restitution"], film=len(equations.varying))
-    batch.starts = starts(followed, equations.varying)
-    if inside:
-        for start in batch.starts:  # just below the outermost barrier
-            outermost = max((barrier.gap for barrier in start.automaton.barriers), default=0.0)
-            start.parameters = np.append(start.parameters, outermost * (1 - 1e-12))
-    if not proved:  # heyoka wants no parameter that is not used
-        for start in batch.starts:
-            start.parameters = start.parameters[:-1]
-    batch.build(equations.rates, equations.events, rtol, watch)
-    return batch
 
 
 def starts(followed: Sequence[Automaton], varying: Sequence[str]) -> list[Start]:
@@ -297,8 +245,22 @@ def starts(followed: Sequence[Automaton], varying: Sequence[str]) -> list[Start]
     return begun
 
 
-def collisions(
-    scene: Scene, impacts: Sequence[Impact], rtol: float, inside: bool = False, watch: Inside | None = None
-) -> Batch:
-    """The batch of a scene's impacts; as `prepare`."""
-    return prepare([dimensionless(scene, impact) for impact in impacts], rtol, inside=inside, watch=watch)
+def collisions(scene: Scene, impacts: Sequence[Impact], rtol: float, watch: Inside | None = None) -> Batch:
+    """An integrator for a scene's impacts, compiled, with its queue.
+
+    Arguments:
+        watch: takes the time within callbacks.
+
+    ComputationError as of `automata`.
+    """
+    numbers = [dimensionless(scene, impact) for impact in impacts]
+    followed = automata(numbers, rtol)
+    proved = followed[0].proof
+    equations = system(followed[0].model.choice, [each.groups for each in numbers], proved)
+    batch = Batch(dry=numbers[0].groups["dry_restitution"], film=len(equations.varying))
+    batch.starts = starts(followed, equations.varying)
+    if not proved:  # heyoka wants no parameter that is not used
+        for start in batch.starts:
+            start.parameters = start.parameters[:-1]
+    batch.build(equations, rtol, watch)
+    return batch
