@@ -144,10 +144,8 @@ def diff(old: str, new: str, probe: str | None, changes: Changes, output: Writte
         --set (changes)
     """
     from ..export.differences import differences
-    from ..export.text import as_text
 
-    compared = differences(old, new, changes=changes, **passed(probe=probe))
-    output.put(as_text(compared), compared.to_dict())
+    output.show(differences(old, new, changes=changes, **passed(probe=probe)))
 
 
 @command(to="one of " + ", ".join(KINDS), out="a folder to write into")
