@@ -16,7 +16,7 @@ from ..host.progress import Estimated
 from ..scene.fields import Field, Range
 from .bar import Bar
 from .options import Request, Shown, json_text, refuse
-from .signature import command
+from .signature import command, passed
 
 _WANTED = Field("--error", "an absolute error of e_n", "1e-6", Range("above 0 and below 1", 0.0, 1.0))
 _SYMBOLIC, _NUMERIC = 156, 14  # usual numbers of findings; the latter of a scene, with or without rotation
@@ -26,9 +26,8 @@ _SYMBOLIC, _NUMERIC = 156, 14  # usual numbers of findings; the latter of a scen
 def bench(error: Annotated[float | None, _WANTED.number], out: Path | None, request: Request, output: Shown) -> None:
     """Run time against error of the engines for SCENE [granulation] on this machine, and a recommendation.
 
-    CPU time of a collision about the impact of the scene alone and in a batch of 100, and its error against another
-    engine at a tighter tolerance, for tolerances 1e-4 to 1e-12; then the recommended engine and tolerance for the error
-    wanted. About ten seconds.
+    CPU time of a collision about the impact of the scene, and its error against another engine at a tighter tolerance,
+    for tolerances 1e-4 to 1e-12; then the recommended engine and tolerance for the error wanted.
 
     Examples:
       wetdoublet bench pendulum --error 1e-8
@@ -41,20 +40,14 @@ def bench(error: Annotated[float | None, _WANTED.number], out: Path | None, requ
     """
     scene = request.optional_scene()
 
-    from ..scene.scene import Scene
     from ..verify.work_precision import work_precision
-    from ..verify.work_precision_report import draw, text, to_dict
 
-    wanted = error or 1e-6
     with Bar("settings") as progress:
-        measured = work_precision(scene or Scene.load("granulation"), progress=progress)
-    table, record = text(measured, wanted), to_dict(measured, wanted)
+        measured = work_precision(scene or "granulation", **passed(wanted=error), progress=progress)
     if out is not None:
-        write_all_in(out, {"bench.txt": table + "\n", "bench.json": json_text(record) + "\n"})
-    for picture in [out and out / "bench.png", output.picture]:
-        if picture is not None:
-            draw(measured, wanted, picture)
-    output.put(table, record)
+        write_all_in(out, {"bench.txt": f"{measured}\n", "bench.json": json_text(measured.to_dict()) + "\n"})
+        measured.plot(out / "bench.png")
+    output.show(measured)
 
 
 @command()
