@@ -8,15 +8,15 @@ from typing import Annotated
 
 import click
 
-from ..errors import CheckFailed, InputError
-from ..host.arguments import check_name
+from ..errors import CheckFailed
+from ..host.arguments import check_name, check_whole
 from ..host.files import write, write_all_in
 from ..host.outputs import check_file, check_folder
-from ..host.progress import Estimated
 from ..scene.fields import Field, Range
 from .bar import Bar
 from .options import Request, Shown, json_text, refuse
 from .signature import command, passed
+from .texts import whole
 
 _WANTED = Field("--error", "an absolute error of e_n", "1e-6", Range("above 0 and below 1", 0.0, 1.0))
 _SYMBOLIC, _NUMERIC = 156, 14  # usual numbers of findings; the latter of a scene, with or without rotation
@@ -70,15 +70,8 @@ def reproduce(item: str | None, out: Path | None) -> None:
 
 
 def _count(text: str) -> int:
-    """The number of scenes; InputError unless it is a whole number in range."""
-    text = text.strip()
-    try:
-        count = int(text)
-    except ValueError:
-        raise InputError("--stress", text, "a whole number of scenes, such as 500", "is not a whole number") from None
-    if not 0 < count <= 10_000_000:
-        raise InputError("--stress", text, "a whole number of scenes, 1 to 10000000", "is out of range")
-    return count
+    """The number of scenes."""
+    return check_whole(whole(text), "", 1, 10_000_000)
 
 
 @command()
@@ -119,14 +112,12 @@ def verify(
     findings: list[Finding] = []
     try:
         with Bar("checks", "" if scene else "a SCENE takes less", factor=3.0) as bar:
-            work = Estimated(bar, _SYMBOLIC + _NUMERIC * (1 if scene else 4))
 
             def progress(finding: Finding) -> None:
-                took = not (finding.kept or finding.shipped)
-                if not took and not findings:  # the symbolic ones take no time
-                    work.start(-_SYMBOLIC)
                 findings.append(finding)
-                work.add(float(took))
+                known = sum(item.kept or item.shipped for item in findings)  # which take no time
+                done = len(findings) - known
+                bar(done, max(done, _SYMBOLIC * (not known) + _NUMERIC * (1 if scene else 4)))
 
             report = verify(scene, progress, recompute)
     except KeyboardInterrupt:

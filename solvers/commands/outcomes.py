@@ -17,7 +17,7 @@ from ..scene.ranges import MOST, MOST_STORED, check_cells
 from ..scene.schema import FIELDS
 from . import texts
 from .bar import Bar
-from .options import Entries, Impact, SceneRequest, Shown, check_one_speed, dataset_text, refuse
+from .options import Entries, Impact, SceneRequest, Shown, dataset_text, refuse
 from .signature import command, passed
 
 _MOST = 100_000  # lines of a boundary; about half an hour
@@ -126,12 +126,9 @@ def map_(
 
 def _axes(impacts: Mapping[str, str], vary: Sequence[str], most: int) -> dict[str, Any]:
     """The axes of the impact, SI; InputError for the first wrong one."""
-    flags = {name: texts.flag(name) for name in impacts}
-    ranges = {flags[name]: text for name, text in impacts.items()}
+    ranges = {texts.flag(name): text for name, text in impacts.items()}
     check_cells(ranges | {f"--vary {text.partition('=')[0]}": text for text in vary}, most)
-    axes = {name: texts.entry_range(FIELDS[f"impact.{name}"], impacts[name], flags[name]) for name in impacts}
-    check_one_speed(impacts)
-    return axes
+    return texts.axes(impacts)
 
 
 def _varied(vary: Sequence[str], request: SceneRequest) -> dict[str, list[float] | list[str]]:
