@@ -91,7 +91,6 @@ def map_(
 
     from ..many.arguments import checked_vary
     from ..many.blocks import connected
-    from ..many.csv_map import write_csv
     from ..many.regime_map import regime_map, write
     from ..many.text_map import failures, table
     from ..results import FAILED
@@ -106,7 +105,7 @@ def map_(
             client=client, store=output if stored else None, resume=None if stored else output,
         )  # fmt: skip
     if output is not None and not stored:
-        (write_csv if output.suffix.lower() == ".csv" else write)(data, output)
+        write(data, output)
     if plot is not None:
         from ..boundaries.on_map import map_curves
         from ..host.files import save
