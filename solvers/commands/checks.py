@@ -153,10 +153,12 @@ def _stress_test(count: int, folder: Path) -> None:
         click.echo(f"unexplained ({issue.kind}): {verdict.case.name}: {issue.message}")
     if result.remarks:
         outside = sum(bool(verdict.remarks) for verdict in result.verdicts)
-        click.echo(f"outside the range that a bridge law was made for: {outside} scenes, counted in stress.md")
+        click.echo(f"outside the range that a bridge law was made for: {outside} scenes, counted in stress.json")
     click.echo(f"written: {', '.join(map(str, files[:4]))}" + (f" and {len(files) - 4} scenes" if files[4:] else ""))
     click.echo(result.summary())
     if result.unexplained:
-        raise CheckFailed(f"{len(result.unexplained)} unexplained disagreements; see {folder / 'stress.md'}")
+        raise CheckFailed(f"{len(result.unexplained)} unexplained disagreements; see {folder / 'stress.json'}")
     if result.interrupted:
-        raise KeyboardInterrupt(f"interrupted: {len(result.verdicts)} of {count} scenes are in {folder / 'stress.md'}")
+        raise KeyboardInterrupt(
+            f"interrupted: {len(result.verdicts)} of {count} scenes are in {folder / 'stress.json'}"
+        )
