@@ -115,9 +115,9 @@ def verify(
 
             def progress(finding: Finding) -> None:
                 findings.append(finding)
-                known = sum(item.kept or item.shipped for item in findings)  # which take no time
-                done = len(findings) - known
-                bar(done, max(done, _SYMBOLIC * (not known) + (_OF_SCENE if scene else _OF_ALL)))
+                done = sum(not (item.kept or item.shipped) for item in findings)  # the others take no time
+                symbolic = _SYMBOLIC * (done == len(findings))
+                bar(done, max(done, symbolic + (_OF_SCENE if scene else _OF_ALL)))
 
             report = verify(scene, progress, recompute)
     except KeyboardInterrupt:

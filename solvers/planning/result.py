@@ -126,7 +126,7 @@ class Design(Drawn, Recorded):
              " / ".join(f"{100 * share:.0f}" for share in impact.probability.values()))
             for impact in self.impacts
         ]  # fmt: skip
-        entries = [("entry", "expected 95 % interval", "before")]
+        entries: list[tuple[str, ...]] = [("entry", "expected 95 % interval", "before")]
         entries += [
             (name, *(interval(scene, name, told[name].low, told[name].high) for told in (self.expected, self.before)))
             for name in self.free.names

@@ -16,13 +16,13 @@ _AROUND = np.array([(i, j) for i in (-1, 0, 1) for j in (-1, 0, 1) if (i, j) != 
 
 
 def search(
-    evaluate: Callable[[np.ndarray], np.ndarray], known: np.ndarray, size: int, first: np.ndarray, h: float
+    evaluate: Callable[[np.ndarray], np.ndarray], prior: np.ndarray, size: int, first: np.ndarray, h: float
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """The impacts, among candidates that are refined, whose information has the largest determinant.
 
     Arguments:
         evaluate: from points in the unit square (points, 2) to information (points, entries, entries).
-        known: information without any impact, (entries, entries).
+        prior: information without any impact, (entries, entries).
         size: number of impacts.
         first: (candidates, 2), the candidates to begin with.
         h: their spacing; it is halved at every level.
@@ -35,7 +35,7 @@ def search(
 
     def value(chosen: np.ndarray, more: np.ndarray | float = 0.0) -> Any:
         """The logarithm of the determinant, with each of some more impacts."""
-        return np.linalg.slogdet(known + single[chosen].sum(axis=0) + more)[1]
+        return np.linalg.slogdet(prior + single[chosen].sum(axis=0) + more)[1]
 
     def exchanged(chosen: np.ndarray) -> np.ndarray:
         """The choice after Fedorov's exchange: each impact is replaced by the best candidate, until none is better."""

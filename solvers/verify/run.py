@@ -60,9 +60,9 @@ def numeric(scene: Scene, head_on: bool = False, extent: Extent = WHOLE) -> Iter
     angles = (0.0,) if head_on else None
     sample = collisions(scene, angles, extent)
     checks = {"conservation": conserved(sample), "stick certificate": stick_audit(scene, angles, extent.audited)}
-    for name, made in checks.items():
+    for name, results in checks.items():
         try:
-            for finding in made:
+            for finding in results:
                 yield replace(finding, group=group)
         except WetDoubletError as failure:
             yield Finding(group, name, "the check is completed", f"not completed: {failure}", "", False)
