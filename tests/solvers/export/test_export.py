@@ -111,7 +111,7 @@ def test_the_command_shows_terms_and_what_they_do():
     assert ("0.0042*log_volume", "0.0018*log_volume") in changed
     assert ("-0.019*log_volume", "-0.0082*log_volume") in changed
     assert len(changed) == 4
-    moved = re.findall(r"(\S+) -> (\S+) \d+", done.output)
+    moved = re.findall(r"([\w-]+) -> ([\w-]+) \d+", done.output)
     assert ("stick", "stick-rotate-separate") in moved
     assert "stick" not in [after for _, after in moved]
 
