@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from contextlib import nullcontext
 from functools import partial
 from pathlib import Path
 from typing import Annotated, Any
@@ -35,26 +34,12 @@ def _file(path: str) -> Path:
     return check_file(path, "", (".nc", ".csv", _SUFFIX), replaced=True)
 
 
-def _scheduler(address: str) -> Any:
-    from ..many.blocks import check_scheduler
-
-    return check_scheduler(address, "")
-
-
 _File = Annotated[Path | None, _file]
-_Scheduler = Annotated[Any, _scheduler]
 
 
 @command()
 def map_(
-    impacts: Impact,
-    vary: tuple[str, ...],
-    request: Entries,
-    output: _File,
-    scheduler: _Scheduler,
-    plot: Any,
-    as_json: bool,
-    **chosen: Any,
+    impacts: Impact, vary: tuple[str, ...], request: Entries, output: _File, plot: Any, as_json: bool, **chosen: Any
 ) -> None:
     """Outcome and restitution of SCENE over a grid of impact angles, Stokes numbers and further varied entries.
 
@@ -75,7 +60,7 @@ def map_(
         --engine
         -o FILE (output): Write NetCDF (.nc), a table (.csv), or Zarr block by block (.zarr); the same command
             computes what an interrupted one has not.
-        --scheduler ADDRESS: Compute on a Dask cluster: tcp://HOST:PORT, the scheduler's .json file, local, or
+        --scheduler ADDRESS (client): Compute on a Dask cluster: tcp://HOST:PORT, the scheduler's .json file, local, or
             local:WORKERS.
         --plot
         --json
@@ -89,21 +74,13 @@ def map_(
     if "angle" not in axes:
         raise InputError("--angle", None, "LO:HI:N in degrees")
 
-    from ..many.arguments import checked_vary
-    from ..many.blocks import connected
     from ..many.regime_map import regime_map, write
     from ..many.text_map import failures, table
     from ..results import FAILED
 
-    checked_vary(scene, varied, "--vary")
-    with (
-        Bar("collisions", "fewer cells or a looser --rtol take less") as progress,
-        connected(scheduler, "--scheduler") if scheduler is not None else nullcontext() as client,
-    ):
-        data = regime_map(
-            scene, **axes, vary=varied, **chosen, progress=progress,
-            client=client, store=output if stored else None, resume=None if stored else output,
-        )  # fmt: skip
+    file: dict[str, Any] = {"store" if stored else "resume": output}
+    with Bar("collisions", "fewer cells or a looser --rtol take less") as progress:
+        data = regime_map(scene, **axes, vary=varied, **file, **chosen, progress=progress)
     if output is not None and not stored:
         write(data, output)
     if plot is not None:
