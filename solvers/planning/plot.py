@@ -59,6 +59,8 @@ def draw(design: Design) -> Figure:
     bar.set_label(f"standard error from one impact, {relative}")
     ticks.plain(bar.ax.yaxis)
     title(figure, f"{plain_text(name_of(window.scene, LONGEST))}{against(window.scene)}: what an impact tells")
-    note = f"numbers: planned impacts ({design.size}){'; ' if free.size > 1 else chr(10)}"
-    figure.supxlabel(note + "lines: half of all impacts stick, or bounce", color=NOTE)
+    note = f"numbers: planned impacts ({design.size})"
+    if window.extends.all():
+        note += ("; " if free.size > 1 else "\n") + "lines: half of all impacts stick, or bounce"
+    figure.supxlabel(note, color=NOTE)
     return figure
