@@ -15,7 +15,7 @@ from ..collision.text import against, degrees, name_of, prefix
 from ..engines.settings import RTOL
 from ..errors import InputError
 from ..formatting import ticks
-from ..formatting.style import EDGES, FILLS, HATCHES, INK, LONGEST, letters, patch, picture, plain_text, title
+from ..formatting.style import INK, LONGEST, fill, letters, patch, picture, plain_text, title
 from ..scene.scene import Scene
 from .atlas_curves import curves_of
 from .plane import ANGLE, check_plane
@@ -27,7 +27,7 @@ _MARKS = {
     "graze meets escape": "s", "saddle meets rim": "v",
 }  # fmt: skip
 _MOST_DOTS = 60  # most lines whose changes are marked
-_PLACES, _ROOM_OF_LETTERS = 200, 10  # along each axis; between letters and the edge of their region
+_PLACES, _ROOM_OF_LETTERS = 600, 30  # along each axis; between letters and the edge of their region
 
 
 def plot(lines: Boundaries) -> Figure:
@@ -57,19 +57,19 @@ def draw(scene: Scene, lines: Boundaries) -> Figure:
     low, high = _shown(whole)
     factor = _frame(axes, scene, whole, low, high, single)
     regions = whole if not single else replace(whole, span=(0.0, 1.0))
-    _fill(axes, regions, factor)
+    across, up = np.linspace(*axes.get_xlim(), _PLACES), np.geomspace(low, high, _PLACES)
+    outcome = regions.region(*np.meshgrid(np.clip(across * factor, *regions.span), up))
+    fill(axes, outcome, across, up)
+    letters(axes, outcome, across, up, least=_ROOM_OF_LETTERS)
     for curve in regions.curves:
         axes.plot(np.array(curve.x) / factor, curve.stokes, color=INK, linewidth=1.5, solid_capstyle="round", zorder=3)
     changes = zip(lines.angles, lines.changes, strict=True) if dots else ()
     if pairs := [(math.degrees(at), change.stokes) for at, line in changes for change in line]:
         axes.plot(*zip(*pairs), "o", color=INK, markersize=2.6, zorder=4, clip_on=False)
-    handles: list[Any] = [patch(OUTCOMES[k]) for k in sorted({k for slab in regions.slabs() for k in slab.labels})]
+    handles: list[Any] = [patch(OUTCOMES[k]) for k in np.unique(outcome)]
     handles += _mark(axes, whole.points, factor, low, high)
     handles += _doubts(axes, lines, whole, factor)
     figure.legend(handles=handles, loc="outside lower center", ncols=min(3, len(handles)), handleheight=1.1)
-    across, up = np.linspace(*axes.get_xlim(), _PLACES), np.geomspace(*axes.get_ylim(), _PLACES)
-    outcome = regions.region(*np.meshgrid(np.clip(across * factor, *regions.span), up))
-    letters(axes, outcome, across, up, least=_ROOM_OF_LETTERS)
     return figure
 
 
@@ -131,30 +131,6 @@ def _across(scene: Scene, over: str, span: tuple[float, float]) -> tuple[float, 
     if span[1] >= 1e6:
         factor, letter = (1e9, "G") if span[1] >= 1e9 else (1e6, "M")
     return factor, f"{name} ({letter.replace('u', 'µ')}{unit})"
-
-
-def _fill(axes: Axes, whole: Atlas, factor: float) -> None:
-    """Fill each region with its colour, slab by slab between neighbouring curves."""
-    log_height = math.log(whole.window[1] / whole.window[0])
-    across = whole.span[1] - whole.span[0]
-    for slab in whole.slabs():
-        edges = [np.array([[slab.low, 0.0], [slab.high, 0.0]])]
-        for arc in slab.arcs:
-            x, y = arc.points[:, 0], arc.points[:, 1]
-            inner = arc.points[(x > slab.low) & (x < slab.high)]
-            ends = [[[end, float(np.interp(end, x, y))]] for end in (slab.low, slab.high)]
-            edges.append(np.vstack([ends[0], inner, ends[1]]))
-        edges.append(np.array([[slab.low, 1.0], [slab.high, 1.0]]))
-        for label, below, above in zip(slab.labels, edges, edges[1:]):
-            outline = np.vstack([below, above[::-1]])
-            x = (whole.span[0] + outline[:, 0] * across) / factor
-            stokes = whole.window[0] * np.exp(outline[:, 1] * log_height)
-            # antialiased edges of neighbours would show the background
-            name = OUTCOMES[label]
-            axes.fill(x, stokes, color=FILLS[name], linewidth=0, antialiased=False, zorder=1)
-            if HATCHES[name]:
-                style: Any = {"facecolor": "none", "edgecolor": EDGES[name], "hatch": HATCHES[name], "linewidth": 0}
-                axes.fill(x, stokes, zorder=1.5, **style)
 
 
 def _mark(axes: Axes, points: Sequence[Point], factor: float, low: float, high: float) -> list[Any]:

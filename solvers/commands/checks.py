@@ -8,27 +8,26 @@ from typing import Annotated
 
 import click
 
-from ..errors import CheckFailed, InputError
-from ..host.arguments import check_name
+from ..errors import CheckFailed
+from ..host.arguments import check_name, check_whole
 from ..host.files import write, write_all_in
 from ..host.outputs import check_file, check_folder
-from ..host.progress import Estimated
 from ..scene.fields import Field, Range
 from .bar import Bar
 from .options import Request, Shown, json_text, refuse
-from .signature import command
+from .signature import command, passed
+from .texts import whole
 
 _WANTED = Field("--error", "an absolute error of e_n", "1e-6", Range("above 0 and below 1", 0.0, 1.0))
-_SYMBOLIC, _NUMERIC = 156, 14  # usual numbers of findings; the latter of a scene, with or without rotation
+_SYMBOLIC, _OF_SCENE, _OF_ALL = 156, 8, 47  # usual numbers of findings; numeric ones of a scene and of all presets
 
 
 @command()
 def bench(error: Annotated[float | None, _WANTED.number], out: Path | None, request: Request, output: Shown) -> None:
     """Run time against error of the engines for SCENE [granulation] on this machine, and a recommendation.
 
-    CPU time of a collision about the impact of the scene alone and in a batch of 100, and its error against another
-    engine at a tighter tolerance, for tolerances 1e-4 to 1e-12; then the recommended engine and tolerance for the error
-    wanted. About ten seconds.
+    CPU time of a collision about the impact of the scene, and its error against another engine at a tighter tolerance,
+    for tolerances 1e-4 to 1e-12; then the recommended engine and tolerance for the error wanted.
 
     Examples:
       wetdoublet bench pendulum --error 1e-8
@@ -41,20 +40,14 @@ def bench(error: Annotated[float | None, _WANTED.number], out: Path | None, requ
     """
     scene = request.optional_scene()
 
-    from ..scene.scene import Scene
     from ..verify.work_precision import work_precision
-    from ..verify.work_precision_report import draw, text, to_dict
 
-    wanted = error or 1e-6
     with Bar("settings") as progress:
-        measured = work_precision(scene or Scene.load("granulation"), progress=progress)
-    table, record = text(measured, wanted), to_dict(measured, wanted)
+        measured = work_precision(scene or "granulation", **passed(wanted=error), progress=progress)
     if out is not None:
-        write_all_in(out, {"bench.txt": table + "\n", "bench.json": json_text(record) + "\n"})
-    for picture in [out and out / "bench.png", output.picture]:
-        if picture is not None:
-            draw(measured, wanted, picture)
-    output.put(table, record)
+        write_all_in(out, {"bench.txt": f"{measured}\n", "bench.json": json_text(measured.to_dict()) + "\n"})
+        measured.plot(out / "bench.png")
+    output.show(measured)
 
 
 @command()
@@ -77,15 +70,8 @@ def reproduce(item: str | None, out: Path | None) -> None:
 
 
 def _count(text: str) -> int:
-    """The number of scenes; InputError unless it is a whole number in range."""
-    text = text.strip()
-    try:
-        count = int(text)
-    except ValueError:
-        raise InputError("--stress", text, "a whole number of scenes, such as 500", "is not a whole number") from None
-    if not 0 < count <= 10_000_000:
-        raise InputError("--stress", text, "a whole number of scenes, 1 to 10000000", "is out of range")
-    return count
+    """The number of scenes."""
+    return check_whole(whole(text), "", 1, 10_000_000)
 
 
 @command()
@@ -126,14 +112,12 @@ def verify(
     findings: list[Finding] = []
     try:
         with Bar("checks", "" if scene else "a SCENE takes less", factor=3.0) as bar:
-            work = Estimated(bar, _SYMBOLIC + _NUMERIC * (1 if scene else 4))
 
             def progress(finding: Finding) -> None:
-                took = not (finding.kept or finding.shipped)
-                if not took and not findings:  # the symbolic ones take no time
-                    work.start(-_SYMBOLIC)
                 findings.append(finding)
-                work.add(float(took))
+                done = sum(not (item.kept or item.shipped) for item in findings)  # the others take no time
+                symbolic = _SYMBOLIC * (done == len(findings))
+                bar(done, max(done, symbolic + (_OF_SCENE if scene else _OF_ALL)))
 
             report = verify(scene, progress, recompute)
     except KeyboardInterrupt:
@@ -169,10 +153,12 @@ def _stress_test(count: int, folder: Path) -> None:
         click.echo(f"unexplained ({issue.kind}): {verdict.case.name}: {issue.message}")
     if result.remarks:
         outside = sum(bool(verdict.remarks) for verdict in result.verdicts)
-        click.echo(f"outside the range that a bridge law was made for: {outside} scenes, counted in stress.md")
+        click.echo(f"outside the range that a bridge law was made for: {outside} scenes, counted in stress.json")
     click.echo(f"written: {', '.join(map(str, files[:4]))}" + (f" and {len(files) - 4} scenes" if files[4:] else ""))
     click.echo(result.summary())
     if result.unexplained:
-        raise CheckFailed(f"{len(result.unexplained)} unexplained disagreements; see {folder / 'stress.md'}")
+        raise CheckFailed(f"{len(result.unexplained)} unexplained disagreements; see {folder / 'stress.json'}")
     if result.interrupted:
-        raise KeyboardInterrupt(f"interrupted: {len(result.verdicts)} of {count} scenes are in {folder / 'stress.md'}")
+        raise KeyboardInterrupt(
+            f"interrupted: {len(result.verdicts)} of {count} scenes are in {folder / 'stress.json'}"
+        )

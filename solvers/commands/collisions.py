@@ -16,18 +16,7 @@ from ..scene import units
 from ..scene.schema import FIELDS
 from . import texts
 from .bar import Bar
-from .options import (
-    Entries,
-    Impact,
-    Request,
-    SceneRequest,
-    Shown,
-    Varied,
-    Written,
-    check_one_speed,
-    dataset_text,
-    refuse,
-)
+from .options import Entries, Impact, Request, SceneRequest, Shown, Varied, Written, dataset_text, refuse
 from .signature import command, passed
 
 _Radii = Annotated[list[float] | None, partial(texts.entry_range, FIELDS["particles.radius"])]
@@ -61,9 +50,7 @@ def collide(why: bool, request: Request, output: Shown, **chosen: Any) -> None:
 
 
 @command("sensitivity.sensitivities:sensitivities")
-def sensitivity(
-    of: Any, wrt: Any, method: Any, uncertainty: Any, request: Varied, engine: Any, output: Shown, **chosen: Any
-) -> None:
+def sensitivity(wrt: Any, uncertainty: Any, request: Varied, output: Shown, **chosen: Any) -> None:
     """Exact derivatives of the results of a collision of SCENE, through its events: gradients and elasticities.
 
     Examples:
@@ -78,25 +65,13 @@ def sensitivity(
         --rtol
         --engine
     """
-    from ..results import check_differentiated
-    from ..sensitivity.parameters import check_wrt
-    from ..sensitivity.sensitivities import check_method, sensitivities
+    from ..sensitivity.sensitivities import sensitivities
     from ..sensitivity.uncertainty import deviations, first_order, in_words
 
-    if method is not None:
-        check_method(method)
-    if of is not None:
-        check_differentiated(of)
-    if engine == "taylor" and method not in (None, "forward"):
-        raise InputError("--method", method, "forward with --engine taylor", "is not the kernel's")
     scene = request.scene()
-    chosen |= passed(hold=request.hold)
-    names = None if wrt is None else check_wrt(scene, wrt)
-    scene.need_impact()
     deviation = deviations(scene, uncertainty) if uncertainty else {}
-    if names is not None:
-        names = tuple(dict.fromkeys((*names, *deviation)))
-    gradients = sensitivities(scene, wrt=names, **passed(of=of, method=method, engine=engine), **chosen)
+    names = wrt and [*dict.fromkeys([*wrt, *deviation])]
+    gradients = sensitivities(scene, wrt=names, **passed(hold=request.hold), **chosen)
     if not deviation:
         output.show(gradients)
         return
@@ -172,42 +147,28 @@ def prove(
         --boundary: Find two Stokes numbers of opposite proved outcomes, as near as they get.
         --depth N: Halvings of a cell of the map that is not proved [12]; more leave less undecided.
     """
-    mapped, by = cells or boundary, "stokes"
     refuse({"--boundary": "--map" * (cells and boundary)}, "one of the two", "is asked for, too")
-    refuse({"--within": mapped and within}, "a single proof", "is given together with a map or a boundary")
+    refuse({"--within": (cells or boundary) and within}, "a single proof", "is given together with a map or a boundary")
     refuse({"--depth": not cells and depth}, "--depth with --map")
     if cells:
-        check_one_speed(impact)
-        by = next((name for name in impact if name != "angle"), by)
-    elif boundary:
-        speeds = {texts.flag(name): impact.get(name) for name in ("speed", "relative_speed")}
-        refuse(speeds, "Stokes numbers, --stokes")
-    ends = ("LO:HI:N or log:LO:HI:N", "LO:HI:N in degrees") if cells else ("LO:HI", "an angle in degrees")
-    for name, accepted in zip((by, "angle"), ends, strict=True) if mapped else ():
-        if name not in impact:
-            raise InputError(texts.flag(name), None, accepted)
-    if cells:
-        edges: dict[str, Any] = {
-            name: texts.entry_range(FIELDS[f"impact.{name}"], impact[name], texts.flag(name)) for name in impact
-        }
-        for name, accepted in zip((by, "angle"), ends, strict=True):
-            if len(edges[name]) < 2:
-                raise InputError(texts.flag(name), impact[name], accepted, "is one edge, and a cell has two")
-        scene = request.scene()
+        edges: Any = {"angle": (), **texts.axes(impact)}  # the library says what is missing
 
         from ..proofs.proved_map import prove_map
 
         with Bar("cells", "fewer cells or a smaller --depth take less") as progress:
-            output.show(prove_map(scene, **edges, **passed(depth=depth), progress=progress))
+            output.show(prove_map(request.scene(), **edges, **passed(depth=depth), progress=progress))
         return
     if boundary:
-        low, high = map(float, texts.span(FIELDS["impact.stokes"], impact["stokes"], "--stokes"))
-        scene = request.scene()
+        refuse({texts.flag(name): impact.get(name) for name in ("speed", "relative_speed")}, "Stokes numbers, --stokes")
+        for name, accepted in (("stokes", "LO:HI"), ("angle", "an angle in degrees")):
+            if name not in impact:
+                raise InputError(texts.flag(name), None, accepted)
+        stokes: Any = texts.span(FIELDS["impact.stokes"], impact["stokes"], "--stokes")
+        angle = texts.with_degrees(FIELDS["impact.angle"], impact["angle"])
 
         from ..proofs.proved_boundary import prove_boundary
 
-        angle = texts.with_degrees(FIELDS["impact.angle"], impact["angle"])
-        output.show(prove_boundary(scene, angle=angle, stokes=(low, high)))
+        output.show(prove_boundary(request.scene(), angle=angle, stokes=stokes))
         return
     box = _box(within, request)
     scene = request.scene().with_impact(**texts.numbers(impact))

@@ -166,16 +166,11 @@ def flow_curve(curve: str, output: Shown) -> None:
 def _window(text: str) -> dict[str, object]:
     """The window of --over: names with LO:HI or one value; bare angles in degrees, a unit at either end."""
     window: dict[str, object] = {}
-    for name, equals, value in (item.partition("=") for item in text.split(",")):
-        name = name.strip()
-        if not equals or name in window:
-            problem = "is given twice" if equals else "has no ="
-            raise InputError("--over", text, "stokes=LO:HI,angle=LO:HI", problem)
-        entry, ends = FIELDS.get(f"impact.{name}"), value.split(":")
-        if entry is not None and len(ends) == 2:
-            window[name] = texts.entry_ends(entry, f"--over {name}", value)(*ends)
-        else:
-            window[name] = ends if entry is None or len(ends) > 2 else texts.with_degrees(entry, value)
+    for name, value in texts.assigned("stokes=LO:HI,angle=LO:HI", text.split(",")).items():
+        entry = FIELDS.get(f"impact.{name}")  # `design` says what may be in a window
+        window[name] = value if entry is None else texts.with_degrees(entry, value)
+        if entry is not None and ":" in value:
+            window[name] = texts.span(entry, value, f"--over {name}")
     return window
 
 
@@ -200,7 +195,6 @@ def design(free: list[str], over: _Window, angle_sd: _Degrees, request: Entries,
         --over WINDOW: Impacts that can be made: stokes=LO:HI,angle=LO:HI (degrees); also speed or relative_speed,
             with a unit.
         -n N
-        --for NAME (target)
         --data DATA.csv
         --prior
         --speed-sd S: Scatter of the speed [2 %, or that of the data].

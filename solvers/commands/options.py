@@ -63,12 +63,11 @@ class SceneRequest:
         Arguments:
             varies: the command varies entries itself, which --hold concerns as well.
         """
-        typed = passed(stokes=stokes, speed=speed, relative_speed=relative_speed, angle=angle)
+        typed = impact_of(stokes=stokes, speed=speed, relative_speed=relative_speed, angle=angle)
         impact = {key: with_degrees(FIELDS[f"impact.{key}"], text) for key, text in typed.items()}
         numbers(typed)
         if hold is not None:
             check_hold(hold, "--hold")
-        check_one_speed(typed)
         package = None if model is None else open_package(model)
         entries = _entries(changes, package)
         for key in impact:
@@ -155,14 +154,16 @@ def several(source: Sequence[str], **given: Any) -> list[SceneRequest]:
     return [SceneRequest.check(name, **given) for name in source or (None,)]
 
 
-def check_one_speed(typed: Mapping[str, str]) -> None:
-    """Raise InputError if the impact is set by more than one of its speeds and the Stokes number."""
+def impact_of(**given: str | None) -> dict[str, str]:
+    """The texts of an impact; InputError if it is set by more than one of its speeds and the Stokes number."""
+    typed = passed(**given)
     first, *more = [key for key in typed if key != "angle"] or [""]
     if more:
         accepted = "only one of " + ", ".join(flag(name.partition(".")[2]) for name in SPEEDS)
         raise InputError(
             flag(more[0]), typed[more[0]], accepted, f"is given together with {flag(first)} = {typed[first]}"
         )
+    return typed
 
 
 def _entries(changes: Sequence[str], package: Package | None) -> dict[str, str]:
@@ -218,7 +219,7 @@ Request = Annotated[SceneRequest, group(partial(SceneRequest.check, varies=False
 Varied = Annotated[SceneRequest, group(SceneRequest.check, *_IMPACT)]
 """For a command that varies entries itself, which --hold concerns as well."""
 Entries = Annotated[SceneRequest, group(SceneRequest.check, "source", "changes", "model")]
-Impact = Annotated[dict[str, str], group(passed, *_IMPACT[1:5])]
+Impact = Annotated[dict[str, str], group(impact_of, *_IMPACT[1:5])]
 """The texts of an impact, or of ranges of impacts, for a command that reads them itself."""
 Changes = Annotated[dict[str, str], lambda given: typed(assigned(_CHANGE, given))]
 """Entries of --set, unchecked; they apply to a scene that is read later."""

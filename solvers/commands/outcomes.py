@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from contextlib import nullcontext
 from functools import partial
 from pathlib import Path
 from typing import Annotated, Any
@@ -17,7 +16,7 @@ from ..scene.ranges import MOST, MOST_STORED, check_cells
 from ..scene.schema import FIELDS
 from . import texts
 from .bar import Bar
-from .options import Entries, Impact, SceneRequest, Shown, check_one_speed, dataset_text, refuse
+from .options import Entries, Impact, SceneRequest, Shown, dataset_text, refuse
 from .signature import command, passed
 
 _MOST = 100_000  # lines of a boundary; about half an hour
@@ -35,26 +34,12 @@ def _file(path: str) -> Path:
     return check_file(path, "", (".nc", ".csv", _SUFFIX), replaced=True)
 
 
-def _scheduler(address: str) -> Any:
-    from ..many.blocks import check_scheduler
-
-    return check_scheduler(address, "")
-
-
 _File = Annotated[Path | None, _file]
-_Scheduler = Annotated[Any, _scheduler]
 
 
 @command()
 def map_(
-    impacts: Impact,
-    vary: tuple[str, ...],
-    request: Entries,
-    output: _File,
-    scheduler: _Scheduler,
-    plot: Any,
-    as_json: bool,
-    **chosen: Any,
+    impacts: Impact, vary: tuple[str, ...], request: Entries, output: _File, plot: Any, as_json: bool, **chosen: Any
 ) -> None:
     """Outcome and restitution of SCENE over a grid of impact angles, Stokes numbers and further varied entries.
 
@@ -75,7 +60,7 @@ def map_(
         --engine
         -o FILE (output): Write NetCDF (.nc), a table (.csv), or Zarr block by block (.zarr); the same command
             computes what an interrupted one has not.
-        --scheduler ADDRESS: Compute on a Dask cluster: tcp://HOST:PORT, the scheduler's .json file, local, or
+        --scheduler ADDRESS (client): Compute on a Dask cluster: tcp://HOST:PORT, the scheduler's .json file, local, or
             local:WORKERS.
         --plot
         --json
@@ -89,24 +74,15 @@ def map_(
     if "angle" not in axes:
         raise InputError("--angle", None, "LO:HI:N in degrees")
 
-    from ..many.arguments import checked_vary
-    from ..many.blocks import connected
-    from ..many.csv_map import write_csv
     from ..many.regime_map import regime_map, write
     from ..many.text_map import failures, table
     from ..results import FAILED
 
-    checked_vary(scene, varied, "--vary")
-    with (
-        Bar("collisions", "fewer cells or a looser --rtol take less") as progress,
-        connected(scheduler, "--scheduler") if scheduler is not None else nullcontext() as client,
-    ):
-        data = regime_map(
-            scene, **axes, vary=varied, **chosen, progress=progress,
-            client=client, store=output if stored else None, resume=None if stored else output,
-        )  # fmt: skip
+    file: dict[str, Any] = {"store" if stored else "resume": output}
+    with Bar("collisions", "fewer cells or a looser --rtol take less") as progress:
+        data = regime_map(scene, **axes, vary=varied, **file, **chosen, progress=progress)
     if output is not None and not stored:
-        (write_csv if output.suffix.lower() == ".csv" else write)(data, output)
+        write(data, output)
     if plot is not None:
         from ..boundaries.on_map import map_curves
         from ..host.files import save
@@ -126,12 +102,9 @@ def map_(
 
 def _axes(impacts: Mapping[str, str], vary: Sequence[str], most: int) -> dict[str, Any]:
     """The axes of the impact, SI; InputError for the first wrong one."""
-    flags = {name: texts.flag(name) for name in impacts}
-    ranges = {flags[name]: text for name, text in impacts.items()}
+    ranges = {texts.flag(name): text for name, text in impacts.items()}
     check_cells(ranges | {f"--vary {text.partition('=')[0]}": text for text in vary}, most)
-    axes = {name: texts.entry_range(FIELDS[f"impact.{name}"], impacts[name], flags[name]) for name in impacts}
-    check_one_speed(impacts)
-    return axes
+    return texts.axes(impacts)
 
 
 def _varied(vary: Sequence[str], request: SceneRequest) -> dict[str, list[float] | list[str]]:

@@ -12,7 +12,6 @@ import click
 
 from ..engines.settings import check_rtol
 from ..errors import CheckFailed, InputError
-from ..formatting.markdown import aligned
 from ..host import bounded, files
 from ..host.arguments import check_name
 from ..host.files import differing, write_all_in
@@ -25,7 +24,6 @@ from .signature import command, passed
 KINDS = ("c", "casadi", "latex")
 _MODELS = "library, a preset or scene file, a folder of `generate`, or MODEL.py"
 OWN = Path(__file__).resolve().parents[2] / "generated"  # not imported: may be stale or broken
-_SHOWN = 5  # most extra files named in the message; the listing names all
 
 
 @command()
@@ -144,10 +142,8 @@ def diff(old: str, new: str, probe: str | None, changes: Changes, output: Writte
         --set (changes)
     """
     from ..export.differences import differences
-    from ..export.text import as_text
 
-    compared = differences(old, new, changes=changes, **passed(probe=probe))
-    output.put(as_text(compared), compared.to_dict())
+    output.show(differences(old, new, changes=changes, **passed(probe=probe)))
 
 
 @command(to="one of " + ", ".join(KINDS), out="a folder to write into")
@@ -247,7 +243,8 @@ def generate(model: str | None, out: Path | None, check: bool, template: bool, n
         click.echo("\n".join([*map(str, written), *as_before]))
     elif differences := write.check():
         click.echo("\n".join(differences))
-        raise CheckFailed(_advice(differences))
+        remedy = "`wetdoublet generate` mends what differs or is missing; what is extra is to be removed by hand"
+        raise CheckFailed(f"{OWN} is not what derive/ emits; {remedy}")
 
 
 def _model(source: Path, folder: Path | None, check: bool) -> None:
@@ -285,8 +282,7 @@ def _model(source: Path, folder: Path | None, check: bool) -> None:
         path.unlink(missing_ok=True)
     if key:
         fetch(key, json.dumps(dict(derived.files)).encode)
-    times = aligned([(step, f"{took:.1f} s") for step, took in derived.seconds.items()])
-    click.echo("\n".join(["", *(f"{word}  {path}" for word, path in rows), "", *times, ""]))
+    click.echo("\n".join(["", *(f"{word}  {path}" for word, path in rows), ""]))
     click.echo(f"{len(derived.files)} files in {folder}; use it with --model {folder}")
     click.echo(f"its effect on the map: wetdoublet diff library {folder}")
 
@@ -299,13 +295,3 @@ def _listed(folder: Path) -> set[str]:
         return set()
     inside = folder.resolve()
     return {name for name in listed if inside in (folder / name).resolve().parents}
-
-
-def _advice(differences: list[str]) -> str:
-    """The remedy for findings of `write.check`. Emitting again repairs or creates files, but removes none."""
-    extra = [str(OWN / line.removeprefix("extra: ")) for line in differences if line.startswith("extra: ")]
-    remedies = [f"`wetdoublet generate` would mend {OWN}"] if len(extra) < len(differences) else []
-    if extra:
-        more = f" and {len(extra) - _SHOWN} more" if len(extra) > _SHOWN else ""
-        remedies.append(f"nothing emits {', '.join(extra[:_SHOWN])}{more}: to be removed by hand")
-    return f"generated/ is not what derive/ emits; {'; '.join(remedies)}"

@@ -143,7 +143,7 @@ def built(name: str) -> click.Command:
     for key, item in read_by.items():
         members = item.options if isinstance(item, Group) else {key: item}
         options |= {name: own.get(name, option) for name, option in members.items()}
-    flags = {key: item.flag for key, item in read_by.items() if isinstance(item, Option)}
+    flags = {key: option.flag for key, option in options.items()}
 
     def run(**typed: Any) -> None:
         values: dict[str, Any] = {}

@@ -88,6 +88,11 @@ def entry_range(entry: Field, text: str, label: str = "", *, most: int = MOST) -
     return parse_range(text, label, entry_ends(entry, label, text), unit=_in_units(entry), most=most)
 
 
+def axes(impact: Mapping[str, str]) -> dict[str, list[float]]:
+    """The values (SI) of the ranges of an impact's entries."""
+    return {name: entry_range(FIELDS[f"impact.{name}"], text, flag(name)) for name, text in impact.items()}
+
+
 def varied(entry: Field, text: str, label: str) -> list[float] | list[str]:
     """The values of a range of an entry; as text where a plain number is something else than a quantity."""
     if _measured(entry, text.removeprefix("log:").split(":")):

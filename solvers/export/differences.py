@@ -1,10 +1,10 @@
-"""Differences between two models: terms of their equations, and results of a few collisions."""
+"""Differences between two models: terms of their equations, entries of their scenes, and outcomes on a map."""
 
 from __future__ import annotations
 
 import json
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -12,9 +12,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from ...generated.automaton import OUTCOMES
-from ..boundaries.boundary import boundary
-from ..collision.collide import collide
-from ..errors import ComputationError, InputError, did_you_mean
+from ..errors import InputError, did_you_mean
+from ..formatting.markdown import aligned
 from ..host import bounded
 from ..host.emitted import text, with_imports
 from ..many.collide_many import collide_many
@@ -22,7 +21,8 @@ from ..model.key import ModelKey
 from ..model.model import select_model
 from ..scene.origin import origin, plain, release
 from ..scene.scene import Scene
-from ..scene.scenefile import PRESETS
+from ..scene.scenefile import PRESETS, written
+from ..scene.schema import MEETING
 from ..scene.user_model import Package
 from ..scene.user_model_source import open_package
 
@@ -30,9 +30,6 @@ if TYPE_CHECKING:
     from ...derive.emit.compare import Change
 
 LIBRARY = "library"
-_ANGLES = (0.0, 45.0, 60.0, 75.0)
-_FACTORS = (0.5, 1.0, 2.0)
-_LINE = math.radians(45)
 _SIDE, _DECADE, _STEEPEST = 61, 10.0, math.radians(85)  # of the map: impacts along it, St over the scene's, angle
 
 
@@ -45,15 +42,6 @@ class Side:
     scene: Scene | None
 
 
-@dataclass(frozen=True)
-class Probe:
-    """One impact computed with both models: outcome and e_n of each (None if failed)."""
-
-    stokes: float
-    angle: float  # rad
-    results: tuple[tuple[str, float] | None, tuple[str, float] | None]
-
-
 class OnMap(NamedTuple):
     """What differs on a map: impacts by outcome with either model, and the largest other change of e_n, with place."""
 
@@ -63,31 +51,63 @@ class OnMap(NamedTuple):
     moved: tuple[tuple[str, str, int], ...]
     farthest: tuple[float, float, float] | None
 
+    def __str__(self) -> str:
+        low, high = map(math.degrees, self.angle)
+        number = sum(count for *_, count in self.moved)
+        text = "on the map St {:.4g} to {:.4g}, ".format(*self.stokes) + f"{low:g} to {high:g} deg, "
+        text += f"{number} of {self.impacts} impacts change outcome"
+        text += f" ({', '.join(f'{a} -> {b} {count}' for a, b, count in self.moved)})" * bool(number)
+        if self.farthest and self.farthest[0]:
+            off, stokes, angle = self.farthest
+            at = f"at St {stokes:.4g}, {math.degrees(angle):.4g} deg"
+            text += f";\nwhere they do not, e_n differs by at most {abs(off):.2g}, {at}"
+        return text
+
 
 @dataclass(frozen=True)
 class Differences:
-    """The differences. `boundaries` has, for each side, (change, St, Ce) along 45 deg."""
+    """The differences; without a map where the models are not computed."""
 
     names: tuple[str, str]
     changes: tuple[Change, ...]
-    probes: tuple[Probe, ...]
-    boundaries: tuple[tuple[tuple[str, float, float | None], ...], ...]
     on_map: OnMap | None = None
     scenes: tuple[Scene, ...] = ()
 
     def to_dict(self) -> dict[str, Any]:
-        """The JSON object: names and entries of A and B, terms that differ as text, effects; null where one failed."""
+        """The JSON object: names and entries of A and B, terms that differ as text, effects on the map."""
         changes = [
             {"equation": change.equation, "before": _text(change.before), "after": _text(change.after)}
             for change in self.changes
         ]
-        others = {name: plain(getattr(self, name)) for name in ("names", "probes", "boundaries", "on_map")}
         entries = [origin(scene)["scene"] for scene in self.scenes]
-        return {**others, "changes": changes, "version": release(), "scenes": entries}
+        on_map = plain(self.on_map)
+        return {"names": self.names, "on_map": on_map, "changes": changes, "version": release(), "scenes": entries}
+
+    def __str__(self) -> str:
+        from ...derive.emit.compare import count, in_lines  # imports sympy
+
+        names = [scene.name for scene in self.scenes] or [""] * 2
+        sides = zip("AB", self.names, names, strict=True)
+        lines = [f"{side}: {model}" + f", in the scene {name}" * (name not in model) for side, model, name in sides]
+        lines += ["", count(self.changes) + (":" if self.changes else ""), *in_lines(self.changes)]
+        if entries := list(_entries(self.scenes)):
+            lines += ["", "entries that differ:", "", *aligned([("entry", "A", "B"), *entries])]
+        return "\n".join([*lines, "", str(self.on_map)] if self.on_map else lines)
 
 
 def _text(term: Any) -> str | None:
     return None if term is None else str(term)
+
+
+def _entries(scenes: Sequence[Scene]) -> Iterator[tuple[str, str, str]]:
+    """Name and both values of entries that differ, as the scenes give them; impacts apart."""
+    given = [dict(scene.given) for scene in scenes]
+    values = [scene.entries for scene in scenes]
+    for name in dict.fromkeys(name for side in values for name in side):
+        first, other = (side.get(name) for side in values)
+        if first != other and name not in MEETING:
+            before, after = ("-" if name not in side else str(written(name, side[name])) for side in given)
+            yield name, before, after
 
 
 def differences(old: str, new: str, probe: str = "granulation", changes: dict[str, str] | None = None) -> Differences:
@@ -95,7 +115,7 @@ def differences(old: str, new: str, probe: str = "granulation", changes: dict[st
 
     Arguments:
         old, new: `library`, a preset, a scene file, a model's folder or file, or a folder of `generate`.
-        probe: the scene into which models are put for the compared collisions.
+        probe: the scene into which models are put for the compared map.
         changes: entries to change in the second scene.
     """
     from ...derive.emit.compare import compare, equations  # imports sympy
@@ -111,9 +131,8 @@ def differences(old: str, new: str, probe: str = "granulation", changes: dict[st
     scenes = tuple(side.scene for side in sides if side.scene is not None)
     names = sides[0].name, ", ".join([sides[1].name, *(f"{name} = {value}" for name, value in (changes or {}).items())])
     if len(scenes) < 2:
-        return Differences(names, equation_changes, (), ())
-    lines = tuple(tuple(_line(scene)) for scene in scenes)
-    return Differences(names, equation_changes, tuple(_probes(scenes)), lines, _on_map(scenes), scenes)
+        return Differences(names, equation_changes)
+    return Differences(names, equation_changes, _on_map(scenes), scenes)
 
 
 def _sides(source: str, other: str, probe: str, changes: dict[str, str]) -> tuple[Side, Side]:
@@ -179,16 +198,6 @@ def _folder(path: str) -> dict[str, str]:
         raise InputError("diff", path, accepted, "holds nothing emitted") from None
 
 
-def _probes(scenes: Sequence[Scene]) -> list[Probe]:
-    stokes = scenes[0].stokes or 1.0
-    probes = []
-    for angle in map(math.radians, _ANGLES):
-        for factor in _FACTORS:
-            pair = [_collided(scene, stokes * factor, angle) for scene in scenes]
-            probes.append(Probe(stokes * factor, angle, (pair[0], pair[1])))
-    return probes
-
-
 def _on_map(scenes: Sequence[Scene]) -> OnMap:
     stokes = (scenes[0].stokes or 1.0) * np.geomspace(1 / _DECADE, _DECADE, _SIDE)
     angle = np.linspace(0, _STEEPEST, _SIDE)
@@ -202,16 +211,3 @@ def _on_map(scenes: Sequence[Scene]) -> OnMap:
     farthest = None if at is None else (float(off[at]), float(stokes[at[0]]), float(angle[at[1]]))
     ends = [(float(values[0]), float(values[-1])) for values in (stokes, angle)]
     return OnMap(ends[0], ends[1], int(mask.sum()), moved, farthest)
-
-
-def _collided(scene: Scene, stokes: float, angle: float) -> tuple[str, float] | None:
-    try:
-        collision = collide(scene, stokes=stokes, angle=angle, ledger=False)
-    except ComputationError:
-        return None
-    return collision.outcome, collision.restitution
-
-
-def _line(scene: Scene) -> list[tuple[str, float, float | None]]:
-    line = boundary(scene, angle=_LINE)
-    return [(f"{change.before} -> {change.after}", change.stokes, change.centrifugal) for change in line.changes[0]]

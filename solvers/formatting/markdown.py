@@ -1,8 +1,6 @@
-"""Tables as Markdown, plain text and CSV."""
+"""Tables as Markdown and plain text."""
 
-import csv
-import io
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 
 
 def table(head: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
@@ -29,10 +27,3 @@ def numbers_aligned(rows: Sequence[Sequence[str]]) -> list[str]:
     """Lines of plain text in which the cells of each column but the first end at the same place."""
     widths = [max(map(len, cells)) for cells in zip(*rows, strict=True)]
     return ["  ".join([row[0].ljust(widths[0]), *map(str.rjust, row[1:], widths[1:])]).rstrip() for row in rows]
-
-
-def csv_text(head: Iterable[str], rows: Iterable[Sequence[object]]) -> str:
-    """A table as CSV."""
-    file = io.StringIO()
-    csv.writer(file, lineterminator="\n").writerows([list(head), *rows])
-    return file.getvalue()

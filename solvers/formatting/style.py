@@ -72,6 +72,14 @@ def halo(width: float = 2.4) -> withStroke:
     return withStroke(linewidth=width, foreground="white", alpha=0.85)
 
 
+def fill(axes: Axes, outcome: np.ndarray, x: np.ndarray, y: np.ndarray) -> None:
+    """Fill the region of each outcome, by index with a row for each y; lines drawn on the edges hide their steps."""
+    looks: Any = {"colors": [*FILLS.values()], "hatches": [*HATCHES.values()]}
+    regions = axes.contourf(x, y, outcome, levels=np.arange(len(OUTCOMES) + 1) - 0.5, zorder=1, **looks)
+    regions.set_edgecolor([EDGES[name] for name in OUTCOMES])
+    regions.set_linewidth(0)
+
+
 def letters(axes: Axes, outcome: np.ndarray, x: np.ndarray, y: np.ndarray, least: int = 3, size: float = 12) -> None:
     """Write the letters of each outcome where its region is widest.
 

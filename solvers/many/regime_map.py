@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ...generated.automaton import OUTCOMES
 from ..engines.settings import RTOL, SMALL, check_engine, check_rtol
 from ..errors import InputError
 from ..formatting.labelled import Column
@@ -17,7 +18,8 @@ from ..host import files
 from ..host.arguments import check_function
 from ..host.outputs import check_file
 from ..host.progress import Progress
-from ..results import BY_DEFAULT, IMPACT, VALIDITY, attributes
+from ..model.validity import flag_words
+from ..results import BY_DEFAULT, FAILED, IMPACT, REVERSALS, VALIDITY, attributes
 from ..scene.groups import formulas
 from ..scene.origin import release
 from ..scene.ranges import MOST, MOST_STORED, most_collisions
@@ -31,6 +33,7 @@ from .impacts import Impacts
 if TYPE_CHECKING:
     import xarray
 
+_WORDS = {"outcome": {**dict(enumerate(OUTCOMES)), FAILED: "failed"}, "reversal": dict(enumerate(REVERSALS))}
 IMPACTS = tuple(name.partition(".")[2] for name in SPEEDS)
 
 
@@ -174,9 +177,35 @@ def scene_of(data: xarray.Dataset) -> Scene:
 
 
 def write(data: xarray.Dataset, path: str | Path) -> None:
-    """Write a map as NetCDF4, atomically. OSError if it cannot be written."""
+    """Write a map as NetCDF4, or a table (.csv), atomically. OSError if it cannot be written."""
+    if Path(path).suffix.lower() == ".csv":
+        files.write(path, to_csv(data))
+        return
     encoding = {name: {"zlib": True} for name in data.data_vars if data[name].dtype.kind == "f"}
     files.write(path, netcdf(data, encoding))
+
+
+def to_csv(data: xarray.Dataset) -> str:
+    """The table of a map: coordinates, then the outcome and results, the reason of a failure last.
+
+    Numbers are in SI units and round-trip; a field is empty where a result is not defined.
+    """
+    dims = [str(dim) for dim in data["outcome"].dims]
+    results = sorted(map(str, data.data_vars), key=lambda name: (name == "reason", name != "outcome"))
+    names = [*dims, *(str(name) for name in data.coords if name not in dims), *results]
+    frame = data.to_dataframe(dim_order=dims).reset_index()[names]
+    for name, column in frame.items():
+        if name in _WORDS:
+            frame[name] = column.map(_WORDS[name])
+        elif name == VALIDITY:
+            frame[name] = column.map({code: flag_words(code) for code in set(column)})
+        elif column.dtype == bool:
+            frame[name] = column.map({True: "true", False: "false"})
+        elif column.dtype == object:
+            frame[name] = column.str.split().str.join(" ")
+    units = {name: data[name].attrs.get("units", "1") for name in names}
+    frame.columns = [name if unit == "1" else f"{name} [{unit}]" for name, unit in units.items()]
+    return str(frame.to_csv(index=False, lineterminator="\n"))
 
 
 def netcdf(data: xarray.Dataset, encoding: Mapping[Hashable, Any] | None = None) -> memoryview:

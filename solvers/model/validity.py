@@ -329,6 +329,11 @@ def flag_attributes() -> dict[str, Any]:
     }
 
 
+def flag_words(mask: int) -> str:
+    """The names of the limits that are passed, as `film_reynolds fly_by`."""
+    return " ".join(name for bit, name in enumerate(FLAGS) if mask >> bit & 1)
+
+
 def counted(mask: np.ndarray) -> list[tuple[str, int]]:
     """How many collisions exceed each limit, in words: those that any has."""
     counts = [int(np.count_nonzero(mask & (1 << bit))) for bit in range(len(FLAGS))]

@@ -14,12 +14,12 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.layout_engine import ConstrainedLayoutEngine
 
-from ...generated.automaton import OUTCOMES, STICK
+from ...generated.automaton import STICK
 from ..boundaries.boundary import boundary
 from ..boundaries.changes import Change
 from ..boundaries.result import Atlas
 from ..errors import ComputationError
-from ..formatting.style import EDGES, FILLS, HATCHES, INK, letters, styled
+from ..formatting.style import INK, fill, letters, styled
 from ..host.files import save
 from ..scene.scene import Scene
 from ..scene.schema import MEETING
@@ -78,17 +78,12 @@ class Part:
         cls, title: str, file: str, caption: str, comparisons: Sequence[Comparison], *scenes: str, words: str = ""
     ) -> Part:
         """A part with one picture, and words before it."""
-        return cls(title, f"{words}\n\n{picture(file, title, caption)}".lstrip(), comparisons, [file], scenes)
+        return cls(title, f"{words}\n\n![{title}]({file})\n\n*{caption}*".lstrip(), comparisons, [file], scenes)
 
 
 def table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
     """A table in Markdown."""
     return "\n".join(f"| {' | '.join(row)} |" for row in (head, ["---"] * len(head), *rows))
-
-
-def picture(file: str, title: str, caption: str) -> str:
-    """A picture in Markdown; the title is for readers who do not see it."""
-    return f"![{title}]({file})\n\n*{caption}*"
 
 
 def report(parts: Sequence[Part], how: str) -> str:
@@ -122,13 +117,12 @@ def _inputs(presets: Sequence[str]) -> str:
 
 
 @contextmanager
-def sheet(file: Path, height: float, width: float = COLUMN) -> Iterator[Figure]:
-    """Context of a figure of the given size in cm, saved to `file` at the end; drawn once, after its layout."""
+def sheet(file: Path, height: float) -> Iterator[Figure]:
+    """Context of a figure of the given height in cm, saved to `file` at the end; drawn once, after its layout."""
     with styled(_STYLE):
-        figure = Figure(figsize=(width / 2.54, height / 2.54), dpi=_DPI)
+        figure = Figure(figsize=(COLUMN / 2.54, height / 2.54), dpi=_DPI)
         yield figure
-        if figure.axes:
-            ConstrainedLayoutEngine().execute(figure)
+        ConstrainedLayoutEngine().execute(figure)
         save(figure, file, dpi=_DPI)
 
 
@@ -144,10 +138,7 @@ def draw_map(
     degrees, stokes = np.linspace(0.0, 90.0, _ROWS), np.linspace(0.0, whole.window[1], _COLUMNS)
     places = np.meshgrid(np.clip(np.radians(degrees), *whole.span), np.clip(stokes, *whole.window), indexing="ij")
     outcome = whole.region(*places)
-    style: Any = {"colors": [*FILLS.values()], "hatches": [*HATCHES.values()]}
-    fills = axes.contourf(stokes, degrees, outcome, levels=np.arange(4) - 0.5, zorder=1, **style)
-    fills.set_edgecolor([EDGES[name] for name in OUTCOMES])
-    fills.set_linewidth(0)
+    fill(axes, outcome, stokes, degrees)
     for curve in whole.curves:
         axes.plot(curve.stokes, np.degrees(curve.x), color=INK, linewidth=linewidth, zorder=3)
     left, bottom, width, height = covered

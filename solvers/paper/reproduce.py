@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import textwrap
 import time
 from collections.abc import Callable, Sequence
 from importlib.metadata import version
@@ -10,22 +9,16 @@ from itertools import groupby
 from operator import itemgetter
 from pathlib import Path
 
-from ..formatting.style import INK, NOTE
 from ..host.emitted import deriving
 from ..host.files import write
 from ..host.progress import Progress
 from ..scene.scene import Scene
 from .granules import factors, fig4a, fig4b
 from .pendulum import fig1, fig3
-from .report import BRIDGED, PENDULUM, Part, picture, report, sheet
-
-_WIDTH = 17.5  # cm
-_LINE = 0.8  # cm, height of a line
-_COLUMNS = 2
-_WRAP = 40  # characters of a line of a note
+from .report import BRIDGED, PENDULUM, Part, report
 
 
-def table1(folder: Path) -> Part:
+def table1(_folder: Path) -> Part:
     """The equations of the presets' laws, typeset."""
     bridged, hung = Scene.load(BRIDGED), Scene.load(PENDULUM)
     assert bridged.bridge is not None
@@ -46,33 +39,14 @@ def table1(folder: Path) -> Part:
     words = (
         "The equations of the presets in SI, written by the derivation in the symbols of its vocabulary; nothing is "
         "typed in. The paper's own table is a picture that its text does not have: these are rebuilt from first "
-        "principles and held against what it prints."
+        "principles and held against what it prints. `wetdoublet export SCENE --to latex` writes a document."
     )
-    title, caption = "Table 1: theory", "`wetdoublet export SCENE --to latex` writes a document."
-    blocks = [words, picture("table1.png", title, caption)]
-    drawn: list[tuple[str, str]] = []  # formulas, and headings without one, beside their notes
+    blocks = [words]
     for heading, lines in groupby(equations, key=itemgetter(0)):
         blocks.append(f"### {heading}")
-        drawn.append(("", heading))
         for _, latex, note in lines:
             blocks += [text for text in (f"$$ {latex} $$", note) if text]
-            drawn.append((latex.replace(r"\frac", r"\dfrac"), note))
-    _draw(drawn, folder / "table1.png")
-    return Part(title, "\n\n".join(blocks), pictures=["table1.png"])
-
-
-def _draw(lines: list[tuple[str, str]], file: Path) -> None:
-    """Draw formulas with their notes below each other, in columns."""
-    rows = -(-len(lines) // _COLUMNS)
-    with sheet(file, _LINE * (rows + 1), _WIDTH) as figure:
-        for k, (latex, note) in enumerate(lines):
-            x, y = k // rows / _COLUMNS, 1 - (k % rows + 1) / (rows + 1)
-            if latex:
-                figure.text(x + 0.02, y, f"${latex}$", fontsize=8, math_fontfamily="cm", color=INK, va="center")
-                note = textwrap.fill(note, _WRAP)
-                figure.text(x + 0.98 / _COLUMNS, y, note, fontsize=6, color=NOTE, ha="right", va="center")
-            else:
-                figure.text(x + 0.01, y, note, fontsize=8.5, fontweight="bold", color=INK, va="center")
+    return Part("Table 1: theory", "\n\n".join(blocks))
 
 
 PARTS: dict[str, Callable[[Path], Part]] = {

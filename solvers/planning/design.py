@@ -14,20 +14,19 @@ from ..errors import InputError
 from ..fitting.data_table import read_data
 from ..fitting.fit import RTOL, fit
 from ..fitting.free_entries import COMBINED, IDENTIFIED, combinations, free_entries
-from ..host.arguments import check_function, check_name, check_whole
+from ..host.arguments import check_function, check_whole
 from ..host.progress import Estimated, Progress
 from ..model.validity import warn
 from ..scene.scene import Scene
 from .information import information
-from .result import Design, Impact, expected, spread
-from .search import search, worth
+from .result import Design, Impact, expected
+from .search import search
 from .window import Window, scatter_of
 
 _SPACING = 20  # candidates to begin with, to either side
 _MOST = 1000
 _AT_ONCE = 64  # impacts that are evaluated together
 _MORE, _PER_IMPACT = 600, 50  # assumed candidates of the refinement, and of each distinct impact; rather too many
-_OTHERS = 0.1  # weight of all entries beside the one that matters
 _NOTHING = 1e-9  # information of an impact on an entry, in the variable of the search, that is none
 
 
@@ -37,7 +36,6 @@ def design(
     over: Mapping[str, Any],
     n: int = 9,
     *,
-    target: str | None = None,
     data: Any = None,
     prior: Mapping[str, str] | None = None,
     speed_sd: float | str | None = None,
@@ -55,8 +53,6 @@ def design(
         over: window of impacts, {"stokes": (0.02, 0.5), "angle": ("0 deg", "80 deg")}; also speed or relative_speed,
             and one value in place of two ends. Default the scene's impact.
         n: number of impacts.
-        target: the entry of `free` that matters; the others are then estimated little more than that needs. Default all
-            alike (D-optimal).
         data: impacts measured before, as of `fit`; they are fitted first, and what they tell counts.
         prior: what is known of free entries, as of `fit`.
         speed_sd: scatter of the speed, relative ("2 %"); angle_sd: of the angle. Default: the data's, or `fit`'s.
@@ -67,7 +63,7 @@ def design(
             reached at the end. A fit of `data` before is not counted.
 
     Returns:
-        Design: the impacts, what they will tell, and how they compare with an even grid.
+        Design: the impacts, and what they will tell; the determinant of their information is largest (D-optimal).
 
     Raises:
         InputError: a wrong argument, or an entry on which nothing in the window depends.
@@ -76,8 +72,8 @@ def design(
     Example:
         >>> from wetdoublet.solvers import design
         >>> found = design("granulation", ["liquid.viscosity"], {"stokes": (0.05, 0.3), "angle": 0.0}, 4)
-        >>> bool(found.against_grid["liquid.viscosity"] < 0.7)
-        True
+        >>> sum(impact.count for impact in found.impacts)
+        4
     """
     rtol = check_rtol(rtol)
     check_function(progress, "progress")
@@ -94,7 +90,6 @@ def design(
         free_ones, window = fitted.free, replace(window, scene=fitted.scene)
         values, before = free_ones.values(fitted.best), fitted.objective.information(fitted.best)
     names, rates = free_ones.names, np.outer(*2 * [free_ones.rates(values)])
-    which = None if target is None else names.index(check_name(target, names, "target"))
     warn(window.scene)
     first = window.candidates(_SPACING, rtol)
     work = Estimated(progress, len(first) + _MORE + _PER_IMPACT * min(size, len(names) + 2))
@@ -108,36 +103,25 @@ def design(
             work.add(len(block))
         return np.asarray(np.concatenate(totals) * rates)
 
-    def criterion(total: np.ndarray) -> np.ndarray:
-        """The range of the search keeps sums of information from being singular; beyond it nothing is known."""
-        return worth(before + free_ones.vague + total, which, _OTHERS)
-
-    points, counts, candidates = search(evaluate, criterion, size, first, 1 / (_SPACING - 1))
-    most = np.einsum("cii->ci", candidates).max(axis=0)  # information of an impact on each entry
-    silent = np.flatnonzero(most < _NOTHING)
-    for k in silent if which is None else silent[silent == which]:
+    # the range of a fit's search keeps sums of information from being singular; beyond it nothing is known
+    points, counts, single = search(evaluate, before + free_ones.vague, size, first, 1 / (_SPACING - 1))
+    for k in np.flatnonzero(np.einsum("cii->ci", single).max(axis=0) < _NOTHING):
         accepted = "entries that outcome or restitution depend on in this window"
         all_stick = set(window.outcomes(first, rtol).tolist()) == {OUTCOMES.index(STICK)}
         problem = "changes nothing that is observed in the window" + ", where all impacts stick" * all_stick
         raise InputError("free", names[k], accepted, problem)
-    side = max(1, round(math.sqrt(size))) if window.extends.all() else size
-    grid = tuple(np.where(window.extends, side, 1).tolist())
-    plan = window.plan(np.vstack([points, window.grid(*grid)]))
+    plan = window.plan(points)
     told, probability = information(window.scene, names, values, plan, rtol)
-    told *= rates
+    total = before + np.einsum("c,cij->ij", counts, told * rates)
     rows = zip(counts.tolist(), plan.normal_speed.tolist(), plan.angle.tolist(), probability.tolist())
     impacts = tuple(
-        Impact(count, window.scene.stokes_of(speed), speed, speed / math.cos(angle), angle, tuple(share))
+        Impact(count, window.scene.stokes_of(speed), speed, speed / math.cos(angle), angle, dict(zip(OUTCOMES, share)))
         for count, speed, angle, share in rows
     )
-    total = before + np.einsum("c,cij->ij", counts, told[: counts.size])
-    even = before + told[counts.size :].sum(axis=0) * size / (plan.size - counts.size)
-    against_grid = spread(total + free_ones.vague) / spread(even + free_ones.vague)
     with_them = expected(free_ones, values, total)
     verdicts = [COMBINED if entry.low is entry.high else IDENTIFIED for entry in with_them.values()]
     work.finish()
     return Design(
         window, free_ones, values, impacts, with_them, expected(free_ones, values, before),
-        dict(zip(names, against_grid.tolist(), strict=True)), grid,
-        combinations(free_ones, total, verdicts, "These impacts"), target, len(candidates), points, rtol, loaded,
+        combinations(free_ones, total, verdicts, "These impacts"), points, rtol, loaded,
     )  # fmt: skip

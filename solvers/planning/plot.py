@@ -31,7 +31,8 @@ def draw(design: Design) -> Figure:
     told = np.einsum("cii->ic", single) * free.rates(values)[:, None] ** 2
     error = 1 / np.sqrt(told.reshape(free.size, *speed.shape).clip(_OPEN**-2))
     scale = LogNorm(float(np.clip(error.min(), _BEST, 0.3)), _WORST)
-    x, y = (np.array([axis[0] * 0.97, axis[0] * 1.03 + 1e-3]) if axis.size == 1 else axis for axis in (x, y))
+    x = x if window.extends[1] else x + np.array([-1.0, 1.0])
+    y = y if window.extends[0] else y * np.array([0.97, 1.03])
     for axes, name, errors in zip(panels[0], free.names, error, strict=True):
         colours = np.broadcast_to(errors.T, (y.size, x.size))
         mesh = axes.pcolormesh(x, y, colours, norm=scale, cmap="viridis_r", shading="gouraud", rasterized=True)
@@ -41,7 +42,11 @@ def draw(design: Design) -> Figure:
                 axes.contour(x, y, share, [0.5], colors="white", linewidths=0.9)
         axes.set_yscale("log")
         ticks.plain(axes.yaxis)
-        axes.set(xlim=(x[0], x[-1]), ylim=(y[0], y[-1]), xlabel="impact angle (deg)" if window.extends[1] else "")
+        axes.set(xlim=(x[0], x[-1]), ylim=(y[0], y[-1]), xlabel="impact angle (deg)")
+        if not window.extends[1]:
+            axes.set_xticks(np.degrees(window.angle[:1]))
+        if not window.extends[0]:
+            axes.set_yticks(window.speed[:1])
         axes.set_title(plain_text(name), fontsize="medium")
         for impact in design.impacts:
             at = np.degrees(impact.angle), getattr(impact, window.key)
@@ -54,7 +59,8 @@ def draw(design: Design) -> Figure:
     bar.set_label(f"standard error from one impact, {relative}")
     ticks.plain(bar.ax.yaxis)
     title(figure, f"{plain_text(name_of(window.scene, LONGEST))}{against(window.scene)}: what an impact tells")
-    of_what = "all entries" if design.target is None else plain_text(design.target)
-    note = f"numbers: planned impacts for {of_what} ({design.size}){'; ' if free.size > 1 else chr(10)}"
-    figure.supxlabel(note + "lines: half of all impacts stick, or bounce", color=NOTE)
+    note = f"numbers: planned impacts ({design.size})"
+    if window.extends.all():
+        note += ("; " if free.size > 1 else "\n") + "lines: half of all impacts stick, or bounce"
+    figure.supxlabel(note, color=NOTE)
     return figure

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
-from ...generated.automaton import OUTCOMES
 from ..fitting.free_entries import FreeEntries, in_unit, interval
 from ..fitting.measurements import Measurements
 from ..formatting.markdown import aligned
@@ -32,7 +31,7 @@ class Impact:
         stokes, speed: normal Stokes number and speed (m/s).
         relative_speed: magnitude of the relative velocity, m/s.
         angle: rad.
-        probability: of stick, stick-rotate-separate and bounce.
+        probability: by outcome.
     """
 
     count: int
@@ -40,10 +39,7 @@ class Impact:
     speed: float
     relative_speed: float
     angle: float
-    probability: tuple[float, float, float]
-
-    def to_dict(self) -> dict[str, Any]:
-        return asdict(self) | {"probability": dict(zip(OUTCOMES, self.probability))}
+    probability: Mapping[str, float]
 
 
 @dataclass(frozen=True)
@@ -65,12 +61,7 @@ class Design(Drawn, Recorded):
         impacts: by angle and speed.
         expected: of each free entry with these impacts and what was known before.
         before: the same without the impacts.
-        against_grid: expected interval (in the logarithm for entries that vary so) over that of as many impacts evenly
-            over the window.
-        grid: number of speeds and of angles of these, their square root each where both may be chosen.
         combinations: sentences on products of powers that the impacts tell better than their entries.
-        target: the entry that matters; None for all.
-        candidates: impacts among which they were chosen.
         given: the scene as it was given, whose units are shown.
         points: (distinct impacts, 2), in the window: logarithm of the speed, and angle, 0 to 1.
 
@@ -82,7 +73,7 @@ class Design(Drawn, Recorded):
     """
 
     _picture = "planning.plot.draw"
-    _keys = "impacts expected before against_grid grid combinations for=target candidates scatter"
+    _keys = "impacts expected before combinations scatter"
 
     window: Window
     free: FreeEntries
@@ -90,11 +81,7 @@ class Design(Drawn, Recorded):
     impacts: tuple[Impact, ...]
     expected: Mapping[str, Expected]
     before: Mapping[str, Expected]
-    against_grid: Mapping[str, float]
-    grid: tuple[int, int]
     combinations: tuple[str, ...]
-    target: str | None
-    candidates: int
     points: np.ndarray
     rtol: float
     given: Scene
@@ -135,19 +122,20 @@ class Design(Drawn, Recorded):
         rows = [("times", "St", speed, "angle", "S / SRS / B (%)")]
         rows += [
             (str(impact.count), f"{impact.stokes:.4g}", f"{getattr(impact, self._speed):.4g} m/s",
-             f"{math.degrees(impact.angle):.1f} deg", " / ".join(f"{100 * share:.0f}" for share in impact.probability))
+             f"{math.degrees(impact.angle):.1f} deg",
+             " / ".join(f"{100 * share:.0f}" for share in impact.probability.values()))
             for impact in self.impacts
         ]  # fmt: skip
-        entries = [("entry", "expected 95 % interval", "before", "beside a {} x {} grid".format(*self.grid))]
-        for name, expected in self.expected.items():
-            now, before = (interval(scene, name, entry.low, entry.high) for entry in (expected, self.before[name]))
-            beside = "-" if expected.low is expected.high else f"{self.against_grid[name]:.2g} of its interval"
-            entries.append((name, now, before, beside))
+        entries: list[tuple[str, ...]] = [("entry", "expected 95 % interval", "before")]
+        entries += [
+            (name, *(interval(scene, name, told[name].low, told[name].high) for told in (self.expected, self.before)))
+            for name in self.free.names
+        ]
         values = zip(self.free.names, self.values.tolist(), strict=True)
         at = ", ".join(f"{name} = {in_unit(scene, name, value)}" for name, value in values)
         measured = "outcomes only" if noise is None else f"restitution to {noise:.3g}"
         scatter = f"scatter {100 * sd:.3g} % of the {speed}, {math.degrees(angle_sd):.3g} deg; {measured}"
-        title = f"{self.size} impact{'s' * (self.size > 1)} for {self.target or ', '.join(self.free.names)}"
+        title = f"{self.size} impact{'s' * (self.size > 1)} for {', '.join(self.free.names)}"
         blocks = [title, "", *aligned(rows), "", *aligned(entries), "", f"Planned for {at}; {scatter}."]
         return "\n".join([*blocks, *self.combinations])
 
@@ -159,18 +147,14 @@ class Design(Drawn, Recorded):
         return self.window.key if self.window.key != "stokes" else "speed"
 
 
-def spread(total: np.ndarray) -> np.ndarray:
-    """Standard deviations of the entries, in the variables of the search, of an information matrix."""
-    return np.asarray(np.sqrt(np.diag(np.linalg.inv(total))))
-
-
 def expected(free: FreeEntries, values: np.ndarray, total: np.ndarray) -> dict[str, Expected]:
     """Intervals to first order; open where they would end beyond the range of a search, or follow from it alone.
 
     Arguments:
         total: information, without that of the range of the search.
     """
-    sd, wider = spread(total + free.vague), spread(total + free.vague / 4)  # of a range twice as wide
+    ranges = free.vague, free.vague / 4  # the latter of a range twice as wide
+    sd, wider = (np.sqrt(np.diag(np.linalg.inv(total + vague))) for vague in ranges)
     half, centre = _QUANTILE * sd, free.inner(values)
     told = (2 * half < free.high - free.low) & (wider < _FROM_RANGE * sd)
     below, above = told & (centre - half > free.low), told & (centre + half < free.high)

@@ -85,10 +85,10 @@ class Window:
         given = check_mapping(over, "over", _ACCEPTED)
         check_names(list(given), (*HOLDS, "angle"), "over", "names nothing")
         (name, speed), (_, angle) = checked_impact(scene, given).items()
-        for field, ends in ((name, speed), ("impact.angle", angle)):
+        for key, ends in ((name.partition(".")[2], speed), ("angle", angle)):
             if not (ends.size in (1, 2) and ends.flat[0] <= ends.flat[-1]):
                 accepted = "two ends, (LO, HI) with LO at most HI, or one value"
-                raise InputError(f"over {field.partition('.')[2]}", ends.tolist(), accepted)
+                raise InputError(f"over {key}", given[key], accepted)
         return cls(scene, name.partition(".")[2], np.resize(speed, 2), np.resize(angle, 2), scatter)
 
     @property

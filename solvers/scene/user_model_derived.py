@@ -2,9 +2,8 @@
 
 import os
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
-from time import perf_counter
 
 from ..errors import CheckFailed, InputError
 from ..host.emitted import library_digest
@@ -13,16 +12,11 @@ from .user_model import Package
 
 @dataclass(frozen=True)
 class Derived:
-    """A derived model file: the report as text, its files (none if a check fails), and the failed checks.
-
-    Attributes:
-        seconds: how long each step took.
-    """
+    """A derived model file: the report as text, its files (none if a check fails), and the failed checks."""
 
     report: str
     files: Mapping[str, str]
     failed: str
-    seconds: Mapping[str, float] = field(default_factory=dict)
 
 
 def derived_package(path: Path, folder: Path | None) -> Derived:
@@ -33,19 +27,12 @@ def derived_package(path: Path, folder: Path | None) -> Derived:
     Raises:
         InputError: not a valid model file; names the line, and what is accepted.
     """
-    seconds, start = {}, perf_counter()
-
-    def took(step: str) -> None:
-        nonlocal start
-        seconds[step], start = perf_counter() - start, perf_counter()
-
     from ...derive.checks.regenerated import changed, earlier
     from ...derive.checks.user import model_checks
     from ...derive.checks.words import conserved, in_words
     from ...derive.emit.user import package
     from ...derive.user.declarations import ModelFileError
 
-    took("load sympy")
     try:
         model, checks = model_checks(path)
     except ModelFileError as error:
@@ -56,9 +43,7 @@ def derived_package(path: Path, folder: Path | None) -> Derived:
     failing = [check.name for check in checks if check.ok is False]
     if model is None or failing:
         return Derived("\n".join(lines), {}, f"fails {', '.join(failing)}; nothing is emitted")
-    took("derive and check its laws")
     source, words = path.read_text(encoding="utf-8"), in_words(model)
-    took("find what is conserved")
     files = package(model, source, library_digest(), conserved(model), words, origin_of(path, folder))
     emitted = Package(files["manifest.json"], path, files)
     for name, value in emitted.defaults.items():
@@ -71,15 +56,13 @@ def derived_package(path: Path, folder: Path | None) -> Derived:
     for law in model.laws:  # in the cache for the kernels: the first collisions then need no sympy
         emitted.law_header(law.slot, law.name)
         emitted.law_header(law.slot, law.name, slopes=True)
-    took("emit")
     meanings = [f"{model.name}: {model.meaning}."]
     meanings += [f"  {law.slot} law {law.name}: {law.meaning}" for law in model.laws]
     meanings += [f"  event {event.proposed.word}: {event.proposed.meaning}" for event in model.events]
     lines = [*meanings, "", *lines, "", *words]
     if folder is not None:
         lines += ["", *changed(earlier(folder / "model.py"), model)]
-        took("compare")
-    return Derived("\n".join(lines), files, "", seconds)
+    return Derived("\n".join(lines), files, "")
 
 
 def files_of(path: Path) -> Mapping[str, str]:

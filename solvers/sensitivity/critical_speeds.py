@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field
 from typing import Any
 
-from ..formatting.markdown import aligned, csv_text
+from ..formatting.markdown import aligned
 from ..host.pictures import Drawn
 from ..scene.origin import origin
 from ..scene.scene import Scene
@@ -124,9 +124,11 @@ class Critical(Drawn):
 
     def to_csv(self) -> str:
         """A row for each material and angle: speeds in m/s, angles in rad; empty where there is none."""
-        columns, speeds = self.columns(), ("relative_speed", "low", "high", "speed", "bounces_above")
-        units = {"angle": " [rad]"} | dict.fromkeys(speeds, " [m/s]")
-        return csv_text([name + units.get(name, "") for name in columns], zip(*columns.values(), strict=True))
+        from pandas import DataFrame
+
+        speeds = ("relative_speed", "low", "high", "speed", "bounces_above")
+        units = {"angle": "angle [rad]"} | {name: f"{name} [m/s]" for name in speeds}
+        return str(DataFrame(self.columns()).rename(columns=units).to_csv(index=False, lineterminator="\n"))
 
 
 def _number(value: float | None) -> str:

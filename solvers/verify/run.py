@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import replace
-from functools import cache
 
 from ..errors import WetDoubletError
 from ..host.arguments import check_flag
@@ -13,7 +12,6 @@ from ..scene.scenefile import OF_THE_PAPER
 from .audit import stick_audit
 from .conserved import conserved
 from .identities import symbolic
-from .region import argument, beside_cvodes, grid
 from .report import Finding, Report
 from .sample import WHOLE, Extent, collisions
 
@@ -61,17 +59,10 @@ def numeric(scene: Scene, head_on: bool = False, extent: Extent = WHOLE) -> Iter
     group = f"Numeric: {scene.name or 'scene'}{', head-on' * head_on}"
     angles = (0.0,) if head_on else None
     sample = collisions(scene, angles, extent)
-    checks: dict[str, Callable[[], Iterator[Finding]]] = {
-        "conservation": lambda: conserved(sample),
-        "stick certificate": lambda: stick_audit(scene, angles, extent.audited),
-    }
-    if not head_on:
-        data = cache(lambda: grid(scene, extent))
-        checks["cvodes, on the grid"] = lambda: beside_cvodes(data())
-        checks["e_n > 1"] = lambda: argument(data())
-    for name, check in checks.items():
+    checks = {"conservation": conserved(sample), "stick certificate": stick_audit(scene, angles, extent.audited)}
+    for name, results in checks.items():
         try:
-            for finding in check():
+            for finding in results:
                 yield replace(finding, group=group)
         except WetDoubletError as failure:
             yield Finding(group, name, "the check is completed", f"not completed: {failure}", "", False)

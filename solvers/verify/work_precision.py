@@ -1,38 +1,35 @@
-"""Run time against achieved error of each engine for one scene on this machine, and recommended settings."""
+"""Run time against achieved error of each engine for one scene on this machine, and the setting recommended."""
 
 import math
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import takewhile
-from typing import TypeVar
-
-import numpy as np
+from pathlib import Path
+from typing import NamedTuple
 
 from ..collision.collide import collide
 from ..collision.result import Collision
-from ..engines.settings import CASADI_ENGINES, ENGINES
+from ..collision.text import name_of
+from ..engines.settings import ENGINES
 from ..errors import ComputationError
-from ..host.environment import one_core
+from ..formatting.markdown import table
+from ..host.environment import environment, one_core
+from ..host.pictures import Drawn
 from ..host.progress import Progress
-from ..many.collide_many import collide_many
-from ..results import FAILED
+from ..scene.origin import Recorded
 from ..scene.scene import Scene
 
 TOLERANCES = tuple(10.0**-k for k in range(4, 13))
-BATCH, SINGLE = 100, 8  # collisions in a call, and number of those also computed one by one
+SAMPLE = 8  # collisions
 STOKES, ANGLES = (0.01, 10.0), (math.radians(5), math.radians(85))  # ranges if the scene has no impact
 _AROUND, _TURNED, _STEEPEST = 2.0, math.radians(5), math.radians(89)  # about an impact: factor in St, change of angle
 _TIGHTEST = (1e-13, 1e-12, 1e-11)  # tolerances of a reference; the first that the engine completes is used
 _PASSES, _LONG = 10, 0.05  # most passes, and s after which no further one starts; the cheapest counts
-_DEAR = 1.0  # s; after a slower batch, an engine gets no batches at smaller tolerances
 _GOLDEN = 0.6180339887498949
 
-Result = TypeVar("Result")
 
-
-@dataclass(frozen=True)
-class Impact:
+class Impact(NamedTuple):
     """Stokes number and angle (rad)."""
 
     stokes: float
@@ -43,157 +40,160 @@ class Impact:
 class Row:
     """One engine at one tolerance.
 
-    Arguments:
+    Attributes:
         error: largest absolute error of e_n; None where no collision separates.
-        time_error: largest relative error of the contact time; None likewise.
-        single: mean CPU time (s) of a collision computed alone.
-        batch: CPU time (s) of a collision of a batch, which CasADi's engines compute one collision after another, as if
-            alone; None where that was too expensive to measure.
-        wrong, failed: collisions with another outcome than the reference, and without any.
-        handed_over: number of collisions completed by another engine.
+        seconds: mean CPU time of a collision computed alone.
+        wrong, failed: collisions with another outcome than the reference, and that the engine does not complete.
     """
 
     engine: str
     rtol: float
     error: float | None
-    time_error: float | None
-    single: float
-    batch: float | None
+    seconds: float
     wrong: int
     failed: int
-    handed_over: int
 
     def keeps(self, error: float) -> bool:
         """True if all outcomes are right and no error of e_n exceeds `error`."""
         return not self.wrong and not self.failed and (self.error or 0.0) <= error
 
 
-@dataclass(frozen=True)
-class Recommendation:
-    """The cheapest setting for a use; engine and rtol are None, with a reason, if there is none."""
+class Recommendation(NamedTuple):
+    """The cheapest setting; engine and rtol are None, with a reason, if there is none."""
 
-    use: str
     engine: str | None
     rtol: float | None
     reason: str
 
 
 @dataclass(frozen=True)
-class WorkPrecision:
+class WorkPrecision(Drawn, Recorded):
     """Cost and error of the engines on a sample of a scene's collisions.
 
-    Arguments:
+    Attributes:
+        wanted: the absolute error of e_n for which a setting is recommended.
         sample: description of the sample.
-        batch: number of collisions in a call.
         impacts: impacts on which errors are measured.
         separate: number of these that separate.
         left_out: impacts so near a boundary that the references disagree on the outcome.
         references: engine and tolerance of each reference; an engine is compared with the first other one.
         uncertainty: largest difference in e_n between the references; smaller errors cannot be distinguished from
             theirs.
-        time_uncertainty: the same for the contact time, relative.
     """
 
+    _picture = "verify.work_precision_plot.draw"
+    _keys = "sample impacts separate left_out references uncertainty rows error=wanted recommended environment"
+
     scene: Scene
+    wanted: float
     sample: str
-    batch: int
     impacts: tuple[Impact, ...]
     separate: int
     left_out: int
     references: tuple[tuple[str, float], ...]
     uncertainty: float
-    time_uncertainty: float
     rows: tuple[Row, ...]
-
-    def recommend(self, error: float) -> tuple[Recommendation, Recommendation]:
-        """Return the settings for an absolute error of e_n: for one collision, and for a batch."""
-        return (
-            self._cheapest("one collision", error, lambda row: row.single),
-            self._cheapest(f"a batch of {self.batch}", error, lambda row: row.batch),
-        )
-
-    def _cheapest(self, use: str, error: float, cost: Callable[[Row], float | None]) -> Recommendation:
-        """The cheapest of the engines, each at the loosest tolerance below which the error is always met."""
-        if error < self.uncertainty:
-            why = f"the references differ by {self.uncertainty:.1e} in e_n, so that {error:.1e} cannot be verified"
-            return Recommendation(use, None, None, why)
-        priced = []
-        for engine in self.engines:
-            rows = sorted((row for row in self.rows if row.engine == engine), key=lambda row: row.rtol)
-            first = list(takewhile(lambda row: row.keeps(error), rows))
-            if first and (spent := cost(first[-1])) is not None:
-                priced.append((spent, first[-1]))
-        if not priced:
-            reached = [row.error for row in self.rows if row.keeps(math.inf) and row.error is not None]
-            least = f"the least error reached is {min(reached):.1e}" if reached else "no setting has all outcomes right"
-            why = f"no engine keeps {error:.1e} at a tolerance that was measured; {least}"
-            return Recommendation(use, None, None, why)
-        priced.sort(key=lambda pair: pair[0])
-        spent, best = priced[0]
-        why = "all collisions of the sample stick, and all outcomes are right"
-        if best.error is not None:
-            why = f"largest error {best.error:.1e} in e_n, and none above {error:.1e} at tighter tolerances"
-        others = [f"{row.engine} at {row.rtol:.0e} costs {dear / spent:.3g} times as much" for dear, row in priced[1:]]
-        return Recommendation(use, best.engine, best.rtol, "; ".join([f"{duration(spent)} each, {why}", *others]))
 
     @property
     def engines(self) -> tuple[str, ...]:
         return tuple(dict.fromkeys(row.engine for row in self.rows))
 
+    @property
+    def environment(self) -> dict[str, object]:
+        """The machine and its software."""
+        return environment()
+
+    @property
+    def recommended(self) -> Recommendation:
+        """The cheapest of the engines, each at the loosest tolerance below which the error is always met."""
+        error = self.wanted
+        if error < self.uncertainty:
+            why = f"the references differ by {self.uncertainty:.1e} in e_n, so that {error:.1e} cannot be verified"
+            return Recommendation(None, None, why)
+        priced: list[Row] = []
+        for engine in self.engines:
+            rows = sorted((row for row in self.rows if row.engine == engine), key=lambda row: row.rtol)
+            priced += list(takewhile(lambda row: row.keeps(error), rows))[-1:]
+        if not priced:
+            reached = [row.error for row in self.rows if row.keeps(math.inf) and row.error is not None]
+            least = f"the least error reached is {min(reached):.1e}" if reached else "no setting has all outcomes right"
+            why = f"no engine keeps {error:.1e} at a tolerance that was measured; {least}"
+            return Recommendation(None, None, why)
+        best, *others = sorted(priced, key=lambda row: row.seconds)
+        why = "all collisions of the sample stick, and all outcomes are right"
+        if best.error is not None:
+            why = f"largest error {best.error:.1e} in e_n, and none above {error:.1e} at tighter tolerances"
+        dearer = [
+            f"{row.engine} at {row.rtol:.0e} costs {row.seconds / best.seconds:.3g} times as much" for row in others
+        ]
+        return Recommendation(best.engine, best.rtol, "; ".join([f"{_duration(best.seconds)} each, {why}", *dearer]))
+
+    def __str__(self) -> str:
+        rows = []
+        for row in self.rows:
+            error = "-" if row.error is None else f"{row.error:.1e}"
+            rows.append((row.engine, f"{row.rtol:.0e}", error, _duration(row.seconds), str(row.wrong), str(row.failed)))
+        counted = f"{len(self.impacts)} of them count, of which {self.separate} separate."
+        if self.left_out:
+            counted += f" {self.left_out} are left out: the references disagree on the outcome."
+        against = ", ".join(f"{engine} at rtol {rtol:.0e}" for engine, rtol in self.references)
+        best = self.recommended
+        setting = f"{best.engine}, rtol {best.rtol:.0e}" if best.engine else "none"
+        return "\n".join([
+            f"{name_of(self.scene)}: {self.sample}", counted, "",
+            table(("engine", "rtol", "error in e_n", "CPU time", "wrong", "failed"), rows), "",
+            f"Errors are differences from the first of {against} that is another engine.",
+            f"These two differ by at most {self.uncertainty:.1e} in e_n: the error estimate of the references.",
+            "CPU time on one core, of a collision by `collide` without ledger.", "",
+            f"Recommended for an error of {self.wanted:.1e} in e_n: {setting}", f"  {best.reason}",
+        ])  # fmt: skip
+
 
 def work_precision(
-    scene: Scene,
+    scene: Scene | str | Path,
+    wanted: float = 1e-6,
     tolerances: Sequence[float] = TOLERANCES,
     progress: Progress = lambda _done, _total: None,
-    single: int = SINGLE,
-    batch: int = BATCH,
+    size: int = SAMPLE,
 ) -> WorkPrecision:
     """Measure the engines on collisions about the scene's impact, on one core.
 
     Arguments:
         scene: the scene; if it has no impact, a default sample of Stokes numbers and angles is used.
+        wanted: largest absolute error of e_n.
         progress: called with (settings measured, settings in all).
-        single: number of collisions computed one by one, from which errors are computed.
-        batch: number of collisions in one call.
+        size: number of collisions.
 
     Example:
-        >>> from wetdoublet.solvers import Scene
-        >>> found = work_precision(Scene.load("granulation"), [1e-6, 1e-9], single=4, batch=20)
-        >>> found.recommend(1e-6)[0].engine is not None
+        >>> found = work_precision("granulation", 1e-6, [1e-6, 1e-9], size=4)
+        >>> found.recommended.engine is not None
         True
 
     Raises:
         ComputationError: no reference could be computed.
     """
-    engines = list(ENGINES)
-    total = len(engines) * len(tolerances) + 1
-    impacts, sample = _drawn(scene, batch)
+    scene = Scene.load(scene)
+    total = len(ENGINES) * len(tolerances) + 1
+    impacts, sample = _drawn(scene, size)
     progress(0, total)
     with one_core():
-        some = impacts[batch // (2 * single) :: batch // single][:single]
-        references, tight = _references(scene, some, engines)
+        references, tight = _references(scene, impacts)
         pairs = [pair for pair in zip(*references.values()) if pair[0].outcome == pair[1].outcome]
         if not pairs:
             raise ComputationError("no reference", advice="choose an impact farther from a boundary")
-        places = [Impact(collision.stokes, collision.angle) for collision, _ in pairs]
+        places = tuple(Impact(collision.stokes, collision.angle) for collision, _ in pairs)
         rows: list[Row] = []
-        for engine in engines:
-            expected = [
-                pair[list(references).index(engine) == 0] if engine in references else pair[0] for pair in pairs
-            ]
-            expensive = False
+        for engine in ENGINES:
+            truths = [pair[[*references].index(engine) == 0] if engine in references else pair[0] for pair in pairs]
             for rtol in sorted(tolerances, reverse=True):
-                cost = None if expensive or engine in CASADI_ENGINES else _batch(scene, impacts, engine, rtol)
-                expensive = expensive or (cost is not None and cost * batch > _DEAR)
-                rows.append(_row(scene, places, expected, engine, rtol, cost))
+                rows.append(_row(scene, places, truths, engine, rtol))
                 progress(1 + len(rows), total)
-    differences = _errors(pairs)
+    uncertainty = max(_errors(pairs), default=0.0)
     separate = sum(collision.outcome != "stick" for collision, _ in pairs)
-    uncertainty, time_uncertainty = (max((pair[k] for pair in differences), default=0.0) for k in (0, 1))
+    left_out = len(impacts) - len(places)
     return WorkPrecision(
-        scene, sample, batch, tuple(places), separate, len(some) - len(places), tuple(tight.items()), uncertainty,
-        time_uncertainty, tuple(rows),
-    )  # fmt: skip
+        scene, wanted, sample, places, separate, left_out, tuple(tight.items()), uncertainty, tuple(rows)
+    )
 
 
 def _drawn(scene: Scene, count: int) -> tuple[list[Impact], str]:
@@ -213,17 +213,13 @@ def _drawn(scene: Scene, count: int) -> tuple[list[Impact], str]:
     return impacts, f"{count} impacts, St {low:.4g} to {high:.4g}, angle {degrees} ({why})"
 
 
-def _references(
-    scene: Scene, impacts: Sequence[Impact], engines: Sequence[str]
-) -> tuple[dict[str, list[Collision]], dict[str, float]]:
+def _references(scene: Scene, impacts: Sequence[Impact]) -> tuple[dict[str, list[Collision]], dict[str, float]]:
     """Results of two engines at the smallest tolerance that each completes, and that tolerance."""
     references: dict[str, list[Collision]] = {}
     tight: dict[str, float] = {}
     for engine in ("taylor", "rosenbrock", "cvodes"):
-        for rtol in _TIGHTEST if engine in engines and len(references) < 2 else ():
-            collisions = [
-                case for impact in impacts if (case := _one(scene, impact, engine, rtol)) and case.engine == engine
-            ]
+        for rtol in _TIGHTEST if len(references) < 2 else ():
+            collisions = [case for impact in impacts if (case := _collided(scene, impact, engine, rtol))]
             if len(collisions) == len(impacts):
                 references[engine], tight[engine] = collisions, rtol
                 break
@@ -235,61 +231,38 @@ def _references(
     return references, tight
 
 
-def _one(scene: Scene, impact: Impact, engine: str, rtol: float) -> Collision | None:
-    """A collision as computed by `collide`, perhaps by another engine; None if it fails."""
+def _collided(scene: Scene, impact: Impact, engine: str, rtol: float) -> Collision | None:
+    """A collision by an engine; None if it fails, or where another engine answers."""
     try:
-        return collide(scene, stokes=impact.stokes, angle=impact.angle, rtol=rtol, engine=engine, ledger=False)
+        done = collide(scene, stokes=impact.stokes, angle=impact.angle, rtol=rtol, engine=engine, ledger=False)
     except ComputationError:
         return None
+    return done if done.engine == engine else None
 
 
-def _row(
-    scene: Scene, impacts: Sequence[Impact], truths: Sequence[Collision], engine: str, rtol: float, batch: float | None
-) -> Row:
-    """Time and errors of the collisions computed one by one."""
-
-    def collided() -> list[Collision | None]:
-        return [_one(scene, impact, engine, rtol) for impact in impacts]
-
-    collided()  # builds
-    taken, computed = _cheapest(collided)
-    alone = taken / len(impacts)
+def _row(scene: Scene, impacts: Sequence[Impact], truths: Sequence[Collision], engine: str, rtol: float) -> Row:
+    """Time, of the cheapest of some passes over the impacts, and errors."""
+    times: list[float] = []
+    computed = [_collided(scene, impact, engine, rtol) for impact in impacts]  # builds
+    while len(times) < _PASSES and sum(times) <= _LONG:
+        start = time.process_time()
+        computed = [_collided(scene, impact, engine, rtol) for impact in impacts]
+        times.append(time.process_time() - start)
     done = [(collision, truth) for collision, truth in zip(computed, truths) if collision is not None]
-    error, time_error = (max((errors[k] for errors in _errors(done)), default=None) for k in (0, 1))
     wrong = sum(collision.outcome != truth.outcome for collision, truth in done)
-    handed_over = sum(collision.engine != engine for collision, _ in done)
-    failed = len(computed) - len(done)
-    together = alone if engine in CASADI_ENGINES else batch
-    return Row(engine, rtol, error, time_error, alone, together, wrong, failed, handed_over)
+    error = max(_errors(done), default=None)
+    return Row(engine, rtol, error, min(times) / len(impacts), wrong, len(computed) - len(done))
 
 
-def _errors(pairs: Sequence[tuple[Collision, Collision]]) -> list[tuple[float, float]]:
-    """Absolute error of e_n and relative error of the contact time, where both separate in the same way."""
+def _errors(pairs: Sequence[tuple[Collision, Collision]]) -> list[float]:
+    """Absolute errors of e_n, where both separate in the same way."""
     return [
-        (abs(collision.restitution - truth.restitution), abs(collision.contact_time / truth.contact_time - 1))
+        abs(collision.restitution - truth.restitution)
         for collision, truth in pairs
-        if collision.outcome == truth.outcome and collision.contact_time and truth.contact_time
+        if collision.outcome == truth.outcome and truth.contact_time
     ]
 
 
-def _batch(scene: Scene, impacts: Sequence[Impact], engine: str, rtol: float) -> float | None:
-    """CPU time (s) per impact of one call for all; None if one fails."""
-    stokes, angle = (np.array([getattr(impact, name) for impact in impacts]) for name in ("stokes", "angle"))
-    collide_many(scene, stokes=stokes[:1], angle=angle[:1], rtol=rtol, engine=engine)  # builds
-    taken, data = _cheapest(lambda: collide_many(scene, stokes=stokes, angle=angle, rtol=rtol, engine=engine))
-    return None if (data["outcome"].values == FAILED).any() else taken / len(impacts)
-
-
-def _cheapest(run: Callable[[], Result]) -> tuple[float, Result]:
-    """CPU time (s) of the cheapest of some calls, and the result of the last."""
-    times: list[float] = []
-    while len(times) < _PASSES and sum(times) <= _LONG:
-        start = time.process_time()
-        result = run()
-        times.append(time.process_time() - start)
-    return min(times), result
-
-
-def duration(seconds: float) -> str:
+def _duration(seconds: float) -> str:
     """A time as text in ms or us, with three digits."""
     return f"{seconds * 1e3:.3g} ms" if seconds >= 1e-3 else f"{seconds * 1e6:.3g} us"

@@ -1,4 +1,4 @@
-"""Report of the stress test: a record, its disagreements in Markdown, the worst cases as scene files."""
+"""Report of the stress test: a record with its disagreements, and the worst cases as scene files."""
 
 import json
 import math
@@ -20,13 +20,11 @@ WORST = 20  # cases written as scene files, of each sort
 
 
 def write(stress: Stress, folder: Path) -> list[Path]:
-    """Write stress.json, stress.md and the worst cases as scene files; returns their paths."""
+    """Write stress.json and the worst cases as scene files; returns their paths."""
     folder.mkdir(parents=True, exist_ok=True)
-    data, text = folder / "stress.json", folder / "stress.md"
+    data = folder / "stress.json"
     files.write(data, json.dumps(record(stress), indent=1, allow_nan=False) + "\n")
-    scenes = worst(stress, folder / "worst")
-    files.write(text, report(stress, scenes))
-    return [data, text, *scenes]
+    return [data, *worst(stress, folder / "worst")]
 
 
 def record(stress: Stress) -> dict[str, Any]:
@@ -81,19 +79,6 @@ def worst(stress: Stress, folder: Path) -> list[Path]:
                 header = "".join(f"# {line}\n" for line in (verdict.case.name, re.sub(r"[^\x20-\x7e]", "?", why)))
                 files.write(file, header + verdict.case.scene.to_toml())
     return list(scenes.values())
-
-
-def report(stress: Stress, scenes: list[Path]) -> str:
-    """Text of `stress.md`."""
-    surroundings = "\n".join(f"* {name}: {value}" for name, value in stress.where.items() if value is not None)
-    parts = ["# wetdoublet verify --stress", f"**{stress.summary()}**", surroundings]
-    parts += ["## Disagreements", disagreements(stress)]
-    if stress.remarks:
-        rows = [[text, str(count)] for text, count in sorted(stress.remarks.items())]
-        parts += ["## Outside the range of a law", table(["entry and law", "scenes"], rows)]
-    if scenes:
-        parts += ["## The worst, as scene files", "\n".join(f"* `worst/{file.name}`" for file in scenes)]
-    return "\n\n".join(parts) + "\n"
 
 
 def disagreements(stress: Stress) -> str:

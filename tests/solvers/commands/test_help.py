@@ -16,7 +16,7 @@ from wetdoublet.solvers.scene.schema import FIELDS
 from ...helpers.command import run
 
 PUBLIC = [
-    ("design", design, ("n", "target", "data", "restitution_sd")),
+    ("design", design, ("n", "data", "restitution_sd")),
     ("averages", collision_averages, ("films", "tolerance")),
     ("tracks", tracks, ("rate", "noise", "particles")),
 ]

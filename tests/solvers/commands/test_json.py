@@ -10,7 +10,6 @@ import pytest
 import xarray
 from wetdoublet.solvers import Scene, collide
 from wetdoublet.solvers.export.differences import Differences
-from wetdoublet.solvers.export.text import as_text
 from wetdoublet.solvers.results import UNITS
 
 from ...helpers.command import run
@@ -85,23 +84,23 @@ def test_a_dataset_is_read_back(words: tuple[str, ...], tmp_path: Path) -> None:
 
 
 def test_differences_as_an_object() -> None:
-    """The law that is another, and impacts with the same results on the side that is not changed."""
+    """The law that is another, and the largest change of e_n where it is said to be."""
     done = run("diff", "granulation", "granulation", "--set", "bridge.law=willett", "--json")
     found = json.loads(done.stdout)
     assert any(change["before"] != change["after"] for change in found["changes"])
-    for probe in found["probes"]:
-        outcome, restitution = probe["results"][0]
-        own = collide("granulation", stokes=probe["stokes"], angle=probe["angle"])
-        assert own.outcome == outcome
-        assert own.restitution == pytest.approx(restitution, rel=1e-8)
+    off, stokes, angle = found["on_map"]["farthest"]
+    scenes = [Scene.load("granulation").with_entries(entries) for entries in ({}, {"bridge.law": "willett"})]
+    first, other = (collide(scene, stokes=stokes, angle=angle) for scene in scenes)
+    assert first.outcome == other.outcome
+    assert other.restitution - first.restitution == pytest.approx(off, abs=1e-8)
 
 
 def test_differences_name_entries(mine: Path) -> None:
     """The default of a model's quantity, and what is changed; the speeds compared are those of both sides."""
     scene = Scene.load("granulation", model=mine)
-    text = as_text(Differences(("A", "B"), (), (), (), None, (scene, scene.with_entries({"custom.yield_stress": 5}))))
+    text = str(Differences(("A", "B"), (), None, (scene, scene.with_entries({"custom.yield_stress": 5}))))
     assert "entries that differ:\n\nentry                A     B\ncustom.yield_stress  0 Pa  5.0 Pa" in text
-    text = as_text(Differences(("A", "B"), (), (), (), None, (scene, scene.with_entries({"liquid.viscosity": 3}))))
+    text = str(Differences(("A", "B"), (), None, (scene, scene.with_entries({"liquid.viscosity": 3}))))
     assert "impact" not in text
 
 

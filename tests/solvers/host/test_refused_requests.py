@@ -87,7 +87,7 @@ REFUSED: dict[str, list[tuple[Any, ...]]] = {  # what is changed of it, the fiel
         ({"over": {"stokes": (0.1, 0.2), "angle": (0.0, 1.6)}}, "impact.angle"),
         ({"over": {"stokes": (0.1, 0.2), "angle": (0.5, 0.2)}}, "over angle"),
         ({"over": {"stokes": 0.1, "speed": 1.0, "angle": 0.0}}, "speed"), ({"n": 0}, "n"),
-        ({"target": "particles.roughness"}, "target"), ({"speed_sd": "40 %"}, "speed_sd"),
+        ({"speed_sd": "40 %"}, "speed_sd"),
         ({"restitution_sd": 0}, "restitution_sd"), ({"prior": {"particles.roughness": "1 um +- 10 %"}}, "prior"),
     ],
 }  # fmt: skip

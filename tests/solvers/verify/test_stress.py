@@ -28,7 +28,7 @@ def run(*arguments: str) -> int:
 
 
 def test_a_small_sample_passes(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    """`verify --stress 8` exits 0, its last line is the summary, and its record, report and scenes are there."""
+    """`verify --stress 8` exits 0, its last line is the summary, and its record and scenes are there."""
     assert run("verify", "--stress", "8", "--out", str(tmp_path / "new")) == 0
     out, err = capsys.readouterr()
     last = out.strip().splitlines()[-1]
@@ -38,7 +38,6 @@ def test_a_small_sample_passes(tmp_path: Path, capsys: pytest.CaptureFixture[str
     assert record["summary"] == last
     assert len(record["cases"]) == 8
     assert {"stick", "bounce"} <= set(record["outcomes"])
-    assert last in (tmp_path / "new" / "stress.md").read_text()
     scenes = list((tmp_path / "new" / "worst").glob("*.toml"))
     assert scenes
     for file in scenes:
