@@ -19,7 +19,7 @@ from .signature import command, passed
 from .texts import whole
 
 _WANTED = Field("--error", "an absolute error of e_n", "1e-6", Range("above 0 and below 1", 0.0, 1.0))
-_SYMBOLIC, _OF_SCENE, _OF_ALL = 156, 8, 47  # usual numbers of findings; numeric ones of a scene and of all presets
+_SYMBOLIC, _NUMERIC = 156, 14  # usual numbers of findings; the latter of a scene, with or without rotation
 
 
 @command()
@@ -117,7 +117,7 @@ def verify(
                 findings.append(finding)
                 done = sum(not (item.kept or item.shipped) for item in findings)  # the others take no time
                 symbolic = _SYMBOLIC * (done == len(findings))
-                bar(done, max(done, symbolic + (_OF_SCENE if scene else _OF_ALL)))
+                bar(done, max(done, symbolic + _NUMERIC * (1 if scene else 4)))
 
             report = verify(scene, progress, recompute)
     except KeyboardInterrupt:

@@ -3,12 +3,10 @@
 import math
 from collections.abc import Callable, Iterator, Sequence
 
-from ...generated.automaton import STICK
 from ..collision.collide import collide
 from ..collision.result import Collision
 from ..engines.settings import ENGINES
 from ..errors import WetDoubletError
-from ..space.pairs import Bodies
 from .report import Finding, bounded, note
 from .sample import REFERENCE, RTOL, Sample, where
 
@@ -31,11 +29,6 @@ def conserved(sample: Sample) -> Iterator[Finding]:
     )
     statement = "T(0) = T(end) + losses + works: residual over T(0)"
     yield bounded("energy ledger", statement, figure, RESIDUAL, where(worst))
-    parted = [run for run in sample.all if run.outcome != STICK and not run.scene.wall]
-    if parted:
-        figure, worst = worst_of(parted, _unlike_its_ledger)
-        statement = "T(end) of the ledger is that of e_n, rotation rate and spins: difference over T(0)"
-        yield bounded("energy of the results", statement, figure, RESIDUAL, where(worst))
     statement = "L is conserved: |L/L(0) - 1| where the spin is integrated, not eliminated"
     drifting = [collision for collision in sample.all if collision.angular_momentum_drift is not None]
     if sample.scene.pendulum is not None and any(collision.angle for collision in sample.all):
@@ -54,18 +47,6 @@ def conserved(sample: Sample) -> Iterator[Finding]:
         ]
         if pairs:
             yield agreement(f"{engine} = {reference}", pairs)
-
-
-def _unlike_its_ledger(run: Collision) -> float | None:
-    """The kinetic energy of two spheres from what a result says of their motion, less its ledger's, over the first."""
-    if run.energy is None or run.final_gap is None or run.final_spin is None:
-        return None
-    bodies = Bodies.of(run.scene)
-    sideways = (sum(bodies.radius) + run.final_gap) * (run.final_rotation_rate or 0.0)
-    orbital = run.scene.reduced_mass * ((run.restitution * run.speed) ** 2 + sideways**2)
-    spins = run.final_spin, run.final_spin if run.final_spin_partner is None else run.final_spin_partner
-    turning = sum(inertia * spin**2 for inertia, spin in zip(bodies.inertia, spins, strict=True))
-    return abs((orbital + turning) / 2 - run.energy.final) / run.energy.initial
 
 
 def worst_of(collisions: Sequence[Collision], figure: Callable[[Collision], float | None]) -> tuple[float, Collision]:

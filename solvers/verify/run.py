@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import replace
+from functools import cache
 
 from ..errors import WetDoubletError
 from ..host.arguments import check_flag
@@ -12,6 +13,7 @@ from ..scene.scenefile import OF_THE_PAPER
 from .audit import stick_audit
 from .conserved import conserved
 from .identities import symbolic
+from .region import argument, beside_cvodes, grid
 from .report import Finding, Report
 from .sample import WHOLE, Extent, collisions
 
@@ -59,10 +61,17 @@ def numeric(scene: Scene, head_on: bool = False, extent: Extent = WHOLE) -> Iter
     group = f"Numeric: {scene.name or 'scene'}{', head-on' * head_on}"
     angles = (0.0,) if head_on else None
     sample = collisions(scene, angles, extent)
-    checks = {"conservation": conserved(sample), "stick certificate": stick_audit(scene, angles, extent.audited)}
-    for name, results in checks.items():
+    checks: dict[str, Callable[[], Iterator[Finding]]] = {
+        "conservation": lambda: conserved(sample),
+        "stick certificate": lambda: stick_audit(scene, angles, extent.audited),
+    }
+    if not head_on:
+        data = cache(lambda: grid(scene, extent))
+        checks["cvodes, on the grid"] = lambda: beside_cvodes(data())
+        checks["e_n > 1"] = lambda: argument(data())
+    for name, check in checks.items():
         try:
-            for finding in results:
+            for finding in check():
                 yield replace(finding, group=group)
         except WetDoubletError as failure:
             yield Finding(group, name, "the check is completed", f"not completed: {failure}", "", False)

@@ -25,11 +25,15 @@ class Extent:
         angles: angles of the sample, rad; the scene's is added.
         factors: Stokes numbers of the sample, relative to the scene's.
         audited: impacts of the certificate audit.
+        grid_angles: angles of the budget, degrees.
+        grid_points: Stokes numbers of the budget.
     """
 
     angles: tuple[float, ...] = ANGLES
     factors: tuple[float, ...] = FACTORS
     audited: int = 240  # a quarter of this head-on
+    grid_angles: tuple[float, ...] = tuple(range(5, 90, 5))
+    grid_points: int = 27  # ten per decade
 
 
 WHOLE = Extent()
