@@ -77,8 +77,8 @@ def remainders_are_bounded() -> Evidence:
     """The bounds that the runtime's logarithm and exponential use.
 
     d - log(1 + d) is 0 at 0 with slope d/(1 + d), and log(1 + d) - d + d^2 with slope d (1 + 2 d)/(1 + d): both change
-    their sign at 0 alone within |d| < 1/2, upwards. The terms of exp(r) from the sixteenth on are below a geometric series
-    of ratio r/17, where r is at most log 2 and what rounding adds to it, less than 0.7.
+    their sign at 0 alone within |d| < 1/2, upwards. The terms of exp(r) from the sixteenth on are below a geometric
+    series of ratio r/17, where r is at most log 2 and what rounding adds to it, less than 0.7.
     """
     d = sp.Symbol("d", real=True)
     yield (d - sp.log(1 + d)).diff(d) - d / (1 + d)
