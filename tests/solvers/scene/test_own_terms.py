@@ -277,6 +277,18 @@ def test_a_stick_is_proved_with_a_potential_and_a_drag(tmp_path: Path):
 
 
 @pytest.mark.slow
+def test_head_on_a_spring_of_the_rotation_is_never_strained(tmp_path: Path):
+    """Outcomes and restitution are those without it, and what comes to rest sticks: nothing moves any more."""
+    given = Scene.load("granulation").with_entries({"liquid.glass_transition_pressure": "2 GPa"})
+    path = tmp_path / "mine.py"
+    path.write_text(HEAD + SPRING)
+    for stokes, outcome in ((0.022, "stick"), (3.0, "bounce")):
+        plain, sprung = (collide(each, stokes=stokes, angle=0, rtol=1e-11) for each in (given, given.with_model(path)))
+        assert plain.outcome == sprung.outcome == outcome
+        assert sprung.restitution == pytest.approx(plain.restitution, rel=1e-9)
+
+
+@pytest.mark.slow
 @pytest.mark.parametrize("engine", ["taylor", "rosenbrock"])
 def test_chatter_takes_what_moves_alone(engine: str, tmp_path: Path):
     """A doublet with an added mass comes to rest at a height: its potential stays, and the ledger closes."""
