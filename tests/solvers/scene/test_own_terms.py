@@ -277,6 +277,18 @@ def test_a_stick_is_proved_with_a_potential_and_a_drag(tmp_path: Path):
 
 
 @pytest.mark.slow
+def test_what_a_drag_has_stopped_at_rest_sticks(tmp_path: Path):
+    """A drag ends the rotation beside a bridge with a kink: when no force changes any more, the doublet sticks."""
+    (tmp_path / "mine.py").write_text(
+        HEAD + 'drag = quantity("drag", unit="kg/s", default="2e-6 kg/s")\nforce_on("rotation", -drag*R**2*omega)\n'
+        'law("bridge", "mine", force=3*pi*R*sigma*exp(-Abs(x/x0 - Rational(7, 10))))\n'
+    )
+    found = collide(Scene.load("granulation", model=tmp_path / "mine.py"), stokes=0.036, angle="53 deg")
+    assert (found.outcome, found.certified) == ("stick", False)
+    assert abs(found.energy.residual) < 1e-9 * found.energy.largest
+
+
+@pytest.mark.slow
 def test_head_on_a_spring_of_the_rotation_is_never_strained(tmp_path: Path):
     """Outcomes and restitution are those without it, and what comes to rest sticks: nothing moves any more."""
     given = Scene.load("granulation").with_entries({"liquid.glass_transition_pressure": "2 GPa"})
