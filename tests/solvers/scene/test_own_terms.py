@@ -329,6 +329,21 @@ def test_a_criterion_is_a_roughness_of_its_own_name(tmp_path: Path):
     assert collide(own.with_entries({"custom.soft": "0.1 um"}), rtol=1e-11).reversal == "rough"
 
 
+@pytest.mark.slow
+def test_a_criterion_with_a_maximum_is_differentiated_by_the_kernel(tmp_path: Path):
+    """On either side of a corner of its gap, as by Rosenbrock: a layer of at most half the film."""
+    body = 'soft = quantity("soft", unit="m", default="3 um")\ncriterion("layer", gap=Max(Min(soft, x0/2), x0/100))'
+    thin = scene(tmp_path, body, FREE.replace("stokes = 0.6", "stokes = 4"))
+    for given, layer_counts in ((thin, True), (thin.with_entries({"custom.soft": "5 um"}), False)):
+        wrt = ["custom.soft", "liquid.film_thickness"]
+        kernel, casadi = (
+            sensitivities(given, wrt=wrt, rtol=1e-11, engine=engine).gradient["restitution"]
+            for engine in ("taylor", "rosenbrock")
+        )
+        assert kernel == pytest.approx(casadi, rel=1e-7, abs=1e-9)
+        assert (kernel["custom.soft"] != 0.0) == layer_counts
+
+
 @pytest.mark.parametrize(
     ("gap", "says"), [("2*soft", "not below the film"), ("-soft", "is negative"), ("soft*v0/soft*soft/v0*3", "film")]
 )
