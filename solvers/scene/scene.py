@@ -97,9 +97,9 @@ class Scene(System, NotebookTable):
         if isinstance(source, Scene):
             if model is not None:
                 return source.with_model(model)
-            if source.package is not None:
+            if (package := source.package) is not None:
                 source = _with_first_values(source, (free,) if isinstance(free, str) else free)
-                source.package.demand(source.entries)
+                package.demand(source.entries)
             return source
         text, origin = scenefile.read_text(source)
         if model is None:
