@@ -119,7 +119,7 @@ def atlas(
     """
     from .atlas_curves import curves_of  # not needed by `boundary`
 
-    loaded = Scene.load(scene)
+    loaded = Scene.load(scene, free=over)
     plane = check_plane(loaded, over, span, stokes, check_rtol(rtol))
     lines = check_whole(lines, "lines", 2, _MOST)
     tell = check_function(progress, "progress") or (lambda *_: None)

@@ -19,6 +19,7 @@ from ..model.dimensionless import Problem
 from ..model.model import Model
 from ..results import TERMS
 from ..scene.scene import Scene
+from ..scene.user_model_declared import TABLE
 from .assemble import assembled
 from .result import Collision
 
@@ -51,7 +52,9 @@ def recorded(
         declared = next((word for word in (words[kind] for kind in log["kind"][::-1]) if word not in KINDS), "")
         states = problem.model(full=ledger).state
         last = log[-1] if log.size else None
-        raise problem.in_si(undecided(answer, tuple(states), last, declared, problem.scene.package is not None))
+        package = problem.scene.package
+        own = package is not None and package.table == TABLE
+        raise problem.in_si(undecided(answer, tuple(states), last, declared, own))
     if until is not None and answer["outcome"] > 0:
         raise ComputationError(f"a stick that is decided, not proved, {SEPARATES}", advice="leave out --until")
     return ran

@@ -98,7 +98,7 @@ def solve(free: str, target: str, request: Varied, output: Written, **chosen: An
     """
     name, ends = texts.assignment(_FREE, free, "--free")
     of, value = texts.assignment(_FOR, target, "--for")
-    scene = request.scene()
+    scene = request.scene(whole=False)
     entry = request.numeric(name)
     within = (0.0, 1.0) if entry is None else texts.span(entry, ends, "--free")  # `solve` says what may be free
     for end in () if entry is None else within:

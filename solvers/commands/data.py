@@ -129,7 +129,8 @@ def fit(
     check_apart(output.file, write, "--write")
     if any(data is None for _, data in measured):
         raise InputError("DATA.csv", None, _IMPACTS)
-    scenes, tables = [request.scene(remark=True) for request, _ in measured], [data for _, data in measured]
+    scenes = [request.scene(remark=True, whole=False) for request, _ in measured]
+    tables = [data for _, data in measured]
     parted = [text.partition("=") for text in own]
     groups = {name: labels.split(",") if labels else labels for name, _, labels in parted}
     with Bar("evaluations", "fewer free entries or rows take less", factor=3.0) as progress:
@@ -205,5 +206,5 @@ def design(free: list[str], over: _Window, angle_sd: _Degrees, request: Entries,
     from ..planning.design import design
 
     with Bar("impacts", "a smaller window or fewer impacts take less", factor=3.0) as progress:
-        plan = design(request.scene(), free, over, progress=progress, **passed(angle_sd=angle_sd), **chosen)
+        plan = design(request.scene(whole=False), free, over, progress=progress, **passed(angle_sd=angle_sd), **chosen)
     output.show(plan)

@@ -144,7 +144,7 @@ def boundary(
     plane = _plane(angle, over, request)
     refuse({"--wrt": plane and wrt}, "--angle LO:HI:N", "differentiates lines, not a plane")
     angles = None if angle is None or plane else texts.entry_range(_ANGLE, angle, "--angle", most=_MOST)
-    scene = request.scene()
+    scene = request.scene(whole=False)
     shared = passed(rtol=rtol)
     if plane is not None:
         name, across = plane

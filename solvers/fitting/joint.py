@@ -124,7 +124,7 @@ def problem(
     if not isinstance(tables, (list, tuple)) or len(tables) != len(sources) or not sources:
         count = len(tables) if isinstance(tables, (list, tuple)) else 1
         raise InputError("data", f"{count} sets of impacts", f"one for each of the {len(sources)} scenes")
-    scenes = [Scene.load(source) for source in sources]
+    scenes = [Scene.load(source, free=free) for source in sources]
     measured = [
         read_data(raw, first, f"data {k + 1}" if len(sources) > 1 else "data")
         for k, (raw, first) in enumerate(zip(tables, scenes, strict=True))

@@ -77,7 +77,7 @@ def design(
     """
     rtol = check_rtol(rtol)
     check_function(progress, "progress")
-    loaded = Scene.load(scene)
+    loaded = Scene.load(scene, free=free)
     size = check_whole(n, "n", 1, _MOST)
     table = None if data is None else read_data(data, loaded)
     scatter = scatter_of(table, speed=speed_sd, angle=angle_sd, restitution=restitution_sd)

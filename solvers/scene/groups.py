@@ -260,6 +260,16 @@ def scaled(group: str, scene: System, speed: float | None = None) -> float:
     return _value(formulas(scene)[group], si_values(scene, speed, None))
 
 
+def natural(scene: System, name: str) -> float:
+    """The value of a user's quantity, by its name, at which its dimensionless group is 1."""
+    assert scene.package is not None
+    if name in scene.package.plain:
+        return 1.0
+    speed = scene.speed or 1 / scaled("stokes", scene, 1.0)  # without an impact at a Stokes number of 1
+    formula = formulas(scene)[scene.package.group(name)]
+    return 1 / _value(formula, {**si_values(scene, speed, None), name: 1.0})
+
+
 def _value(formula: Formula, values: Mapping[str, float]) -> float:
     function, arguments = formula
     try:

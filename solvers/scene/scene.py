@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from pathlib import Path
@@ -15,13 +16,15 @@ from ..host.arguments import check_mapping
 from . import entry_rules as rules
 from . import scenefile
 from .fields import Field, Raw
-from .groups import System, check_criteria
+from .groups import System, check_criteria, natural
 from .held import adjusted_impact, held_quantity, impact_quantity
 from .liquids import is_named, liquid
 from .quantities import SHADOW, Ways, coating_fraction, tables
 from .schema import FIELDS, LEAST_ANGLE, LIQUIDS, NEWTONIAN, SPEEDS, TABLES, Impact
 from .user_model import Package, fields
 from .user_model_source import liquid_package, open_package
+
+_SMALLER = (1.0, 0.1, 0.01)  # parts of the value at which a quantity's group is 1: a criterion's gap is below the film
 
 
 @dataclass(frozen=True)
@@ -78,11 +81,15 @@ class Scene(System, NotebookTable):
     # ---- reading and writing
 
     @classmethod
-    def load(cls, source: str | Path | Scene, model: str | Path | Package | None = None) -> Scene:
+    def load(
+        cls, source: str | Path | Scene, model: str | Path | Package | None = None, free: Sequence[str] | str = ()
+    ) -> Scene:
         """Return the scene of a file or preset; a Scene is returned as it is.
 
         Arguments:
             model: folder of a user's model (`wetdoublet generate MODEL.py --out DIR`), or the model file.
+            free: entries that are looked for. A quantity of the model among them needs no value; it begins where its
+                group is 1.
 
         Raises:
             InputError: no such file or preset (the nearest is named), broken TOML (file and line), bad entry.
@@ -90,8 +97,9 @@ class Scene(System, NotebookTable):
         if isinstance(source, Scene):
             if model is not None:
                 return source.with_model(model)
-            if source.package is not None:
-                source.package.demand(source.entries)
+            if (package := source.package) is not None:
+                source = _with_first_values(source, (free,) if isinstance(free, str) else free)
+                package.demand(source.entries)
             return source
         text, origin = scenefile.read_text(source)
         if model is None:
@@ -337,6 +345,18 @@ class Scene(System, NotebookTable):
             raise InputError("impact.angle", None, 'angle = "60 deg" in [impact], or --angle "60 deg"')
         assert self.speed is not None  # a relative speed has its normal component, now that there is an angle
         return self.speed, self.angle if self.angle >= LEAST_ANGLE else 0.0
+
+
+def _with_first_values(scene: Scene, free: Sequence[str]) -> Scene:
+    """The scene with values of those of its model's quantities that are looked for and have none."""
+    result, missing = scene, () if scene.package is None else scene.package.missing(scene.entries)
+    for name in (name for name in missing if name in free):
+        value = natural(scene, name.partition(".")[2])
+        for factor in _SMALLER:
+            with suppress(InputError):
+                result = result.with_si({name: value * factor})
+                break
+    return result
 
 
 @lru_cache(maxsize=32)

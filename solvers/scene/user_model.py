@@ -275,6 +275,10 @@ class Package:
         """Quantities of the model that are dimensionless groups as they are."""
         return tuple(item["name"] for item in self.manifest["quantities"] if item["group"] == item["name"])
 
+    def group(self, quantity: str) -> str:
+        """The name of a quantity's dimensionless group."""
+        return next(str(item["group"]) for item in self.manifest["quantities"] if item["name"] == quantity)
+
     @property
     def source(self) -> str:
         """Text of the model file that the package was emitted from."""

@@ -91,7 +91,7 @@ def solve(
         [0.0131]
     """
     name, value = _target(target)
-    rtol, loaded = check_rtol(rtol), Scene.load(scene)
+    rtol, loaded = check_rtol(rtol), Scene.load(scene, free=free)
     given = {"stokes": stokes, "speed": speed, "relative_speed": relative_speed, "angle": angle}
     for key, number in given.items():
         clashes = free == f"impact.{key}" or (free in SPEEDS and key != "angle")

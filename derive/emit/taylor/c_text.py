@@ -15,6 +15,7 @@ _FUNCTIONS = {
     sp.Abs: "vec_abs",
 }  # fmt: skip
 _EXTREMES = {sp.Max: "vec_larger", sp.Min: "vec_smaller"}
+_TINY = sp.Float("1e-300")
 _ADD, _MUL, _ATOM = range(3)
 
 
@@ -63,6 +64,10 @@ class Text:
             return f"{_FUNCTIONS[type(node)]}({self(node.args[0])})", _ATOM
         if isinstance(node, sp.tanh):
             return self._print(1 - 2 / (1 + sp.exp(2 * node.args[0])))
+        if isinstance(node, sp.sign):
+            return self._print(node.args[0] / sp.Max(sp.Abs(node.args[0]), _TINY))
+        if isinstance(node, sp.Heaviside):  # of the derivatives of Max and Min
+            return self._print((1 + sp.sign(node.args[0])) / 2)
         raise EmissionError(f"no lane-wise C for {type(node).__name__}: {node}")
 
     def _at_least(self, node: sp.Basic, strength: int) -> str:

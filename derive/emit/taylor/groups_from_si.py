@@ -11,7 +11,6 @@ from ...vocabulary import quantities as q
 from .c_text import Text
 from .layout import comment, documented
 
-_TINY = sp.Float("1e-300")
 _PER_DISTANCE = q.R / q.x0
 
 
@@ -96,14 +95,6 @@ def _power_slope(expression: sp.Expr, symbol: sp.Symbol, group: sp.Symbol) -> sp
     """Derivative of a group by `symbol`; in terms of the group if the symbol is a factor that is never zero."""
     if expression == symbol:
         return sp.Integer(1)
-    if isinstance(expression, sp.Max):  # a user's criterion among the gaps of contact
-        *others, last = expression.args
-        slope, largest = sp.diff(last, symbol), last
-        for other in others:
-            above = other - largest
-            side = (1 + above / sp.Max(sp.Abs(above), _TINY)) / 2
-            slope, largest = side * sp.diff(other, symbol) + (1 - side) * slope, sp.Max(largest, other)
-        return slope
     power = expression.as_powers_dict().get(symbol, 0)
     if symbol.is_positive and power != 0 and not (expression / symbol**power).has(symbol):
         return power * group / symbol

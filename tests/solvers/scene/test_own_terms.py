@@ -277,6 +277,30 @@ def test_a_stick_is_proved_with_a_potential_and_a_drag(tmp_path: Path):
 
 
 @pytest.mark.slow
+def test_what_a_drag_has_stopped_at_rest_sticks(tmp_path: Path):
+    """A drag ends the rotation beside a bridge with a kink: when no force changes any more, the doublet sticks."""
+    (tmp_path / "mine.py").write_text(
+        HEAD + 'drag = quantity("drag", unit="kg/s", default="2e-6 kg/s")\nforce_on("rotation", -drag*R**2*omega)\n'
+        'law("bridge", "mine", force=3*pi*R*sigma*exp(-Abs(x/x0 - Rational(7, 10))))\n'
+    )
+    found = collide(Scene.load("granulation", model=tmp_path / "mine.py"), stokes=0.036, angle="53 deg")
+    assert (found.outcome, found.certified) == ("stick", False)
+    assert abs(found.energy.residual) < 1e-9 * found.energy.largest
+
+
+@pytest.mark.slow
+def test_head_on_a_spring_of_the_rotation_is_never_strained(tmp_path: Path):
+    """Outcomes and restitution are those without it, and what comes to rest sticks: nothing moves any more."""
+    given = Scene.load("granulation").with_entries({"liquid.glass_transition_pressure": "2 GPa"})
+    path = tmp_path / "mine.py"
+    path.write_text(HEAD + SPRING)
+    for stokes, outcome in ((0.022, "stick"), (3.0, "bounce")):
+        plain, sprung = (collide(each, stokes=stokes, angle=0, rtol=1e-11) for each in (given, given.with_model(path)))
+        assert plain.outcome == sprung.outcome == outcome
+        assert sprung.restitution == pytest.approx(plain.restitution, rel=1e-9)
+
+
+@pytest.mark.slow
 @pytest.mark.parametrize("engine", ["taylor", "rosenbrock"])
 def test_chatter_takes_what_moves_alone(engine: str, tmp_path: Path):
     """A doublet with an added mass comes to rest at a height: its potential stays, and the ledger closes."""
@@ -303,6 +327,21 @@ def test_a_criterion_is_a_roughness_of_its_own_name(tmp_path: Path):
     assert mine["custom.soft"] == pytest.approx(theirs["particles.roughness"], rel=1e-9)
     assert mine["particles.roughness"] == 0.0
     assert collide(own.with_entries({"custom.soft": "0.1 um"}), rtol=1e-11).reversal == "rough"
+
+
+@pytest.mark.slow
+def test_a_criterion_with_a_maximum_is_differentiated_by_the_kernel(tmp_path: Path):
+    """On either side of a corner of its gap, as by Rosenbrock: a layer of at most half the film."""
+    body = 'soft = quantity("soft", unit="m", default="3 um")\ncriterion("layer", gap=Max(Min(soft, x0/2), x0/100))'
+    thin = scene(tmp_path, body, FREE.replace("stokes = 0.6", "stokes = 4"))
+    for given, layer_counts in ((thin, True), (thin.with_entries({"custom.soft": "5 um"}), False)):
+        wrt = ["custom.soft", "liquid.film_thickness"]
+        kernel, casadi = (
+            sensitivities(given, wrt=wrt, rtol=1e-11, engine=engine).gradient["restitution"]
+            for engine in ("taylor", "rosenbrock")
+        )
+        assert kernel == pytest.approx(casadi, rel=1e-7, abs=1e-9)
+        assert (kernel["custom.soft"] != 0.0) == layer_counts
 
 
 @pytest.mark.parametrize(

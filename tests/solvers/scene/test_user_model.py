@@ -132,6 +132,34 @@ def test_what_has_no_default_must_be_given(tmp_path: Path):
     assert found == pytest.approx([found[2]] * 3, rel=1e-12)
 
 
+def test_what_is_looked_for_needs_no_value(tmp_path: Path):
+    """`solve` and `fit` find a quantity that nothing gives: the library's surface tension, a layer from its gap."""
+    file = tmp_path / "layered.py"
+    file.write_text(
+        'from wetdoublet.derive.user import *\ntension = quantity("tension", unit="N/m")\n'
+        'layer = quantity("layer", unit="m", bounds=">= 0")\nlaw("bridge", "mine", force=2*pi*R*tension*cos(phi))\n'
+        'criterion("soft", gap=layer)\n'
+    )
+    scene = Scene.load("granulation", model=file)
+    library = Scene.load("granulation").with_entries({"bridge.law": "constant"})
+    sigma = library.bridge.surface_tension
+    impacts = {"speed": np.linspace(0.5, 3, 8), "angle": np.full(8, 0.9)}
+    seen = collide_many(library, **impacts)
+    expected = collide(library, stokes=0.1, angle="60 deg").restitution
+    bare = scene.with_entries({"custom.layer": "0 m"})
+    within = ("0.01 N/m", "0.1 N/m")
+    found = solve(bare, restitution=expected, free="custom.tension", within=within, stokes=0.1, angle="60 deg")
+    assert found == pytest.approx([sigma], rel=1e-7)
+    rows = {**impacts, "restitution": seen.restitution.values, "restitution_sd": np.full(8, 0.01)}
+    estimate = fit(bare, rows, "custom.tension").estimates["custom.tension"]
+    assert estimate.low < sigma < estimate.high < 2 * estimate.low
+    firm = scene.with_entries({"custom.tension": sigma, "liquid.glass_transition_pressure": "2 GPa"})
+    found = solve(firm, smallest_gap="3 um", free="custom.layer", within=("1 um", "5 um"), stokes=1.0, angle=0.9)
+    assert found == pytest.approx([3e-6], rel=1e-6)
+    with pytest.raises(InputError, match=r"custom.layer: missing"):
+        solve(scene, restitution=0.5, free="custom.tension", within=(0.01, 0.1), stokes=0.1, angle=0.9)
+
+
 def test_custom_needs_its_model(mine: Path, tmp_path: Path):
     """A scene file with [custom] is an error without the model, and says what to give."""
     file = tmp_path / "scene.toml"

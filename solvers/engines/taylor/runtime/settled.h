@@ -8,6 +8,26 @@
 #include "state.h"
 
 #if TURNS || OWN_EVENTS
+/* What a decaying state may still lose, relative to itself, to count as constant: rounding, also that of a larger state
+ * which it is exchanged with. */
+static const double SETTLED = 1e-14, LEAST_SIZE = 1e-3;
+
+static mask is_constant(const vec *a)
+{
+    mask constant = splat_mask(TRUTH);
+    for (int k = 1; k <= ORDER; k++)
+        constant &= a[k] == 0.0;
+    return constant;
+}
+
+/* Lanes in which a state decays and has less than that to go: A of A exp(-z t), by its first terms. What grows has the
+ * same sign in both. */
+static mask has_decayed(const vec *a)
+{
+    mask decays = ((a[1] < 0.0) & (a[2] > 0.0)) | ((a[1] > 0.0) & (a[2] < 0.0));
+    return decays & (a[1]*a[1] <= 2.0*SETTLED*vec_abs(a[2])*(vec_abs(a[0]) + LEAST_SIZE));
+}
+
 /* Ends as sticks those of these lanes, which do not move along the line of centres, that are pressed together at rest or
  * without a force. Returns whether there were any. The sticks are not certified: the force is taken without an error.
  */
@@ -48,9 +68,6 @@ static mask stopped_for_good(const lanes *l, const fixed *f)
 #if OWN_EVENTS
 /* In x0/v0, and rad: a doublet that has rested and turned for so long counts as a stick, without proof. */
 static const double LONGEST_REST = 1e12, FARTHEST_TURN = 6300.0;
-/* What a decaying state may still lose, relative to itself, to count as constant: rounding, also that of a larger state
- * which it is exchanged with. */
-static const double SETTLED = 1e-14, LEAST_SIZE = 1e-3;
 
 static mask has_rested_long(const lanes *l)
 {
@@ -73,22 +90,6 @@ static mask own_to_come(const constants *c, const lanes *l, int varies)
             come |= OWN[which].varies == BY_TIME ? comes & NOT(least[which] > 0.0) : comes;
         }
     return come;
-}
-
-static mask is_constant(const vec *a)
-{
-    mask constant = splat_mask(TRUTH);
-    for (int k = 1; k <= ORDER; k++)
-        constant &= a[k] == 0.0;
-    return constant;
-}
-
-/* Lanes in which a state decays and has less than that to go: A of A exp(-z t), by its first terms. What grows has the
- * same sign in both. */
-static mask has_decayed(const vec *a)
-{
-    mask decays = ((a[1] < 0.0) & (a[2] > 0.0)) | ((a[1] > 0.0) & (a[2] < 0.0));
-    return decays & (a[1]*a[1] <= 2.0*SETTLED*vec_abs(a[2])*(vec_abs(a[0]) + LEAST_SIZE));
 }
 
 /* Lanes that float: a film has stopped them where no other force acts along the line of centres. They do not turn again. */
@@ -131,16 +132,17 @@ static int stills_ended(queue *q, lanes *l, fixed *f, vec (*a)[TERMS])
     mask by_angle = own_to_come(&f->c, l, BY_ANGLE), by_time = own_to_come(&f->c, l, BY_TIME);
     still |= l->y[NORMAL_VELOCITY] == 0.0;
 #endif /* OWN_EVENTS */
-    for (int state = 0; state < MODEL_STATES; state++)
-        for (int k = 1; k <= ORDER; k++) {
+    for (int state = 0; state < MODEL_STATES; state++) {
+        mask constant = is_constant(a[state]);
+#if OWN_TERMS
+        constant |= has_decayed(a[state]); /* under a drag: exactly constant long after all forces are */
+#endif /* OWN_TERMS */
 #if OWN_EVENTS
-            if (state == ANGLE_CLOCK || state == TIME_CLOCK) { /* they change nothing but the guards of events to come */
-                still &= NOT(state == ANGLE_CLOCK ? by_angle : by_time) | (a[state][k] == 0.0);
-                continue;
-            }
+        if (state == ANGLE_CLOCK || state == TIME_CLOCK) /* they change nothing but the guards of events to come */
+            constant |= NOT(state == ANGLE_CLOCK ? by_angle : by_time);
 #endif /* OWN_EVENTS */
-            still &= a[state][k] == 0.0;
-        }
+        still &= constant;
+    }
     return ended_at_rest(q, l, f, still);
 }
 #endif

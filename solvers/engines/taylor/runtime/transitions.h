@@ -168,7 +168,7 @@ static void rebounds(queue *q, lanes *l, fixed *f, int lane, int kind)
 #endif
         note_mode(q, l, lane);
 #if OWN_TERMS
-        if (OWN_TERMS_ROTATE) /* the reaction may vanish where no shear acts */
+        if (TURNS && OWN_TERMS_ROTATE) /* the reaction may vanish where no shear acts */
             return;
 #endif /* OWN_TERMS */
 #if OWN_EVENTS
