@@ -106,7 +106,8 @@ def _terms_at(n: Problem, engine: str, rtol: float, until: float) -> np.ndarray:
         return of_replay(model, replay, p)
     account = followed(n, rtol, until, ledger=True).ledger
     assert account is not None  # requested
-    return of_kernel(account)[0]
+    terms: np.ndarray = of_kernel(account)[0]
+    return terms
 
 
 def beside_wall(pairs: Pairs, engine: str, rtol: float, threads: int, ledger: bool = False) -> Ends:
