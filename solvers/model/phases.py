@@ -205,3 +205,10 @@ def kinks_along(flow: Flow) -> Function:
     parts, guards = expressions(flow), vertcat(*flow.model.kinks.values())
     rates = jtimes(guards, parts.variables, parts.rates)
     return Function("kinks", [parts.variables, flow.model.parameters], [horzcat(guards, rates)])
+
+
+@own_cache(256)
+def rates_along(flow: Flow) -> Function:
+    """Rates of a flow's variables: (y, groups) -> a column."""
+    parts = expressions(flow)
+    return Function("rates", [parts.variables, flow.model.parameters], [parts.rates])

@@ -13,15 +13,16 @@ from functools import partial
 
 import numpy as np
 
-from ...generated.automaton import LAST_ANSWER, OUTCOMES
-from ..collision.by_kernel import sequence_of
-from ..engines.casadi.replay import Stopped, replayed
+from ...generated.automaton import LAST_ANSWER, OUTCOMES, STICK
+from ..collision.by_kernel import followed, sequence_of
+from ..engines.casadi.replay import Replay, Stopped, replayed
+from ..engines.casadi.sequence import EventSequence
 from ..engines.taylor.call import Impacts, run_kernel
 from ..engines.taylor.layout import OWN_LEDGER
 from ..engines.taylor.undecided import undecided
 from ..errors import WetDoubletError
-from ..model.dimensionless import nondimensionalise
-from ..model.model import load, select_model
+from ..model.dimensionless import Problem, nondimensionalise
+from ..model.model import Model, load, select_model
 from .ends import FAILED, OPEN, TERMS, TRANSVERSE, Ends, is_open, of_kernel, of_replay
 from .pairs import Pairs, dot, length
 
@@ -66,19 +67,11 @@ def _by_replay(impacts: Impacts, plugin: str, rtol: float, ledger: bool) -> Plan
     terms = np.full((size, len(TERMS)), np.nan)
     result = Planar(outcome, np.zeros(size, bool), reason, time, gap, opening, slide, roll, terms)
     for k in range(size):
-        scene = impacts.scene.with_entries({"impact.spin": float(impacts.others["impact_spin"][k])})
         try:
-            n = nondimensionalise(scene, float(impacts.speed[k]), float(impacts.angle[k]))
-            model = load(select_model(scene, True, full=ledger))
-            extras = model.names("energy_rates") if ledger else ()
-            try:
-                path, replay = replayed(partial(sequence_of, n), model.choice, extras, plugin, rtol)
-            except Stopped as stopped:
-                raise n.in_si(stopped.error(plugin, model)) from None
+            path, replay, model, p = _replayed(_problem(impacts, k), plugin, rtol, ledger)
         except WetDoubletError as error:
             result.reason[k] = str(error)
             continue
-        p = model.group_values(n.groups)
         outputs = model.values("outputs", replay.y, p)
         outcome[k], result.certified[k] = OUTCOMES.index(path.outcome), path.certified
         time[k], gap[k], opening[k] = replay.time, float(replay.y[0]), outputs["restitution"]
@@ -86,6 +79,35 @@ def _by_replay(impacts: Impacts, plugin: str, rtol: float, ledger: bool) -> Plan
         if ledger:
             terms[k] = of_replay(model, replay, p)
     return result
+
+
+def _problem(impacts: Impacts, k: int) -> Problem:
+    scene = impacts.scene.with_entries({"impact.spin": float(impacts.others["impact_spin"][k])})
+    return nondimensionalise(scene, float(impacts.speed[k]), float(impacts.angle[k]))
+
+
+def _replayed(
+    n: Problem, plugin: str, rtol: float, ledger: bool, until: float | None = None
+) -> tuple[EventSequence, Replay, Model, np.ndarray]:
+    """One planar collision by Rosenbrock or CVODES; `until` (s) as for `followed`."""
+    model = load(select_model(n.scene, True, full=ledger))
+    extras = model.names("energy_rates") if ledger else ()
+    try:
+        path, replay = replayed(partial(sequence_of, n, until=until), model.choice, extras, plugin, rtol)
+    except Stopped as stopped:
+        raise n.in_si(stopped.error(plugin, model)) from None
+    return path, replay, model, model.group_values(n.groups)
+
+
+def _terms_at(n: Problem, engine: str, rtol: float, until: float) -> np.ndarray:
+    """The terms of a stick's ledger at a time, s."""
+    if engine != "taylor":
+        _, replay, model, p = _replayed(n, engine, rtol, True, until)
+        return of_replay(model, replay, p)
+    account = followed(n, rtol, until, ledger=True).ledger
+    assert account is not None  # requested
+    terms: np.ndarray = of_kernel(account)[0]
+    return terms
 
 
 def beside_wall(pairs: Pairs, engine: str, rtol: float, threads: int, ledger: bool = False) -> Ends:
@@ -96,10 +118,12 @@ def beside_wall(pairs: Pairs, engine: str, rtol: float, threads: int, ledger: bo
     def collided(angle: float, spinning: float) -> Planar:
         spin = {"impact_spin": spinning * speed / radius}
         impacts = Impacts(pairs.scene, speed, np.full(pairs.size, angle), spin)
+        planar.append(impacts)
         if engine == "taylor":
             return _by_kernel(impacts, rtol, threads, ledger)
         return _by_replay(impacts, engine, rtol, ledger)
 
+    planar: list[Impacts] = []
     cases = ((_SLIDES, 0.0), (_SLIDES, 1.0), (0.0, 1.0), (_SLIDES, -1.0))[: 4 if ledger else 2]
     parts = [collided(*case) for case in cases]
     slides, both = parts[:2]
@@ -128,6 +152,13 @@ def beside_wall(pairs: Pairs, engine: str, rtol: float, threads: int, ledger: bo
     with np.errstate(all="ignore"):
         ends.slip[:] = np.where((first > 0) & (ends.outcome > 0), last / first, np.nan)
     if ledger:
+        for k in np.flatnonzero(ends.outcome == OUTCOMES.index(STICK)):  # each was decided at a time of its own
+            ends.time[k] = max(motion.time[k] for motion in parts) * thickness / speed[k]
+            for motion, impacts in zip(parts, planar, strict=True):
+                try:
+                    motion.energy[k] = _terms_at(_problem(impacts, int(k)), engine, rtol, float(ends.time[k]))
+                except WetDoubletError as error:
+                    ends.outcome[k], ends.certified[k], ends.reason[k] = FAILED, False, str(error)
         ends.energy[:] = _energies(pairs, sliding, rolling, [motion.energy for motion in parts])
         wrong = is_open(ends.energy, ends.outcome > 0, rtol)
         ends.outcome[wrong], ends.reason[wrong] = FAILED, OPEN

@@ -199,8 +199,9 @@ def angular_momentum(pairs: Pairs) -> np.ndarray:
 
 
 def of_kernel(ledgers: np.ndarray) -> np.ndarray:
-    """The terms of ledgers by the kernel, (collisions, terms)."""
-    return np.stack([ledgers[name] for name in map(OF_KERNEL.get, TERMS)], axis=-1)
+    """The terms of ledgers by the kernel, (collisions, terms); zero those of declared events and terms without any."""
+    names, none = ledgers.dtype.names or (), np.zeros(ledgers.size)
+    return np.stack([ledgers[name] if name in names else none for name in map(OF_KERNEL.get, TERMS)], axis=-1)
 
 
 def of_replay(model: Model, replay: Replay, p: np.ndarray) -> np.ndarray:

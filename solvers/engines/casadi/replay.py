@@ -15,7 +15,7 @@ from ....generated.automaton import KINDS, LOOSEST, EventKind, is_parted, is_too
 from ...errors import ComputationError
 from ...model.key import ModelKey
 from ...model.model import Model, load
-from ...model.phases import Flow, Phase, extra_units, kinks_along
+from ...model.phases import Flow, Phase, extra_units, kinks_along, rates_along
 from ...model.rebound import grip, reset
 from ..settings import KERNEL_STEPS, casadi_steps
 from .integrators import IntegrationFailed, Tolerance, landing, plain, tolerance_for
@@ -35,6 +35,7 @@ _REST = 10.0  # factor in the height of a rebound within which two engines may d
 TIGHTEST = 1e-13  # relative tolerance at which a phase is tried last
 PHASES = 10_000  # most phases of a collision, of a record a few seconds
 _LONGEST = 10  # times Rosenbrock's steps of one phase: most of a replay, at all of its tolerances
+_SETTLES, _DECAYED = 1e6, 1e-12  # of a rest: after this time, x0/v0, rates have gone to this part, or are steady
 _PANELS, _BARRIER = 256, 1e-4  # of the work up to a barrier, and its error
 
 
@@ -309,7 +310,21 @@ class _Solution:
         return states[:, -1], states
 
     def states(self, duration: float, parts: np.ndarray) -> np.ndarray:
-        """States at parts of a duration, as columns."""
+        """States at parts of a duration, as columns; a rest that is long is only integrated until it has settled."""
+        if not (self.phase.resting and duration > _SETTLES):
+            return self._integrated(duration, parts)
+        near = parts[parts * duration < _SETTLES] * duration / _SETTLES
+        moving = self._integrated(_SETTLES, np.append(near, 1.0))
+        last, settled = moving[:, -1], rates_along(self.flow)
+        first, rates = (settled(y, self.run.p).full().ravel() for y in (self.run.at.y, last))
+        rates[abs(rates) <= _DECAYED * abs(first)] = 0.0
+        later = settled(last + rates * duration, self.run.p).full().ravel()
+        if (abs(later - rates) > _DECAYED * np.maximum(abs(first), abs(rates))).any():
+            return self._integrated(duration, parts)
+        goes_on = parts[near.size :] * duration - _SETTLES
+        return np.column_stack([moving[:, :-1], last[:, None] + rates[:, None] * goes_on])
+
+    def _integrated(self, duration: float, parts: np.ndarray) -> np.ndarray:
         at = self.run.at
         if at.steps > self.run.most:
             raise Stopped(f"has not replayed the record in {at.steps} steps", self.phase, at.time, at.y)

@@ -104,6 +104,25 @@ def test_cut_offs_come_when_the_rotation_or_the_time_is_there(
         assert found.events[-1].time == pytest.approx(time, rel=1e-7)
 
 
+LATE = """
+kicked = quantity("kicked", unit="s", default="1e8 s")
+given = quantity("given", unit="m/s", default="0 m/s", bounds=">= 0")
+event("kick", guard=kicked - t, jump={u: u + given}, releases=m*given**2)
+"""
+
+
+@pytest.mark.parametrize("engine", ["rosenbrock", "cvodes"])
+def test_a_rest_of_years_is_replayed(engine: str, tmp_path: Path):
+    """When nothing slips any more an engine need not integrate: three years later the energy is the closed form's."""
+    own = scene(written(tmp_path, LATE))
+    found, bodies = collide(own, **IMPACT, engine=engine, ledger=True), bodies_of(own)
+    assert (found.engine, found.events[-1].kind, found.steps < 1000) == (engine, "kick", True)
+    assert found.events[-1].time == pytest.approx(1e8, rel=1e-12)
+    rotation, r = Rotation(own, found.speed), 4 * bodies.a + bodies.film_thickness
+    energy = bodies.m * (r * rotation.rate(1e8)) ** 2 / 2 + 16 / 5 * bodies.m * bodies.a**2 * rotation.spin(1e8) ** 2
+    assert found.energy.final == pytest.approx(energy, rel=1e-8)
+
+
 def test_a_torque_turns_back(models: dict[str, Path]):
     """An angle is never reached where the torque turns the doublet back before."""
     own = scene(models["torque"], twist=-1e-10, last=0.02)

@@ -203,3 +203,16 @@ def test_it_closes_for_vectors():
     for name in LOST:
         assert book[name] == pytest.approx(other[name], rel=1e-7), name
     balanced(WALL, 5 * VELOCITIES, 5 * SPINS[:1], "rosenbrock")  # twist is not lost
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("engine", ["taylor", "cvodes"])
+def test_it_closes_for_a_stick_beside_a_wall(engine):
+    """Of its planar collisions each is decided at another time: their ledgers run to one time."""
+    speed = WALL.speed_of(0.02)
+    moving, spins = np.array([[[0.3 * speed, 0.2 * speed, speed], [0, 0, 0]]]), np.array([[[100.0, -200.0, 50.0]]])
+    found = collide_pair(WALL, [0, 0, 1], moving[0], spins[0], ledger=True, engine=engine)
+    assert int(found.outcome) == 0
+    before = kinetic(WALL, moving, spins)
+    assert float(found["energy.initial"]) == pytest.approx(before[0], rel=1e-12)
+    assert abs(float(found["energy.residual"])) < 1e-8 * before[0]

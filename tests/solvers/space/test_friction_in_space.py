@@ -90,3 +90,56 @@ def test_the_direction_of_sliding_turns_at_rest():
         np.testing.assert_allclose(ends.normal[0], found.normal, rtol=0, atol=1e-7)
         np.testing.assert_allclose(ends.spins[0], found.spins, rtol=0, atol=1e-8 * SPIN)
     assert ends.energy[0, TERMS.index("dry_friction")] == pytest.approx(float(found["energy.dry_friction"]), rel=1e-8)
+
+
+CLOCK = '''"""A kick, and a cut-off, at a time."""
+from wetdoublet.derive.user import *
+
+kicked = quantity("kicked", unit="s", default="1e9 s", meaning="time of the kick")
+last = quantity("last", unit="s", default="1e9 s", meaning="time at which it ends")
+event("kick", guard=kicked - t, jump={u: u + 10*v0}, releases=100*m*v0**2)
+event("late", guard=last - t, ends="stick")
+'''
+COMES_TO_REST = RESTS | {"particles.dry_restitution": 0.0}
+
+
+def clocked(folder, **entries):
+    """A rough scene that comes to rest, with a model of these times."""
+    (folder / "clock.py").write_text(CLOCK)
+    own = {"particles.friction": 0.3, **WET, **COMES_TO_REST, **entries}
+    return Scene.load("granulation", model=folder / "clock.py").with_entries(own)
+
+
+def test_rolling_surfaces_wait_for_a_kick_as_in_the_plane(tmp_path):
+    """In a plane but for a tilt of 1e-9: a doublet that has crept at rest is set free as one that has rolled."""
+    scene = clocked(tmp_path, **{"custom.kicked": 0.01, "impact.spin": SPIN / 40})
+    planar, speed = collide(scene, stokes=5.0, angle=0.3, rtol=1e-10), scene.speed_of(5.0)
+    assert [event.kind for event in planar.events][-4:-1] == ["rolls", "kick", "film edge"]
+    sideways = speed * math.tan(0.3) * (1 + scene.liquid.film_thickness / (4 * scene.reduced_radius))
+    spin = (1e-9 * SPIN, SPIN / 40, 0.0)
+    arrival = Arrival((0.0, 0.0, 1.0), ((0.0, 0.0, speed), (sideways, 0.0, 0.0)), (spin, spin))
+    for ends in by_kernel_alone(scene, arrival):
+        assert ends.time[0] == pytest.approx(planar.contact_time, rel=1e-9)
+        assert ends.opening[0] == pytest.approx(planar.restitution * speed, rel=1e-8)
+        assert ends.spins[0, :, 1] == pytest.approx(planar.final_spin, rel=1e-7)
+
+
+@pytest.mark.parametrize("last", [0.01, 1.0])
+def test_a_doublet_with_twist_is_followed_at_rest_to_a_time(last, tmp_path):
+    """It tumbles: the angular momentum keeps its three components, and within a second all slip is gone."""
+    scene = clocked(tmp_path, **{"custom.last": last})
+    bodies, speed = bodies_of(scene), scene.speed_of(5.0)
+    spins = ((400.0, 400.0, 300.0), (280.0, 240.0, -200.0))
+    arrival = Arrival((0.0, 0.0, 1.0), ((0.0, 0.0, speed), (0.0, 0.0, 0.0)), spins)
+    for ends in by_kernel_alone(scene, arrival):
+        assert (OUTCOMES[int(ends.outcome[0])], ends.time[0]) == ("stick", pytest.approx(last, rel=1e-9))
+        normal, turning, own = ends.normal[0], ends.turning[0], ends.spins[0]
+        apart = sum(bodies.radii) + ends.gap[0]
+        momentum = bodies.m * apart**2 * turning + np.array(bodies.inertias) @ own
+        first = np.array(bodies.inertias) @ np.array(spins)
+        np.testing.assert_allclose(momentum, first, rtol=0, atol=1e-8 * np.linalg.norm(first))
+        assert np.linalg.norm(normal) == pytest.approx(1.0, abs=1e-8)
+        slips = (turning - own) @ (np.eye(3) - np.outer(normal, normal))  # across the line of centres
+        rolls = np.linalg.norm(slips, axis=1) / np.linalg.norm(own[0])
+        assert (rolls.max() < 1e-6) == (last >= 1.0)
+        assert np.linalg.norm(slips.sum(axis=0)) < 1e-7 * np.linalg.norm(own[0])  # the surfaces do not slide

@@ -25,8 +25,9 @@
 
 enum { PATIENCE = SPACE ? 25 : 100, PENALTY = SPACE ? 75 : 1000, COLUMNS = SPACE ? 8 : 7, TRIES = 4000 };
 static const double WORTH = SPACE ? 10.0 : 25.0; /* least number of Taylor steps replaced by one, which costs 5 to 10 */
-static const double LITTLE = 1e-5;     /* relative difference of a state for derivatives */
 static const double FLOOR = SPACE ? 1e-12 : 5e-14; /* relative rounding error of a state, amplified by extrapolation */
+static const double TICK = 2.3e-16;     /* relative: the next time that differs */
+static const double EXCITED = 0.1;    /* the same of friction in space: Taylor steps keep its slip off the creep, which a few damp */
 static const double LEAST_TERM = 0.1; /* a smaller angle or loss counts as this: its rate is rounded like those of the large ones */
 static const double LEAST = 1e-300;    /* error allowed where a state is zero and stays so */
 static const double ESTIMATED = SPACE ? 20.0 : 1.0; /* times the tolerance: what the last column but one may err by */
@@ -41,7 +42,7 @@ enum { COST = SPACE ? 8 : 6 }; /* of a step, from the budget: about as long as s
 
 typedef struct {
     vec rates[STATES][MODEL_STATES]; /* derivatives of the states' rates */
-    series s;                        /* only order zero is used */
+    series s;                        /* only orders zero and one are used */
     const constants *c;
     vec film, shear;
     mask moving;
@@ -52,8 +53,98 @@ typedef struct {
 #if SPACE
     axes turning;
     double rtol;
+#if FRICTION
+    vec ratio[STATES];     /* of what friction does to a vector, and to the last one */
+    vec line[3], force[3]; /* where the step begins: the line of centres, and the friction on the last vector */
+    mask chief[3];         /* the largest component of the line */
+#endif
 #endif
 } slow;
+
+#if SPACE
+static void turn_rates(const slow *w, const vec *y, vec *rate)
+{
+    for (int first = FIRST_VECTOR; first < END_OF_VECTORS; first += 3)
+        for (int k = 0; k < 3; k++) rate[first + k] -= swept(&w->turning, y + first, 1, k);
+}
+#endif
+
+#if SPACE && FRICTION
+/* Friction at rest is stiff by 1/CREEP in space, which would be rounded where it cancels: in the sums of momenta that it
+ * leaves as they are, and along the line of centres. So these sums, and what is along the line, have rows of their own, in
+ * place of those of all vectors but the last, and of the last one's chief component. It stands in two rows alone.
+ */
+enum { LAST_VECTOR = END_OF_VECTORS - 3 };
+#define IN_SUM(state) ((state) >= FIRST_VECTOR + 3 && (state) < LAST_VECTOR)
+#define LAST_OF(state) (LAST_VECTOR + ((state) - FIRST_VECTOR)%3)
+#define IN_LAST(state) ((state) >= LAST_VECTOR && (state) < END_OF_VECTORS)
+
+static void begin_rows(slow *w, const vec *y)
+{
+    vec change[STATES], square = splat(0.0), largest = square;
+    rubbed(w->c, y, splat(1.0), change);
+    for (int state = FIRST_VECTOR + 3; state < END_OF_VECTORS; state++)
+        change[state] -= y[state];
+    for (int k = 0; k < 3; k++) {
+        square += change[LAST_VECTOR + k]*change[LAST_VECTOR + k];
+        w->line[k] = y[FIRST_VECTOR + k];
+        largest = vec_larger(largest, vec_abs(w->line[k]));
+    }
+    mask free = w->l->resting;
+    for (int k = 0; k < 3; k++) {
+        w->chief[k] = free & (vec_abs(w->line[k]) == largest);
+        free &= NOT(w->chief[k]);
+    }
+    for (int state = FIRST_VECTOR + 3; state < LAST_VECTOR; state += 3) {
+        vec along = splat(0.0);
+        for (int k = 0; k < 3; k++)
+            along += change[state + k]*change[LAST_VECTOR + k];
+        for (int k = 0; k < 3; k++)
+            w->ratio[state + k] = only(w->l->resting, along/square);
+    }
+}
+
+/* The rows of rates, or of their derivatives, without friction, to which it adds `force` along the line, else `push`. */
+static void share_friction(const slow *w, const vec *push, vec force, vec *rate)
+{
+    for (int k = 0; k < 3; k++)
+        force += w->line[k]*rate[LAST_VECTOR + k];
+    for (int state = 0; state < STATES; state++)
+        if (IN_SUM(state))
+            rate[state] -= w->ratio[state]*rate[LAST_OF(state)];
+        else
+            rate[state] += push[state];
+    for (int k = 0; k < 3; k++)
+        rate[LAST_VECTOR + k] = choose(w->chief[k], force, rate[LAST_VECTOR + k]);
+}
+#endif
+
+#if FRICTION
+/* Adds friction at rest to rates: the difference of those with it and without. */
+static void add_friction(slow *w, const vec *y, vec *rate)
+{
+    vec with[STATES];
+    memcpy(with, rate, sizeof with);
+    rubbing_rates(&w->r, w->c, w->l, y, with);
+#if SPACE
+    const vec (*a)[TERMS] = (const vec (*)[TERMS])&w->s, *n = y + FIRST_VECTOR;
+    vec along = splat(0.0), square = along, force = along;
+    for (int state = 0; state < STATES; state++)
+        with[state] = only(w->l->resting, with[state] - a[state][1]);
+    for (int k = 0; k < 3; k++) {
+        along += n[k]*with[LAST_VECTOR + k];
+        square += n[k]*n[k];
+    }
+    for (int k = 0; k < 3; k++) {
+        w->force[k] = with[LAST_VECTOR + k] -= along/square*n[k]; /* rounding leaves something along the line */
+        force += (w->line[k] - n[k])*w->force[k];
+    }
+    share_friction(w, with, force, rate);
+#else
+    memcpy(rate, with, sizeof with);
+#endif
+}
+#endif
 
 OUTLINE void rates_at(slow *w, const vec *y, vec *rate)
 {
@@ -63,13 +154,12 @@ OUTLINE void rates_at(slow *w, const vec *y, vec *rate)
     coefficients(&w->s, w->c, w->film, w->shear, w->moving, 0);
     for (int state = 0; state < STATES; state++)
         rate[state] = a[state][1];
+#if SPACE
+    turn_rates(w, y, rate);
+#endif
 #if FRICTION
     if (bits(w->l->resting))
-        rubbing_rates(&w->r, w->c, w->l, y, rate);
-#endif
-#if SPACE
-    for (int first = FIRST_VECTOR; first < END_OF_VECTORS; first += 3)
-        for (int k = 0; k < 3; k++) rate[first + k] -= swept(&w->turning, y + first, 1, k);
+        add_friction(w, y, rate);
 #endif
 }
 
@@ -87,22 +177,55 @@ static const series *along_rates(series *s, const vec *y, const vec *rate)
 }
 #endif /* OWN_EVENTS */
 
-/* Central differences: extrapolation does not remove an error of the Jacobian from the stiff part. */
-static void find_rates(slow *w, const vec *y)
+/* Derivatives of the rates: the second coefficients of series that begin along each state. Differences would not do, as
+ * extrapolation does not remove an error from the stiff part, and friction changes within CREEP. `rates_at` comes before.
+ */
+static void find_rates(slow *w)
 {
-    vec there[STATES], above[STATES], below[STATES];
-    memcpy(there, y, sizeof there);
+    vec (*a)[TERMS] = (vec (*)[TERMS])&w->s, along[STATES], change[STATES];
     for (int by = 0; by < MODEL_STATES; by++) {
-        vec high = y[by] + LITTLE*(vec_abs(y[by]) + LITTLE), low = y[by] + y[by] - high;
-        there[by] = high;
-        rates_at(w, there, above);
-        there[by] = low;
-        rates_at(w, there, below);
-        vec over = 1.0/(high - low);
         for (int state = 0; state < STATES; state++)
-            w->rates[state][by] = (above[state] - below[state])*over;
-        there[by] = y[by];
+            a[state][1] = along[state] = splat(state == by);
+        coefficients(&w->s, w->c, w->film, w->shear, w->moving, 1);
+        for (int state = 0; state < STATES; state++)
+            change[state] = 2.0*a[state][2];
+#if SPACE
+        turn_rates(w, along, change);
+#endif
+#if FRICTION
+        if (bits(w->l->resting)) {
+            vec (*own)[TERMS] = (vec (*)[TERMS])&w->r;
+            for (int state = 0; state < STATES; state++)
+                own[state][1] = along[state];
+            rubbing_coefficients(&w->r, w->c, w->film, w->shear, w->l->sliding, w->l->rolling, 1);
+            rubbing_next(&w->r, w->c, w->film, w->shear, w->l->sliding, w->l->rolling, 1);
+#if SPACE
+            for (int state = 0; state < STATES; state++)
+                along[state] = only(w->l->resting, 2.0*(own[state][2] - a[state][2]));
+            share_friction(w, along, by < FIRST_VECTOR + 3 && by >= FIRST_VECTOR ? -w->force[by - FIRST_VECTOR] : splat(0.0), change);
+#else
+            for (int state = 0; state < STATES; state++)
+                change[state] = choose(w->l->resting, 2.0*own[state][2], change[state]);
+#endif
+        }
+#endif
+        for (int state = 0; state < STATES; state++)
+            w->rates[state][by] = change[state];
     }
+}
+
+/* The unit matrix, in those rows. */
+static inline vec unit(const slow *w, int i, int j)
+{
+    vec one = splat(i == j);
+    (void)w;
+#if SPACE && FRICTION
+    if (IN_SUM(i) && j == LAST_OF(i))
+        return -w->ratio[i];
+    if (IN_LAST(i) && IN_LAST(j))
+        return choose(w->chief[i - LAST_VECTOR], w->line[j - LAST_VECTOR], one);
+#endif
+    return one;
 }
 
 /* LU factors of I - h J without pivoting: where that fails, a lane becomes NaN and its step is rejected. */
@@ -115,7 +238,7 @@ static void eliminate(const slow *w, vec h, eliminated *e)
     for (int i = 0; i < MODEL_STATES; i++)
         UNROLL
         for (int j = 0; j < MODEL_STATES; j++)
-            e->left[i][j] = (i == j ? 1.0 : 0.0) - h*w->rates[i][j];
+            e->left[i][j] = unit(w, i, j) - h*w->rates[i][j];
     UNROLL
     for (int k = 0; k < MODEL_STATES; k++) {
         e->over[k] = 1.0/e->left[k][k];
@@ -251,7 +374,9 @@ static void arrive(lanes *l, const fixed *f, const vec *rate, vec least_step, ma
     l->y[ANGLE_STATE] += time*rate[ANGLE_STATE];
 #endif
 #if defined(TIME_STATE)
-    l->y[TIME_STATE] += time;
+    vec idle = only(leaves & (l->time + l->stride == l->time), l->time*TICK); /* a time rounds steps of the series away, too */
+    l->time += idle;
+    l->y[TIME_STATE] += time + idle;
 #endif
     l->y[GAP] += time*rate[GAP];
     for (int state = MODEL_STATES; state < STATES; state++)
@@ -284,6 +409,9 @@ OUTLINE void crawl(queue *q)
     w.rtol = q->rtol;
 #endif
     vec least_step = WORTH*l.stride, h = 4.0*least_step, parked = l.time;
+#if SPACE && FRICTION
+    least_step = choose(l.resting, EXCITED*l.stride, least_step);
+#endif
     for (int count = 0; count < TRIES && bits(busy); count++) {
         mask sticks = proved_underway(&l, &f, q->rtol) | held_sticks(&f.c, l.y, busy, q->rtol);
 #if WITH_LIMIT
@@ -311,13 +439,16 @@ OUTLINE void crawl(queue *q)
         mask clear;
 #if SPACE
         begin_turning(&w.turning, &f.c, l.y, busy);
+#if FRICTION
+        begin_rows(&w, l.y);
+#endif
         h = vec_min(h, MOST_TURNED/w.turning.rate);
 #endif
         rates_at(&w, l.y, rate);
 #if OWN_EVENTS
         h = guards_resolved(along_rates(&w.s, l.y, rate), &l, &f, h);
 #endif /* OWN_EVENTS */
-        find_rates(&w, l.y);
+        find_rates(&w);
         vec error = extrapolated(&w, &l, &f, rate, h, change, &clear);
         mask taken = busy & clear & (error <= 1.0);
         for (int state = 0; state < STATES; state++)
@@ -330,7 +461,7 @@ OUTLINE void crawl(queue *q)
         l.steps += splat_mask(COST);
         vec better = 0.8*vec_exp(vec_log(vec_max(error, splat(1e-8)))*(-1.0/(int)COLUMNS));
         h *= choose(clear & (error == error), vec_min(better, splat(4.0)), splat(0.25));
-        mask leaves = busy & (NOT(h > least_step) | (l.steps > splat_mask(q->budget)));
+        mask leaves = busy & (NOT(h > least_step) | (l.time + h == l.time) | (l.steps > splat_mask(q->budget)));
 #if OWN_EVENTS
         leaves |= busy & has_rested_long(&l);
 #endif /* OWN_EVENTS */
