@@ -33,15 +33,12 @@ def changes_on(
     at = length[:, None] * np.linspace(0, 1, _PARTS + 1)
     way = (high - low) / length[:, None]
 
-    def whole(k: int, where: np.ndarray, seen: np.ndarray) -> list[Interval]:
-        """All changes; at the ends the labels are those given, whatever the rounding of the place."""
-        seen[0] = ends[k][0] if where[0] == 0 else seen[0]
-        seen[-1] = ends[k][1] if where[-1] == length[k] else seen[-1]
+    def whole(_: int, where: np.ndarray, seen: np.ndarray) -> list[Interval]:
         return _changes(where, seen)
 
     return [
         [((low[k] + 0.5 * (start + other) * way[k]).tolist(), *pair) for start, other, *pair in intervals]
-        for k, intervals in enumerate(_narrowed(labels, low, way, at, whole))
+        for k, intervals in enumerate(_narrowed(labels, low, way, at, np.array(ends), whole))
     ]
 
 
@@ -69,8 +66,10 @@ def crossings(
         wanted = [span for span in changes if span[2:] == pairs[k]]
         return (wanted or [span for span in changes if span[2] == pairs[k][0] or span[3] == pairs[k][1]])[:1]
 
+    ends = centre[:, None, :] + at[:, [0, -1], None] * along[:, None, :]
+    labels_at_ends = labels(np.clip(ends.reshape(-1, 2), 0.0, 1.0)).reshape(-1, 2)
     result = np.full(centre.shape, np.nan)
-    for k, intervals in enumerate(_narrowed(labels, centre, along, at, nearest)):
+    for k, intervals in enumerate(_narrowed(labels, centre, along, at, labels_at_ends, nearest)):
         for start, other, *pair in intervals:
             if tuple(pair) == pairs[k]:
                 result[k] = centre[k] + 0.5 * (start + other) * along[k]
@@ -82,12 +81,15 @@ def _narrowed(
     start: np.ndarray,
     way: np.ndarray,
     at: np.ndarray,
+    ends: np.ndarray,
     chosen: Callable[[int, np.ndarray, np.ndarray], list[Interval]],
 ) -> list[list[Interval]]:
     """Intervals of each segment `start` + distance * `way` that locate changes, ascending.
 
     Arguments:
         at: distances of the first points, n x m, ascending.
+        ends: labels of the first and last of these, n x 2. Labels of ends are never computed again: a collision that
+            takes about all steps may be decided in one batch and not in another.
         chosen: the intervals to go on with, of a segment's index, distances and their labels.
     """
     result: list[list[Interval]] = [[] for _ in start]
@@ -95,8 +97,9 @@ def _narrowed(
     for turn in range(_ROUNDS):
         if not owner.size:
             break
-        points = start[owner, None, :] + at[:, :, None] * way[owner, None, :]
-        seen = labels(np.clip(points.reshape(-1, 2), 0.0, 1.0)).reshape(at.shape)
+        points = start[owner, None, :] + at[:, 1:-1, None] * way[owner, None, :]
+        inner = labels(np.clip(points.reshape(-1, 2), 0.0, 1.0)).reshape(len(at), -1)
+        seen = np.column_stack([ends[:, 0], inner, ends[:, 1]])
         owners, open_ = [], []
         for k, where, row in zip(owner.tolist(), at, seen, strict=True):
             for interval in chosen(k, where, row):
@@ -109,6 +112,7 @@ def _narrowed(
                     open_.append(interval)
         owner, parts = np.array(owners, dtype=int), _PARTS + turn % 2  # others where all of a round are unknown
         at = np.array([np.linspace(low, other, parts + 1) for low, other, *_ in open_]).reshape(len(open_), parts + 1)
+        ends = np.array([labels_at for _, _, *labels_at in open_], dtype=int).reshape(len(open_), 2)
     for k, (low, other, before, after) in zip(owner.tolist(), open_, strict=True):
         result[k] += [(low, low, before, -1), (other, other, -1, after)]
     return [sorted(intervals) for intervals in result]

@@ -83,6 +83,21 @@ def test_a_closed_curve_is_cut_at_its_folds(labels: Labels) -> None:
         assert np.hypot(*(middle - 0.5).T) == pytest.approx(RADIUS, abs=4e-5)
 
 
+def test_a_collision_decided_once_is_not_asked_again() -> None:
+    """One that takes all steps may be decided in one batch and not in another; the curve is closed all the same."""
+    decided: set[tuple[float, float]] = set()
+
+    def once(points: np.ndarray) -> np.ndarray:
+        places = [*map(tuple, points.tolist())]
+        labels = np.where([place in decided for place in places], -1, circle(points))
+        decided.update(places)
+        return labels
+
+    (arc,), meetings = cells(once).curves()
+    assert not meetings
+    assert np.hypot(*(arc.points - 0.5).T) == pytest.approx(RADIUS, abs=1e-8)
+
+
 def test_a_folded_curve() -> None:
     """The folds of a cubic, at x 0.8 and 0.2, to 1e-9 in x and 1e-6 in y; it ends exactly on the edges."""
     (arc,), _ = cells(cubic).curves()
