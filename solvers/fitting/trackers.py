@@ -10,6 +10,7 @@ import math
 import re
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, replace
+from itertools import chain
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 from xml.etree import ElementTree as ET
@@ -19,6 +20,7 @@ from scipy.spatial import KDTree
 
 from ..errors import InputError, several
 from ..scene.columns import Column, columns_from_text, columns_of, text_of, without_index
+from ..scene.units import COMMON
 from .straight import LEAST
 
 if TYPE_CHECKING:
@@ -54,6 +56,7 @@ _KINDS = {  # columns by which a table is known, of several kinds the first
 _TRACKER, _XML = "an export of Tracker", "TrackMate's XML"
 _UNITS = {"sec": "s", "seconds": "s", "msec": "ms", "micron": "um", "microns": "um"}  # as Fiji writes them
 _BODY = re.compile(r"([xy])_?(\d+)|(\w*?)_?([xy])")  # x1, x_1, pt1_cam1_x, mass_a_x
+_UNIT_BEHIND = re.compile(r"((?:(\w*?[xyz](?:_?\d+)?)|time|t))_([A-Za-z]+)", re.IGNORECASE)  # x1_mm, pos_x_px, time_ms
 _NEAR = (0.7, 1.2)  # closest approach of two that meet, over the distance of touching solids
 _OFF = 1.3  # of times that are rounded, from a rate that is given beside them
 _AVI, _MATROSKA = 600.0, 1e-3  # 1/s of an AVI header for every faster film; s, the clock of Matroska
@@ -89,6 +92,7 @@ def read_film(source: Any, particles: Any, solids: float, lengths: Units) -> Fil
         InputError: a table of no such kind; particles that are not there, or several pairs that meet.
     """
     kind, columns, lines = _table(source)
+    columns = [_with_unit(column) for column in columns]
     header = ", ".join(column.name for column in columns)
     words = [re.sub(r"\W+", "_", column.name.strip().lower()).strip("_") for column in columns]
     if "axis_3" in words:  # of napari: t, z, y, x
@@ -120,9 +124,14 @@ def read_film(source: Any, particles: Any, solids: float, lengths: Units) -> Fil
         table, every = _linked(table), ["1", "2"]
     pair, of_films = _chosen(every, particles), ""
     if pair is None:
-        table = table if long else _as_long(by_name | by_word, bodies, None, lines)
-        distance = solids / lengths(by_name["x"] if long else by_word[bodies[every[0]][0]])
-        table, pair, of_films = _meeting(table, distance)
+        if not long:
+            long, (by_name, lines) = True, _side_by_side(by_name, by_word, bodies, lines)
+            table = _as_long(by_name, {"": ("x", "y")}, by_name["particle"].cells, lines)
+        table, pair, of_films = _meeting(table, solids / lengths(by_name["x"]))
+        if "of_pair" in table:
+            films_of = by_name["impact"].cells if "impact" in by_name else [""] * len(lines)
+            names = [f"{film} {of_pair}".strip() for film, of_pair in zip(films_of, table.of_pair)]
+            by_name["impact"] = Column("impact", None, names)
     shared: dict[str, Column] = {name: by_name[name] for name in ("frame", "time", "impact") if name in by_name}
     if long:
         first, second = (table[table.particle.isin(labels)] for labels in pair)
@@ -137,8 +146,7 @@ def read_film(source: Any, particles: Any, solids: float, lengths: Units) -> Fil
         depth = [by_name["z"].cells[k] for body in (first, second) for k in body.row] if "z" in by_name else []
     else:
         four = [word for body in pair for word in bodies[body[0]]]
-        deep = [re.sub(r"^x(?=_?\d+$)|x$", "z", word) for word in four[::2]]
-        depth = [cell for word in deep if word in by_word for cell in by_word[word].cells]
+        depth = [cell for word in map(_depth, four[::2]) if word in by_word for cell in by_word[word].cells]
         shared |= {place: replace(by_word[word], name=place) for place, word in zip(PLACES, four)}
     if len({z for z in map(_number, depth) if z == z}) > 1:
         raise InputError("tracks, header", header, "x and y in the plane of the collision", "has a z that changes")
@@ -284,6 +292,17 @@ def _below_names(by_name: dict[str, Column], lines: list[int]) -> tuple[dict[str
     return by_name, lines[names:]
 
 
+def _with_unit(column: Column) -> Column:
+    """A column whose unit stands behind its name without brackets, as x1_mm or time_ms."""
+    match = _UNIT_BEHIND.fullmatch(column.name.strip()) if column.unit is None else None
+    if match is None:
+        return column
+    unit = _UNITS.get(match[3].lower(), match[3])
+    pixels = unit.lower() in ("px", "pixel", "pixels")
+    fits = pixels if match[2] and pixels else COMMON.get(unit, ("",))[0] == ("m" if match[2] else "s")
+    return replace(column, name=match[1], unit=None if pixels else unit) if fits else column
+
+
 def _bodies(words: Iterable[str]) -> dict[str, tuple[str, str]]:
     """Names of the bodies of a wide table, and those of their columns x and y."""
     places: dict[str, dict[str, str]] = {}
@@ -291,6 +310,33 @@ def _bodies(words: Iterable[str]) -> dict[str, tuple[str, str]]:
         if match := _BODY.fullmatch(word):
             places.setdefault(match[2] or match[3] or "", {}).setdefault(match[1] or match[4], word)
     return {body: (both["x"], both["y"]) for body, both in places.items() if len(both) == 2}
+
+
+def _side_by_side(
+    by_name: Mapping[str, Column],
+    by_word: Mapping[str, Column],
+    bodies: Mapping[str, tuple[str, str]],
+    lines: list[int],
+) -> tuple[dict[str, Column], list[int]]:
+    """The columns of a wide table as those of a long one, a body below the other, and the line of each row."""
+    shared = (name for name in ("frame", "time", "impact") if name in by_name)
+    columns = {name: replace(by_name[name], cells=by_name[name].cells * len(bodies)) for name in shared}
+    places = {"x": [x for x, _ in bodies.values()], "y": [y for _, y in bodies.values()]}
+    if (deep := [_depth(x) for x in places["x"]]) and by_word.keys() >= set(deep):
+        places["z"] = deep
+    for axis, words in places.items():
+        below = [by_word[word] for word in words]
+        if len({column.unit for column in below}) > 1:
+            names = ", ".join(column.name for column in below)
+            raise InputError("tracks, header", names, "one unit for all bodies", "differ in their units")
+        columns[axis] = replace(below[0], name=axis, cells=[*chain(*(column.cells for column in below))])
+    columns["particle"] = Column("particle", None, [body for body in bodies for _ in lines])
+    return columns, lines * len(bodies)
+
+
+def _depth(word: str) -> str:
+    """The name of the column z beside a column x of a body."""
+    return re.sub(r"^x(?=_?\d+$)|x$", "z", word)
 
 
 def _as_long(
@@ -345,15 +391,23 @@ def _chosen(names: list[str], particles: Any) -> tuple[list[str], list[str]] | N
 
 
 def _meeting(table: pd.DataFrame, solids: float) -> tuple[pd.DataFrame, tuple[list[str], list[str]], str]:
-    """The pair that meets, in all films or in each its own, then renamed and told; InputError if none or several do."""
-    films = [_near(rows, solids) for _, rows in table.groupby("film")]
+    """The pair that meets, in all films or in each its own, then renamed and told; InputError if none do.
+
+    Several pairs of one film that are apart are films of their own, named in a column `of_pair`.
+    """
+    parts = [rows for _, rows in table.groupby("film")]
+    films = [_near(rows, solids) for rows in parts]
     if len(meet := sorted(set().union(*films))) == 1:
         return table, ([meet[0][0]], [meet[0][1]]), ""
-    if meet and all(len(pairs) == 1 for pairs in films) and table.particle.index.is_unique:
-        number = {(film, name): str(k + 1) for film, pairs in enumerate(films) for k, name in enumerate(pairs[0])}
-        names = [number.get(key, "") for key in zip(table.film, table.particle)]
-        text = several([" and ".join(pairs[0]) for pairs in films], "; ")
-        return table.assign(particle=names), (["1"], ["2"]), text
+    if all(films) and all(map(_apart, parts, films)):
+        every = [(film, pair) for film, pairs in enumerate(films) for pair in pairs]
+        number = {(film, name): (j, str(k + 1)) for j, (film, pair) in enumerate(every) for k, name in enumerate(pair)}
+        chosen = [number.get(key, (-1, "")) for key in zip(table.film, table.particle)]
+        text = several([" and ".join(pair) for _, pair in every], "; ")
+        if len(every) > len(films):
+            table = table.assign(of_pair=["-".join(every[j][1]) if j >= 0 else "" for j, _ in chosen])
+        films_of, names = zip(*chosen)
+        return table.assign(film=films_of, particle=names), (["1"], ["2"]), text
     accepted = 'two that meet, a column impact, or particles="A,B" (--particles); "A+C,B" if A goes on as C'
     nowhere = "come near each other nowhere: do their tracks break, or is the scale off?"
     near = several([",".join(pair) for pair in meet], "; ")
@@ -374,6 +428,13 @@ def _near(table: pd.DataFrame, solids: float) -> list[tuple[str, str]]:
             nearest[pair] = min(float(math.dist(places[j], places[k])), nearest.get(pair, math.inf))
     meet = [pair for pair, distance in nearest.items() if distance >= low]
     return [pair for pair in meet if len(frames[pair[0]] & frames[pair[1]]) >= LEAST]
+
+
+def _apart(table: pd.DataFrame, pairs: list[tuple[str, str]]) -> bool:
+    """True if no particle is in two of the pairs, and all are on one frame: tracks that break make a later pair."""
+    frames = {name: set(rows["at"]) for name, rows in table[np.isfinite(table.x)].groupby("particle")}
+    every = [*chain(*pairs)]
+    return len({*every}) == len(every) and bool(set.intersection(*(frames[name] for name in every)))
 
 
 def _calibrated(columns: dict[str, Column], solids: float) -> dict[str, Column]:

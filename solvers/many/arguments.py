@@ -154,7 +154,8 @@ def check_varies(
     if name not in entries:
         raise unknown(name, values, package)
     if name in MEETING:
-        raise InputError(label, name, "entries other than the impact's speed and angle", "has an argument of its own")
+        problem = f"has an argument of its own, {name.removeprefix('impact.')}"
+        raise InputError(label, name, "entries other than the impact's speed and angle", problem)
     if not (entries[name].numeric or (entries[name].choices and texts)):
         raise InputError(label, name, "entries that are numbers", "is a choice")
 

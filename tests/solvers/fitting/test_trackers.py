@@ -279,12 +279,28 @@ def test_of_several_the_two_that_meet_or_that_are_named(tmp_path: Path, film: Fi
     done = run(*words, "--particles", "0,1")
     assert done.exit_code == 0 and "trackpy" in done.output
     assert run(*words, "--particles", "0,1,8").exit_code == 2
-    twins = pd.concat([table, table.assign(particle=table.particle + 20, y=table.y + 5000)])
-    with pytest.raises(InputError, match="0,1; 20,21"):
-        read(twins)
+    close = table[table.particle == 1].assign(particle=5, y=lambda each: each.y + 155)
+    with pytest.raises(InputError, match="0,1; 0,5; 1,5"):
+        read(pd.concat([table, close]))
     three = film | {"x3": 0 * film["x1"], "y3": 0 * film["x1"]}
     same(read(three), film)
     same(read(three, particles="1,2"), film)
+
+
+def test_pairs_side_by_side_are_impacts(film: Film) -> None:
+    """Two pairs on the same frames, in a row for each particle or for each frame, units behind the names."""
+    table = crowd(film)
+    twins = pd.concat([table, table.assign(particle=table.particle + 20, y=table.y + 5000)], ignore_index=True)
+    far = {f"{name[0]}{int(name[1]) + 2}": film[name] + 5000 for name in PLACES}
+    wide = {f"{name}_um": 1e6 * PIXEL * places for name, places in (film | far).items() if name != "frame"}
+    alone = read(film).columns
+    for source, labels in ((twins, ("0-1", "20-21")), (wide | {"frame": film["frame"]}, ("1-2", "3-4"))):
+        found = read(source)
+        assert found.labels == labels
+        for name in ("speed", "angle", "restitution", "delay", "turn"):
+            assert found.columns[name] == pytest.approx(2 * alone[name], rel=1e-6)
+    with pytest.raises(InputError, match="differ in their units"):
+        read({name.replace("x2_um", "x2_mm"): column for name, column in wide.items()} | {"frame": film["frame"]})
 
 
 def test_films_in_one_table_each_with_its_own_particles(film: Film) -> None:
