@@ -200,5 +200,6 @@ def _block(request: _Request, sizes: np.ndarray) -> Block:
     experiment = experiment_of(list(scenes.values()), request.rtol)
     columns["mean"][rows], columns["error"][rows] = means(experiment, rows.size, request.speeds, request.tolerance)
     failed = rows[np.isnan(columns["mean"][rows]).any(axis=1)]
+    columns["mean"][failed] = columns["error"][failed] = np.nan  # shares of the others are not those of all
     columns["reason"][failed] = "collisions that no engine completes"
     return columns

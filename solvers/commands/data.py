@@ -11,6 +11,7 @@ from typing import Annotated, Any
 import click
 
 from ..errors import CheckFailed, InputError
+from ..scene.scenefile import PRESETS
 from ..scene.schema import FIELDS
 from . import texts
 from .bar import Bar
@@ -28,11 +29,15 @@ def _ordered(
 ) -> tuple[str, SceneRequest]:
     """The data and the scene, which may stand in either order."""
     source = request.source or ""
-    if source.lower().endswith(suffixes):
+    if source.lower().endswith(suffixes) or (_is_scene(file or "") and not _is_scene(source)):
         request, file = replace(request, source=file), source
     if file is None:
         raise InputError(name, None, accepted)
     return file, request
+
+
+def _is_scene(source: str) -> bool:
+    return source in PRESETS or source.lower().endswith(".toml")
 
 
 @command("fitting.tracks:tracks")

@@ -213,6 +213,9 @@ def _table(source: Any) -> tuple[str, list[Column], list[int]]:
         columns, lines = columns_from_text(text, "tracks", str(source), _ACCEPTED)
         return kind, without_index(columns, "tracks"), lines
     index = [name for name in getattr(getattr(source, "index", None), "names", ()) if name is not None]
+    if getattr(getattr(source, "columns", None), "nlevels", 1) > 1:  # of DeepLabCut
+        kind, text = _one_header(source.to_csv())
+        return kind, *columns_from_text(text, "tracks", "columns", _ACCEPTED)
     if fresh := [name for name in index if name not in source.columns]:
         source = source.reset_index(fresh)
     return ("", *columns_of(source, "tracks"))

@@ -168,6 +168,16 @@ def test_the_film_of_a_tracker_is_that_film(tmp_path: Path, film: Film, kind: st
     assert len(said) == 1 and name in said[0]
 
 
+def test_a_frame_of_deeplabcut(tmp_path: Path, film: Film) -> None:
+    """As pandas reads its .h5: columns of three names. A file of another kind, before the scene, is no broken scene."""
+    path = tmp_path / "film.csv"
+    path.write_text(deeplabcut(film), encoding="utf-8")
+    same(read(pd.read_csv(path, header=[0, 1, 2], index_col=0)), film, 1e-6)
+    (tmp_path / "film.mdf").write_text("MTrackJ 1.5.1 Data File")
+    done = run("tracks", tmp_path / "film.mdf", "lactose-pvp")
+    assert done.exit_code == 2 and "columns x1, y1, x2, y2" in done.output
+
+
 def test_frames_and_pixels_of_tracker(tmp_path: Path, film: Film) -> None:
     """A frame beside each mass, empty where one is not marked: it counts with a rate, the time does not.
 
