@@ -169,7 +169,7 @@ def prove_map(
     [(by, speeds)] = given.items()
     for name, edges in ((by, speeds), ("angle", angle)):
         if len(edges) < 2 or any(not low < high for low, high in itertools.pairwise(edges)):
-            raise InputError(name, None, "at least two rising edges of cells, as LO:HI:N", "bounds no cell")
+            raise InputError(name, [*map(float, edges)] or None, "at least two rising edges of cells, as LO:HI:N")
     if isinstance(depth, bool) or not isinstance(depth, int) or not 0 <= depth <= 40:
         raise InputError("depth", depth, "a whole number from 0 to 40")
     loaded = Scene.load(scene)

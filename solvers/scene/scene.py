@@ -98,7 +98,7 @@ class Scene(System, NotebookTable):
             if model is not None:
                 return source.with_model(model)
             if (package := source.package) is not None:
-                source = _with_first_values(source, (free,) if isinstance(free, str) else free)
+                source = _with_first_values(source, free)
                 package.demand(source.entries)
             return source
         text, origin = scenefile.read_text(source)
@@ -347,10 +347,14 @@ class Scene(System, NotebookTable):
         return self.speed, self.angle if self.angle >= LEAST_ANGLE else 0.0
 
 
-def _with_first_values(scene: Scene, free: Sequence[str]) -> Scene:
-    """The scene with values of those of its model's quantities that are looked for and have none."""
+def _with_first_values(scene: Scene, free: Sequence[str] | str) -> Scene:
+    """The scene with values of those of its model's quantities that are looked for and have none.
+
+    Who looks for them checks `free` later: until then it may be anything.
+    """
+    names = free.split(",") if isinstance(free, str) else free if isinstance(free, Sequence) else ()
     result, missing = scene, () if scene.package is None else scene.package.missing(scene.entries)
-    for name in (name for name in missing if name in free):
+    for name in (name for name in missing if name in names):
         value = natural(scene, name.partition(".")[2])
         for factor in _SMALLER:
             with suppress(InputError):

@@ -153,6 +153,9 @@ def test_what_is_looked_for_needs_no_value(tmp_path: Path):
     rows = {**impacts, "restitution": seen.restitution.values, "restitution_sd": np.full(8, 0.01)}
     estimate = fit(bare, rows, "custom.tension").estimates["custom.tension"]
     assert estimate.low < sigma < estimate.high < 2 * estimate.low
+    for free, says in (("custom.tension,custom.layer", "is one text"), (5, "custom.tension: missing")):
+        with pytest.raises(InputError, match=says):
+            fit(bare, rows, free)
     firm = scene.with_entries({"custom.tension": sigma, "liquid.glass_transition_pressure": "2 GPa"})
     found = solve(firm, smallest_gap="3 um", free="custom.layer", within=("1 um", "5 um"), stokes=1.0, angle=0.9)
     assert found == pytest.approx([3e-6], rel=1e-6)

@@ -154,7 +154,7 @@ static iv iv_log(iv a)
 {
     if (!(iv_lo(a) >= 0.0) || !(iv_hi(a) > 0.0))
         return iv_line();
-    const double x[2] = {larger(iv_lo(a), DBL_TRUE_MIN), smaller(iv_hi(a), DBL_MAX)};
+    const double x[2] = {smaller(larger(iv_lo(a), DBL_TRUE_MIN), DBL_MAX), smaller(iv_hi(a), DBL_MAX)};
     double part[2], y[2];
     iv of_power;
     for (int i = 0; i < 2; i++) {
