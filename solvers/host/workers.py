@@ -12,7 +12,6 @@ from typing import Any, TypeVar
 
 from ..errors import ComputationError
 from .remarks import silence_workers
-from .user_cache import settle
 
 K = TypeVar("K")
 R = TypeVar("R")
@@ -25,7 +24,6 @@ def workers(count: int, env: Mapping[str, str] | None = None) -> Iterator[Any]:
     """A pool of `count` processes for the calling thread; they are killed if an exception leaves the context."""
     from loky import ProcessPoolExecutor  # starts workers without importing the caller's script
 
-    settle()
     pool = ProcessPoolExecutor(max_workers=count, initializer=_begin, initargs=(os.getpid(),), env=env)
     done = False
     try:
