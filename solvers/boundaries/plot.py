@@ -24,7 +24,7 @@ from .result import LINES, Atlas, Boundaries, Curve, Point
 _ROOM = 1.8  # factor of the Stokes number shown beyond the outermost curves
 _MARKS = {
     "triple point": "o", "St* meets Ce*": "o", "fold": "^", "crossing": "X", "criterion change": "D",
-    "graze meets escape": "s", "saddle meets rim": "v",
+    "graze meets escape": "s",
 }  # fmt: skip
 _MOST_DOTS = 60  # most lines whose changes are marked
 _PLACES, _ROOM_OF_LETTERS = 600, 30  # along each axis; between letters and the edge of their region

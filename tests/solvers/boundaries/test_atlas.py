@@ -108,27 +108,6 @@ def test_a_plane_of_another_entry() -> None:
         assert seen.reversal == reversal
 
 
-def test_where_the_saddle_meets_the_rim() -> None:
-    """There the bridge's pull at rupture is the centrifugal force of rigid rotation with the angular momentum of touch.
-
-    Mikami's law and the moment of inertia as printed; the point is located to 1e-9 of the window, the curve on which it
-    lies to 2e-5 of it.
-    """
-    scene = Scene.load("pellet-coating")
-    found = atlas(scene, span=("20 deg", "45 deg"), stokes=(0.5, 10.0), lines=2)
-    (point,) = (one for one in found.points if one.kind == "saddle meets rim")
-    assert scene.bridge is not None
-    a, m, x0 = scene.reduced_radius, scene.reduced_mass, scene.liquid.film_thickness
-    volume, phi, rupture = scene.bridge.volume, scene.bridge.contact_angle, scene.rupture_gap
-    steep = -1.1 * volume**-0.53
-    offset = (-0.34 * math.log(volume) - 0.96) * phi**2 - 0.019 * math.log(volume) + 0.48
-    pull = math.exp(steep * rupture / (2 * a) + offset) + 0.0042 * math.log(volume) + 0.078
-    pull *= math.pi * 2 * a * scene.bridge.surface_tension
-    rate = scene.speed_of(point.stokes) * math.tan(point.x) / (4 * a)
-    rate *= (4 * a + x0) ** 2 / ((4 * a + rupture) ** 2 + 6.4 * a**2)
-    assert m * (4 * a + rupture) * rate**2 == pytest.approx(pull, rel=1e-4)
-
-
 # ---- the interface
 
 
