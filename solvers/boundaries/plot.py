@@ -13,7 +13,6 @@ from matplotlib.lines import Line2D
 from ...generated.automaton import OUTCOMES
 from ..collision.text import against, degrees, name_of, prefix
 from ..engines.settings import RTOL
-from ..errors import InputError
 from ..formatting import ticks
 from ..formatting.style import INK, LONGEST, fill, letters, patch, picture, plain_text, title
 from ..scene.scene import Scene
@@ -30,15 +29,8 @@ _MOST_DOTS = 60  # most lines whose changes are marked
 _PLACES, _ROOM_OF_LETTERS = 600, 30  # along each axis; between letters and the edge of their region
 
 
-def plot(lines: Boundaries) -> Figure:
-    """The picture of boundaries; InputError if they have no scene."""
-    if lines.scene is None:
-        raise InputError("scene", None, "boundaries of a scene, as `boundary` and `atlas` return them")
-    return draw(lines.scene, lines)
-
-
 @picture
-def draw(scene: Scene, lines: Boundaries) -> Figure:
+def draw(lines: Boundaries) -> Figure:
     """A figure of the regions of each outcome, the curves between them, and their meeting points.
 
     Lines of constant angle are drawn on the atlas of their angles; a single line as a strip of its outcomes.
@@ -46,6 +38,7 @@ def draw(scene: Scene, lines: Boundaries) -> Figure:
     Arguments:
         lines: result of `boundary` or `atlas`.
     """
+    scene = lines.scene
     dots = not isinstance(lines, Atlas) and len(set(lines.angles)) > 1 and len(lines.angles) <= _MOST_DOTS
     whole = lines if isinstance(lines, Atlas) else _filled(scene, lines)
     single = whole.span[0] == whole.span[1]
@@ -85,7 +78,7 @@ def _filled(scene: Scene, lines: Boundaries) -> Atlas:
         background = _curves(scene, (max(low - 1e-6, 0.0), low + 1e-6), lines.window, 2).background
     return Atlas(
         lines.angles, lines.changes, lines.collisions, lines.failures, lines.resolution, scene, lines.window,
-        span=(low, low), curves=tuple(curves), background=background,
+        lines.rtol, span=(low, low), curves=tuple(curves), background=background,
     )  # fmt: skip
 
 

@@ -156,7 +156,7 @@ def test_the_picture_names_its_regions() -> None:
     """Each outcome's letters once, inside its region; as many curves as the atlas has."""
     found = whole("pendulum")
     assert found.scene is not None
-    figure = draw(found.scene, found)
+    figure = draw(found)
     (axes,) = figure.axes
     places = {text.get_text(): text.xy for text in axes.texts}
     assert set(places) == {*LETTERS.values()}
