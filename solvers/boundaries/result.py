@@ -271,7 +271,7 @@ class Atlas(Boundaries):
         x, stokes = np.broadcast_arrays(np.asarray(x, dtype=float), np.asarray(stokes, dtype=float))
         inside = (x >= self.span[0]) & (x <= self.span[1]) & (stokes >= self.window[0]) & (stokes <= self.window[1])
         outcomes = np.full(x.shape, -1, dtype=np.int8)
-        outcomes[inside] = labelled(self.slabs(), self.unit(x[inside], stokes[inside]))[0]
+        outcomes[inside] = labelled(self.slabs(), self.unit(x[inside], stokes[inside]))
         return outcomes
 
     def unit(self, x: Any, stokes: Any) -> np.ndarray:
