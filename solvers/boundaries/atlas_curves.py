@@ -82,7 +82,7 @@ def _settled(plane: Plane, cells: Cells, x: np.ndarray, traced: Traced) -> Atlas
     unsettled += _against_lines(plane, arcs, x, traced)
     folds = [(FOLD, place) for _, folded in pieces for place in folded]
     parts, inner = stretches(plane, arcs)
-    places = [*named(plane, [meeting for meeting in meetings if meeting.located], parts), *folds, *inner]
+    places = [*named([meeting for meeting in meetings if meeting.located]), *folds, *inner]
     return _made(plane, parts, places, unsettled, x, traced, int(middle[middle.size // 2]))
 
 

@@ -8,12 +8,11 @@ import numpy as np
 from .arcs import Arc
 from .cells import Meeting
 from .changes import FREE, GRAZE, REVERSED
-from .plane import ANGLE, Plane
+from .plane import Plane
 from .segments import crossings
 
 TRIPLE, FOLD, CROSSING = "triple point", "fold", "crossing"
 CRITERION, KIND = "criterion change", "graze meets escape"
-CRITICAL = "St* meets Ce*"
 BESIDE = 1e-8  # distance from a curve of the collisions that determine its kind, relative to the window
 _AT = 1e-9  # places closer than this are identical, relative to the window
 _PARTS, _NARROWED = 16, 6  # places between two, and rounds, to locate a change of kind along a curve
@@ -129,33 +128,7 @@ def _between(plane: Plane, arc: Arc, start: np.ndarray, other: np.ndarray, count
     return np.asarray(places[~np.isnan(places[:, 0])])
 
 
-def named(plane: Plane, meetings: Sequence[Meeting], parts: list[Stretch]) -> list[tuple[str, np.ndarray]]:
+def named(meetings: Sequence[Meeting]) -> list[tuple[str, np.ndarray]]:
     """The points where curves meet, with their names."""
-    points = []
-    for meeting in meetings:
-        triple = len(meeting.pairs) == 3 and len(frozenset().union(*meeting.pairs)) == 3
-        points.append((TRIPLE if triple else CROSSING, meeting.place))
-        if triple and plane.over == ANGLE and _reaches_head_on(parts, meeting.place):
-            points.append((CRITICAL, meeting.place))
-    return points
-
-
-def _reaches_head_on(parts: Sequence[Stretch], place: np.ndarray) -> bool:
-    """True if the boundary between stick and bounce extends from a point to the lowest angle, through folds or not.
-
-    There it is the critical Stokes number of head-on collisions.
-    """
-    arcs = [stretch.arc for stretch in parts if {stretch.arc.right, stretch.arc.left} == {0, 2}]
-    while True:
-        ends = [
-            (k, end)
-            for k, arc in enumerate(arcs)
-            for end in (0, -1)
-            if np.allclose(arc.points[end], place, rtol=0, atol=_AT)
-        ]
-        if len(ends) != 1:
-            return False
-        k, end = ends[0]
-        place = arcs.pop(k).points[-1 - end]
-        if place[0] <= 0:
-            return True
+    three = [len(meeting.pairs) == 3 and len(frozenset().union(*meeting.pairs)) == 3 for meeting in meetings]
+    return [(TRIPLE if triple else CROSSING, meeting.place) for triple, meeting in zip(three, meetings, strict=True)]

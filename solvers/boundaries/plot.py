@@ -22,8 +22,7 @@ from .result import LINES, Atlas, Boundaries, Curve, Point
 
 _ROOM = 1.8  # factor of the Stokes number shown beyond the outermost curves
 _MARKS = {
-    "triple point": "o", "St* meets Ce*": "o", "fold": "^", "crossing": "X", "criterion change": "D",
-    "graze meets escape": "s",
+    "triple point": "o", "fold": "^", "crossing": "X", "criterion change": "D", "graze meets escape": "s",
 }  # fmt: skip
 _MOST_DOTS = 60  # most lines whose changes are marked
 _PLACES, _ROOM_OF_LETTERS = 600, 30  # along each axis; between letters and the edge of their region
@@ -127,20 +126,17 @@ def _across(scene: Scene, over: str, span: tuple[float, float]) -> tuple[float, 
 
 
 def _mark(axes: Axes, points: Sequence[Point], factor: float, low: float, high: float) -> list[Any]:
-    """Draw meeting points and their legend; names of one place are combined."""
-    places: dict[tuple[float, float], list[str]] = {}
-    for point in points:
-        if low <= point.stokes <= high:
-            places.setdefault((point.x, point.stokes), []).append(point.kind)
+    """Draw meeting points and their legend."""
     handles: dict[str, Any] = {}
-    for (x, stokes), kinds in places.items():
+    for point in points:
+        if not low <= point.stokes <= high:
+            continue
         style: Any = {
-            "marker": _MARKS[kinds[0]], "color": "white", "markeredgecolor": INK, "markeredgewidth": 1.2,
+            "marker": _MARKS[point.kind], "color": "white", "markeredgecolor": INK, "markeredgewidth": 1.2,
             "markersize": 6,
         }  # fmt: skip
-        axes.plot(x / factor, stokes, linestyle="", zorder=5, clip_on=False, **style)
-        name = ", ".join(kinds)
-        handles[name] = Line2D([], [], linestyle="", label=name, **style)
+        axes.plot(point.x / factor, point.stokes, linestyle="", zorder=5, clip_on=False, **style)
+        handles[point.kind] = Line2D([], [], linestyle="", label=point.kind, **style)
     return list(handles.values())
 
 
