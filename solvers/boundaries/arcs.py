@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import pairwise
 
@@ -141,13 +140,3 @@ def _with(arc: Arc, k: int, chords: list[tuple[int, int]], places: np.ndarray, a
         return arc
     points = np.insert(arc.points, [j + 1 for j, _ in fits], np.array([place for _, place in fits]), axis=0)
     return Arc(points, arc.right, arc.left)
-
-
-def passes(points: np.ndarray, axis: int, value: float) -> Iterator[tuple[float, float]]:
-    """Crossings of a polyline with a value of one coordinate: the other coordinate, and the change of the first."""
-    along, other = points[:, axis], points[:, 1 - axis]
-    change = np.diff(along)
-    low, high = np.minimum(along[:-1], along[1:]), np.maximum(along[:-1], along[1:])
-    for k in np.flatnonzero((low <= value) & (value <= high) & (change != 0)).tolist():
-        fraction = (value - along[k]) / change[k]
-        yield float(other[k] + fraction * (other[k + 1] - other[k])), float(change[k])

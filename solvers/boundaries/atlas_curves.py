@@ -11,7 +11,7 @@ import numpy as np
 
 from ...generated.automaton import OUTCOMES
 from ..errors import ComputationError
-from .arcs import CHORD, Arc, monotone, passes, refined
+from .arcs import CHORD, Arc, monotone, refined
 from .atlas_points import FOLD, Stretch, named, stretches
 from .cells import Cells
 from .changes import Change
@@ -82,7 +82,7 @@ def _settled(plane: Plane, cells: Cells, x: np.ndarray, traced: Traced) -> Atlas
     unsettled += _against_lines(plane, arcs, x, traced)
     folds = [(FOLD, place) for _, folded in pieces for place in folded]
     parts, inner = stretches(plane, arcs)
-    places = [*named(plane, [meeting for meeting in meetings if meeting.located], parts), *folds, *inner]
+    places = [*named([meeting for meeting in meetings if meeting.located]), *folds, *inner]
     return _made(plane, parts, places, unsettled, x, traced, int(middle[middle.size // 2]))
 
 
@@ -98,8 +98,7 @@ def _along(plane: Plane, at: np.ndarray, labels: np.ndarray) -> tuple[np.ndarray
 
 def _wrong(arcs: list[Arc], regions: list[Slab], points: np.ndarray, outcomes: np.ndarray) -> np.ndarray:
     """Indices of collisions whose outcome differs from their region's, except close to a curve."""
-    says, _ = labelled(regions, points)
-    differ = np.flatnonzero((says != outcomes) & (outcomes >= 0))
+    differ = np.flatnonzero((labelled(regions, points) != outcomes) & (outcomes >= 0))
     return differ[apart(arcs, points[differ]) > _NEAR]
 
 
@@ -120,7 +119,9 @@ def _against_lines(plane: Plane, arcs: list[Arc], x: np.ndarray, traced: Traced)
             differences.append((np.array([across, 0.5]), f"this line could not be traced: {failure}"))
             continue
         crossed = [
-            (y, OUTCOMES[arc.right], OUTCOMES[arc.left]) for arc in arcs for y, _ in passes(arc.points, 0, across)
+            (float(np.interp(across, *arc.points.T)), OUTCOMES[arc.right], OUTCOMES[arc.left])
+            for arc in arcs
+            if arc.points[0, 0] <= across <= arc.points[-1, 0]
         ]
         changes = [(plane.points(np.array([at]), np.array([change.stokes]))[0], change) for change in line]
         differences += [

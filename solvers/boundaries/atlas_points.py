@@ -1,30 +1,21 @@
 """Kinds of change along the curves of a plane, and classification of the points where the kind changes."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
-from itertools import pairwise
+from dataclasses import dataclass
 
 import numpy as np
 
-from ...generated.automaton import Purpose
-from ..engines.taylor.call import Impacts
-from ..engines.taylor.record import run_recorded
-from ..model.dimensionless import nondimensionalise
-from ..model.model import load, select_model
 from .arcs import Arc
-from .barrier import Potential
 from .cells import Meeting
 from .changes import FREE, GRAZE, REVERSED
-from .plane import ANGLE, Plane
+from .plane import Plane
 from .segments import crossings
 
 TRIPLE, FOLD, CROSSING = "triple point", "fold", "crossing"
-CRITERION, KIND, RIM = "criterion change", "graze meets escape", "saddle meets rim"
-CRITICAL = "St* meets Ce*"
+CRITERION, KIND = "criterion change", "graze meets escape"
 BESIDE = 1e-8  # distance from a curve of the collisions that determine its kind, relative to the window
 _AT = 1e-9  # places closer than this are identical, relative to the window
 _PARTS, _NARROWED = 16, 6  # places between two, and rounds, to locate a change of kind along a curve
-_LOOKS = 9  # places along a curve at which the barrier is computed
 _NONE = -9  # unknown
 
 
@@ -55,7 +46,7 @@ def stretches(plane: Plane, arcs: Sequence[Arc]) -> tuple[list[Stretch], list[tu
         for piece, code in _cut(plane, arc, codes, points):
             kind = FREE if code <= 0 else REVERSED if code > 3 else GRAZE
             criterion = -1 if code <= 0 else (code - 1) % 3
-            result += _at_barriers(plane, Stretch(piece, kind, criterion), points)
+            result.append(Stretch(piece, kind, criterion))
     return result, points
 
 
@@ -137,74 +128,7 @@ def _between(plane: Plane, arc: Arc, start: np.ndarray, other: np.ndarray, count
     return np.asarray(places[~np.isnan(places[:, 0])])
 
 
-def _at_barriers(plane: Plane, stretch: Stretch, points: list[tuple[str, np.ndarray]]) -> list[Stretch]:
-    """An escape boundary split where the barrier reaches the rupture gap."""
-    arc, scene = stretch.arc, plane.scene
-    if stretch.kind == GRAZE or scene.bridge is None or scene.pendulum is not None:
-        return [stretch]
-    inner = np.unique(np.linspace(0, len(arc.points) - 1, _LOOKS).round().astype(int))[1:-1]
-    saddles = [_passes_saddle(plane, arc.points[k]) for k in inner]
-    for (k, before), (last, after) in pairwise(zip(inner.tolist(), saddles, strict=True)):
-        if before != after:
-            start, other = arc.points[k], arc.points[last]
-            while np.linalg.norm(other - start) > _AT:
-                x = 0.5 * (start[0] + other[0])
-                guess = np.array([[x, np.interp(x, arc.points[:, 0], arc.points[:, 1])]])
-                reach = np.array([max(1e-3 * abs(other[0] - start[0]), 1e-4)])
-                middle = crossings(plane.labels, guess, np.array([[0.0, 1.0]]), reach, np.array([arc.right]),
-                                   np.array([arc.left]))[0]  # fmt: skip
-                if np.isnan(middle).any():
-                    return [stretch]
-                start, other = (middle, other) if _passes_saddle(plane, middle) == before else (start, middle)
-            place = 0.5 * (start + other)
-            points.append((RIM, place))
-            j = int(np.searchsorted(arc.points[:, 0], place[0]))
-            below = Arc(np.vstack([arc.points[:j], place]), arc.right, arc.left)
-            above = Arc(np.vstack([place, arc.points[j:]]), arc.right, arc.left)
-            return [replace(stretch, arc=below), *_at_barriers(plane, replace(stretch, arc=above), points)]
-    return [stretch]
-
-
-def _passes_saddle(plane: Plane, place: np.ndarray) -> bool:
-    """True if an escape passes a saddle, and not the rim at the rupture gap."""
-    scene, angle = plane.scene_at(float(plane.x(place)))
-    n = nondimensionalise(scene, scene.speed_of(float(plane.stokes_at(place))), angle)
-    model = load(select_model(scene, n.oblique))
-    ran = run_recorded(
-        Impacts.single(n), n.oblique, plane.rtol, trajectory=True, purpose=Purpose.ESCAPE, fold=False, events=False
-    )
-    assert ran.steps is not None
-    end = ran.steps.states(ran.answers["time"])[:, 0]
-    return Potential(model, model.group_values(n.groups), plane.rtol).passes_saddle(end)
-
-
-def named(plane: Plane, meetings: Sequence[Meeting], parts: list[Stretch]) -> list[tuple[str, np.ndarray]]:
+def named(meetings: Sequence[Meeting]) -> list[tuple[str, np.ndarray]]:
     """The points where curves meet, with their names."""
-    points = []
-    for meeting in meetings:
-        triple = len(meeting.pairs) == 3 and len(frozenset().union(*meeting.pairs)) == 3
-        points.append((TRIPLE if triple else CROSSING, meeting.place))
-        if triple and plane.over == ANGLE and _reaches_head_on(parts, meeting.place):
-            points.append((CRITICAL, meeting.place))
-    return points
-
-
-def _reaches_head_on(parts: Sequence[Stretch], place: np.ndarray) -> bool:
-    """True if the boundary between stick and bounce extends from a point to the lowest angle, through folds or not.
-
-    There it is the critical Stokes number of head-on collisions.
-    """
-    arcs = [stretch.arc for stretch in parts if {stretch.arc.right, stretch.arc.left} == {0, 2}]
-    while True:
-        ends = [
-            (k, end)
-            for k, arc in enumerate(arcs)
-            for end in (0, -1)
-            if np.allclose(arc.points[end], place, rtol=0, atol=_AT)
-        ]
-        if len(ends) != 1:
-            return False
-        k, end = ends[0]
-        place = arcs.pop(k).points[-1 - end]
-        if place[0] <= 0:
-            return True
+    three = [len(meeting.pairs) == 3 and len(frozenset().union(*meeting.pairs)) == 3 for meeting in meetings]
+    return [(TRIPLE if triple else CROSSING, meeting.place) for triple, meeting in zip(three, meetings, strict=True)]

@@ -1,9 +1,6 @@
-"""The barrier of the potential that confines a doublet, from the emitted forces: what an escape passes, and the outcome
-in the limit of many turns.
+"""The barrier of the potential that confines a doublet, from the emitted forces: the outcome of many turns.
 
-A doublet that escapes passes the maximum of the effective potential: a saddle, or the rim, that is the rupture gap.
-
-A doublet may also enter and leave its film again and again, less deeply in each cycle. Outside the film and the edge of
+A doublet may enter and leave its film again and again, less deeply in each cycle. Outside the film and the edge of
 the tangential force (at gap e) no energy is lost and the orbital momentum J is constant, and the tangential force
 brings J closer to J_e, its value for rigid rotation at e. Both converge algebraically with the number of cycles, so
 integration does not reach the limit, but the limit is known: an orbit that touches e, with J_e. If the attraction
@@ -24,7 +21,6 @@ from ..model.model import Model
 from ..scene.contact import contact_gap
 
 _GAPS = 201
-_LEAST = 1e-6  # gap from which on barriers are sought
 _SHALLOW = 0.1  # largest depth in the film, relative to its thickness, of a shallow cycle
 _SMALL = 0.9  # largest ratio of the radial energy to the remaining decrease of the barrier
 _GROWTH = 1.05  # tolerated growth of that ratio between the two states
@@ -51,16 +47,6 @@ class Potential:
     def edge(self) -> float:
         """Gap beyond which neither film nor tangential force acts."""
         return max(tangential_edge(self.model, self.groups), 1.0)
-
-    def passes_saddle(self, y: np.ndarray) -> bool:
-        """True if the effective potential is highest before the rupture gap."""
-
-        def slope(gaps: np.ndarray) -> np.ndarray:
-            return self._row("effective_potential", 1, gaps, y)
-
-        gaps = np.geomspace(max(self.contact, _LEAST), self.rim, _GAPS)
-        rise = np.cumsum(_panels(slope, gaps))
-        return bool(slope(gaps[-1:])[0] <= 0 or rise[-1] < rise.max())
 
     def limit_of_circling(self, earlier: np.ndarray, y: np.ndarray) -> bool | None:
         """True if a circling doublet sticks in the limit of many cycles, False if it separates, None if undecided.
@@ -108,13 +94,10 @@ class Potential:
         return float(np.sum(_panels(lambda at: self._inward(at, y), np.linspace(start, end, 9))))
 
     def _inward(self, gaps: np.ndarray, y: np.ndarray) -> np.ndarray:
-        return self._row("inward_force", 0, gaps, y)
-
-    def _row(self, name: str, row: int, gaps: np.ndarray, y: np.ndarray) -> np.ndarray:
-        """A result of an emitted function at these gaps, with the momenta of a state."""
+        """The emitted force at these gaps, with the momenta of a state."""
         states = np.repeat(y[: len(self.model.state), None], gaps.size, axis=1)
         states[0] = gaps
-        values: np.ndarray = np.asarray(self.model.function(name)(states, self.p).full())[row]
+        values: np.ndarray = np.asarray(self.model.function("inward_force")(states, self.p).full())[0]
         return values
 
 

@@ -9,17 +9,15 @@ import numpy as np
 from ..engines.settings import RTOL, check_rtol
 from ..errors import InputError
 from ..host.arguments import check_function, check_whole
-from ..host.cores import usable_cores
 from ..many.arguments import checked_numbers, checked_span
 from ..model.validity import warn
 from ..scene.scene import Scene
 from .plane import ANGLE, check_plane
 from .result import LINES, Atlas, Boundaries
-from .trace import Traced, traces
+from .trace import trace
 from .window import stokes_range
 
 _LARGEST = 1e30  # largest Stokes number; its inverse is the smallest
-_WORTH = 100  # fewest angles for which starting a process pays
 _MOST = 10_000  # most lines
 
 
@@ -60,12 +58,7 @@ def boundary(
     rtol, tell = check_rtol(rtol), check_function(progress, "progress") or (lambda _done: None)
     warn(loaded)
     order = np.argsort(angles, kind="stable")
-    cores = min(usable_cores(), max(1, angles.size // _WORTH))
-    parts = np.array_split(angles[order], cores)
-    whole = Traced([], [], 0, 0.0)
-    for block in traces(loaded, parts, (low, high), rtol, tell):
-        whole.add(block)
-        tell(len(whole.changes))
+    whole = trace(loaded, angles[order], (low, high), rtol, tell)
     back = np.argsort(order, kind="stable")
     return Boundaries(
         tuple(angles.tolist()),

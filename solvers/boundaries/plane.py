@@ -79,12 +79,8 @@ class Plane:
     def points(self, x: np.ndarray, stokes: np.ndarray) -> np.ndarray:
         """Points of the square at values of the entry and Stokes numbers."""
         across = (np.asarray(x) - self.span[0]) / (self.span[1] - self.span[0])
-        return np.column_stack([across, np.log(np.asarray(stokes) / self.stokes[0]) / self.log_height])
-
-    @property
-    def log_height(self) -> float:
-        """Height of the window, in ln St."""
-        return math.log(self.stokes[1] / self.stokes[0])
+        low, high = self.stokes
+        return np.column_stack([across, np.log(np.asarray(stokes) / low) / math.log(high / low)])
 
     def scene_at(self, x: float) -> tuple[Scene, float]:
         if self.over == ANGLE:

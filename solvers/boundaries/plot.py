@@ -13,7 +13,6 @@ from matplotlib.lines import Line2D
 from ...generated.automaton import OUTCOMES
 from ..collision.text import against, degrees, name_of, prefix
 from ..engines.settings import RTOL
-from ..errors import InputError
 from ..formatting import ticks
 from ..formatting.style import INK, LONGEST, fill, letters, patch, picture, plain_text, title
 from ..scene.scene import Scene
@@ -23,22 +22,14 @@ from .result import LINES, Atlas, Boundaries, Curve, Point
 
 _ROOM = 1.8  # factor of the Stokes number shown beyond the outermost curves
 _MARKS = {
-    "triple point": "o", "St* meets Ce*": "o", "fold": "^", "crossing": "X", "criterion change": "D",
-    "graze meets escape": "s", "saddle meets rim": "v",
+    "triple point": "o", "fold": "^", "crossing": "X", "criterion change": "D", "graze meets escape": "s",
 }  # fmt: skip
 _MOST_DOTS = 60  # most lines whose changes are marked
 _PLACES, _ROOM_OF_LETTERS = 600, 30  # along each axis; between letters and the edge of their region
 
 
-def plot(lines: Boundaries) -> Figure:
-    """The picture of boundaries; InputError if they have no scene."""
-    if lines.scene is None:
-        raise InputError("scene", None, "boundaries of a scene, as `boundary` and `atlas` return them")
-    return draw(lines.scene, lines)
-
-
 @picture
-def draw(scene: Scene, lines: Boundaries) -> Figure:
+def draw(lines: Boundaries) -> Figure:
     """A figure of the regions of each outcome, the curves between them, and their meeting points.
 
     Lines of constant angle are drawn on the atlas of their angles; a single line as a strip of its outcomes.
@@ -46,6 +37,7 @@ def draw(scene: Scene, lines: Boundaries) -> Figure:
     Arguments:
         lines: result of `boundary` or `atlas`.
     """
+    scene = lines.scene
     dots = not isinstance(lines, Atlas) and len(set(lines.angles)) > 1 and len(lines.angles) <= _MOST_DOTS
     whole = lines if isinstance(lines, Atlas) else _filled(scene, lines)
     single = whole.span[0] == whole.span[1]
@@ -85,7 +77,7 @@ def _filled(scene: Scene, lines: Boundaries) -> Atlas:
         background = _curves(scene, (max(low - 1e-6, 0.0), low + 1e-6), lines.window, 2).background
     return Atlas(
         lines.angles, lines.changes, lines.collisions, lines.failures, lines.resolution, scene, lines.window,
-        span=(low, low), curves=tuple(curves), background=background,
+        lines.rtol, span=(low, low), curves=tuple(curves), background=background,
     )  # fmt: skip
 
 
@@ -134,20 +126,17 @@ def _across(scene: Scene, over: str, span: tuple[float, float]) -> tuple[float, 
 
 
 def _mark(axes: Axes, points: Sequence[Point], factor: float, low: float, high: float) -> list[Any]:
-    """Draw meeting points and their legend; names of one place are combined."""
-    places: dict[tuple[float, float], list[str]] = {}
-    for point in points:
-        if low <= point.stokes <= high:
-            places.setdefault((point.x, point.stokes), []).append(point.kind)
+    """Draw meeting points and their legend."""
     handles: dict[str, Any] = {}
-    for (x, stokes), kinds in places.items():
+    for point in points:
+        if not low <= point.stokes <= high:
+            continue
         style: Any = {
-            "marker": _MARKS[kinds[0]], "color": "white", "markeredgecolor": INK, "markeredgewidth": 1.2,
+            "marker": _MARKS[point.kind], "color": "white", "markeredgecolor": INK, "markeredgewidth": 1.2,
             "markersize": 6,
         }  # fmt: skip
-        axes.plot(x / factor, stokes, linestyle="", zorder=5, clip_on=False, **style)
-        name = ", ".join(kinds)
-        handles[name] = Line2D([], [], linestyle="", label=name, **style)
+        axes.plot(point.x / factor, point.stokes, linestyle="", zorder=5, clip_on=False, **style)
+        handles[point.kind] = Line2D([], [], linestyle="", label=point.kind, **style)
     return list(handles.values())
 
 

@@ -8,8 +8,6 @@ import numpy as np
 
 from .arcs import Arc
 
-UNKNOWN = -1
-
 
 @dataclass(frozen=True)
 class Slab:
@@ -49,9 +47,9 @@ def slabs(arcs: Sequence[Arc], column: np.ndarray, labels: np.ndarray) -> list[S
     return result
 
 
-def labelled(parts: Sequence[Slab], points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Labels of the regions at points (n x 2), and vertical distances to the nearest curve of their slabs."""
-    labels, distance = np.full(points.shape[0], UNKNOWN), np.full(points.shape[0], np.inf)
+def labelled(parts: Sequence[Slab], points: np.ndarray) -> np.ndarray:
+    """Labels of the regions at points (n x 2)."""
+    labels = np.zeros(points.shape[0], dtype=int)
     which = np.searchsorted([slab.high for slab in parts], points[:, 0]).clip(0, len(parts) - 1)
     for k, slab in enumerate(parts):
         inside = np.flatnonzero(which == k)
@@ -61,9 +59,7 @@ def labelled(parts: Sequence[Slab], points: np.ndarray) -> tuple[np.ndarray, np.
         heights = np.array([np.interp(x, arc.points[:, 0], arc.points[:, 1]) for arc in slab.arcs])
         below = (heights < y).sum(axis=0) if slab.arcs else np.zeros(inside.size, dtype=int)
         labels[inside] = np.array(slab.labels)[below]
-        if slab.arcs:
-            distance[inside] = np.abs(heights - y).min(axis=0)
-    return labels, distance
+    return labels
 
 
 def apart(arcs: Sequence[Arc], points: np.ndarray) -> np.ndarray:

@@ -12,19 +12,17 @@ import numpy as np
 
 from ...generated import scaling
 from ...generated.automaton import OUTCOMES
-from ..engines.settings import RTOL
 from ..formatting.notebook import NotebookTable
 from ..host.pictures import Drawn
 from ..results import outcome_attributes
 from ..scene.origin import Recorded, origin, provenance
 from ..scene.quantities import quantities
 from ..scene.scene import Scene
-from ..scene.schema import FIELDS, MEETING
+from ..scene.schema import MEETING
 from .arcs import CHORD, Arc
 from .changes import MERGED, Change
 from .plane import ANGLE
 from .regions import Slab, labelled, slabs
-from .window import STOKES
 
 if TYPE_CHECKING:
     import xarray
@@ -56,15 +54,16 @@ class Boundaries(Drawn, NotebookTable):
         Frozen({'line': 1, 'change': 2})
     """
 
-    _picture = "boundaries.plot.plot"
+    _picture = "boundaries.plot.draw"
+
     angles: tuple[float, ...]
     changes: tuple[tuple[Change, ...], ...]
     collisions: int
-    failures: tuple[str, ...] = ()
-    resolution: float = 0.0
-    scene: Scene | None = field(default=None, repr=False)
-    window: tuple[float, float] = STOKES
-    rtol: float = RTOL
+    failures: tuple[str, ...]
+    resolution: float
+    scene: Scene = field(repr=False)
+    window: tuple[float, float]
+    rtol: float
 
     @property
     def failed(self) -> tuple[tuple[float, str], ...]:
@@ -78,19 +77,16 @@ class Boundaries(Drawn, NotebookTable):
         return {"angles": list(self.angles), "changes": changes} | self.origin(angles="rad")
 
     def change_dict(self, change: Change, angle: float) -> dict[str, Any]:
-        """A change on the line of an angle (rad) as in the JSON objects: with its speeds, of boundaries of a scene."""
-        result = change.to_dict() | {"angle": angle}
-        if self.scene is None:
-            return result
+        """A change on the line of an angle (rad) as in the JSON objects, with its speeds."""
         speed = self.scene.speed_of(change.stokes)
-        return result | {"speed": speed, "relative_speed": speed / math.cos(angle)}
+        return change.to_dict() | {"angle": angle, "speed": speed, "relative_speed": speed / math.cos(angle)}
 
     @property
     def range_text(self) -> str:
-        """The range of the search in words: Stokes numbers, and normal speeds where the boundaries are of a scene."""
+        """The range of the search in words: Stokes numbers, and normal speeds where these are the same on all lines."""
         low, high = self.window
         numbers = f"St {low:g} to {high:g}"
-        if self.scene is None or self._scale_varies:
+        if self._scale_varies:
             return numbers
         return f"{numbers} (normal speed {self.scene.speed_of(low):.4g} to {self.scene.speed_of(high):.4g} m/s)"
 
@@ -101,14 +97,13 @@ class Boundaries(Drawn, NotebookTable):
 
     def origin(self, **units: str) -> dict[str, Any]:
         """Provenance for the JSON objects; `units` by key, in addition to those of changes."""
-        source = {} if self.scene is None else origin(self.scene)
         always = {"stokes": "1", "centrifugal": "1", "speed": "m/s", "relative_speed": "m/s", "angle": "rad"}
-        return {"rtol": self.rtol, "searched": list(self.window), "units": {**units, **always}} | source
+        search = {"rtol": self.rtol, "searched": list(self.window), "units": {**units, **always}}
+        return search | origin(self.scene)
 
     def __str__(self) -> str:
         lines = [f"angle (deg)   St              Ce          {self.speed_heading:<18} change"]
-        failures = self.failures or ("",) * len(self.angles)
-        for angle, changes, failure in zip(self.angles, self.changes, failures, strict=True):
+        for angle, changes, failure in zip(self.angles, self.changes, self.failures, strict=True):
             degrees = f"{math.degrees(angle):<13.6g}"
             for change in changes:
                 ce = "-" if change.centrifugal is None else f"{change.centrifugal:.6g}"
@@ -139,7 +134,7 @@ class Boundaries(Drawn, NotebookTable):
             "stokes": (over, stokes, {"units": "1", "long_name": "Stokes number at which the outcome changes"}),
             "centrifugal": (over, _padded(centrifugal, most), {"units": "1", "long_name": "centrifugal number there"}),
             "kind": (over, np.array(kind, dtype=str).reshape(len(kind), most), {"long_name": "what happens there"}),
-            "failure": ("line", np.array(self.failures or [""] * len(self.angles), dtype=str),
+            "failure": ("line", np.array(self.failures, dtype=str),
                         {"long_name": "why a line could not be traced"}),
         }  # fmt: skip
         for side, meaning in (("before", "outcome below"), ("after", "outcome above")):
@@ -161,13 +156,12 @@ class Boundaries(Drawn, NotebookTable):
 
         The magnitude of the relative velocity if the scene's impact has a `relative_speed`, else the normal speed.
         """
-        assert self.scene is not None, "boundaries without a scene are only drawn"
         speed = self.scene.speed_of(stokes)
         return speed / math.cos(angle) if self._relative else speed
 
     @property
     def _relative(self) -> bool:
-        return self.scene is not None and self.scene.impact.relative_speed is not None
+        return self.scene.impact.relative_speed is not None
 
 
 @dataclass(frozen=True)
@@ -239,12 +233,10 @@ class Atlas(Boundaries):
     @property
     def _unit(self) -> str:
         """Unit of x in SI; empty for a number."""
-        return (self.scene.fields if self.scene else FIELDS)[self.over].unit or ""
+        return self.scene.fields[self.over].unit or ""
 
     def _speeds(self, x: Any, stokes: Any) -> dict[str, Any]:
-        """Normal and relative speeds (m/s) of points of the plane, for JSON; empty without a scene."""
-        if self.scene is None:
-            return {}
+        """Normal and relative speeds (m/s) of points of the plane, for JSON."""
         entries: dict[str, Any] = {name: value for name, value in self.scene.si if name not in MEETING}
         angle = np.asarray(x if self.over == ANGLE else self.scene.angle)
         of = quantities(entries | ({} if self.over == ANGLE else {self.over: np.asarray(x)}), self.scene.ways)
@@ -279,7 +271,7 @@ class Atlas(Boundaries):
         x, stokes = np.broadcast_arrays(np.asarray(x, dtype=float), np.asarray(stokes, dtype=float))
         inside = (x >= self.span[0]) & (x <= self.span[1]) & (stokes >= self.window[0]) & (stokes <= self.window[1])
         outcomes = np.full(x.shape, -1, dtype=np.int8)
-        outcomes[inside] = labelled(self.slabs(), self.unit(x[inside], stokes[inside]))[0]
+        outcomes[inside] = labelled(self.slabs(), self.unit(x[inside], stokes[inside]))
         return outcomes
 
     def unit(self, x: Any, stokes: Any) -> np.ndarray:

@@ -7,13 +7,14 @@ accepted if collisions on both sides agree (`changes`).
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 
 import numpy as np
 
 from ..errors import ComputationError
-from ..host.workers import lasting_workers
+from ..host.cores import usable_cores
 from ..scene.scene import Scene
 from .changes import Change, changes_along
 from .samples import answers, first_grid, sampled
@@ -44,20 +45,6 @@ class Traced:
         self.resolution = max(self.resolution, block.resolution)
 
 
-def traces(
-    scene: Scene, parts: Sequence[np.ndarray], span: tuple[float, float], rtol: float, tell: Callable[[int], None]
-) -> Iterator[Traced]:
-    """Traces of all parts in order: the first in this process, which calls `tell`, the others in processes."""
-    if len(parts) == 1:
-        yield trace(scene, parts[0], span, rtol, tell)
-        return
-    with lasting_workers(len(parts) - 1) as pool:
-        others = [pool.submit(trace, scene, angles, span, rtol) for angles in parts[1:]]
-        yield trace(scene, parts[0], span, rtol, tell)
-        for other in others:
-            yield other.result()
-
-
 def trace(
     scene: Scene,
     angles: np.ndarray,
@@ -70,17 +57,22 @@ def trace(
     A line that fails is sampled again, more finely and with a tolerance a hundred times smaller; if it fails again, its
     reason is recorded.
     """
-    traced = Traced([], [], 0, 0.0)
-    for first in range(0, angles.size, _TOGETHER):
-        block = angles[first : first + _TOGETHER]
-        changes, failures = _block(scene, block, span, rtol, 1, traced)
-        for k in [k for k, reason in enumerate(failures) if reason]:
-            again = _block(scene, block[k : k + 1], span, max(rtol * _SHARPER, SHARPEST), _FINER, traced)
-            changes[k], failures[k] = again[0][0], again[1][0]
-        traced.changes += changes
-        traced.failures += failures
-        tell(len(traced.changes))
-    return traced
+    blocks = [angles[first : first + _TOGETHER] for first in range(0, angles.size, _TOGETHER)]
+    whole = Traced([], [], 0, 0.0)
+
+    def traced(block: np.ndarray) -> Traced:
+        result = Traced([], [], 0, 0.0)
+        result.changes, result.failures = _block(scene, block, span, rtol, 1, result)
+        for k in [k for k, reason in enumerate(result.failures) if reason]:
+            again = _block(scene, block[k : k + 1], span, max(rtol * _SHARPER, SHARPEST), _FINER, result)
+            result.changes[k], result.failures[k] = again[0][0], again[1][0]
+        return result
+
+    with ThreadPoolExecutor(usable_cores()) as pool:  # the kernel releases the interpreter's lock
+        for block in (pool.map if len(blocks) > 1 else map)(traced, blocks):
+            whole.add(block)
+            tell(len(whole.changes))
+    return whole
 
 
 def _block(

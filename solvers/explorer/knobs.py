@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from typing import Any
 
 from ..export.law.material import Number
@@ -96,31 +96,21 @@ class Knob:
 
 def knobs(scene: Scene, entries: Sequence[Number], impact: Sequence[Number]) -> list[dict[str, Any]]:
     """The knobs of a scene, as the page reads them; those of the impact first."""
-    knobs = {item.name: _of_entry(scene, item) for item in map(_dotted, entries) if item.name != "liquid.density"}
+    knobs = {
+        item.name.replace("_", ".", 1): _of_entry(scene, item) for item in entries if item.name != "liquid_density"
+    }
     if scene.partner is None:  # equal spheres have one size, one density and one coating
         for name in [knob for knob in knobs if knob.startswith("partner.")]:
             twin = name.replace("partner.coating", "liquid.coating").replace("partner.", "particles.")
             own, partner = knobs[twin], knobs.pop(name)
-            knobs[twin] = Knob(**(asdict(own) | {"members": (*own.members, *partner.members)}))
+            knobs[twin] = replace(own, members=(*own.members, *partner.members))
     first = [knobs.pop(name) for name in _FIRST if name in knobs]
-    rest = [Knob(**(asdict(knob) | {"first": False})) for knob in knobs.values()]
+    rest = [replace(knob, first=False) for knob in knobs.values()]
     return [asdict(knob) | {"hint": _HINTS.get(knob.name, "")} for knob in (*_of_impact(scene, impact), *first, *rest)]
 
 
-@dataclass(frozen=True)
-class _Entry:
-    """A number under its dotted name."""
-
-    name: str
-    number: Number
-
-
-def _dotted(number: Number) -> _Entry:
-    return _Entry(number.name.replace("_", ".", 1), number)
-
-
-def _of_entry(scene: Scene, entry: _Entry) -> Knob:
-    name, number = entry.name, entry.number
+def _of_entry(scene: Scene, number: Number) -> Knob:
+    name = number.name.replace("_", ".", 1)
     unit, factor = _unit(scene, name, number.unit)
     radius = name in ("particles.radius", "partner.radius")
     label = _LABELS.get(name, name.partition(".")[2].replace("_", " ").capitalize())

@@ -132,13 +132,12 @@ def _is_contradicted(likelihood: Joint, free: FreeEntries, best: Optimum) -> boo
 def log_likelihood(
     scene: Scene | str | Path | Sequence[Scene | str | Path], data: Any, free: Sequence[str] | str, *,
     prior: Mapping[str, str] | None = None, own: Sequence[str] | str | Mapping[str, Sequence[str]] = (),
-    rtol: float = RTOL, resolution: Resolution | None = None,
+    rtol: float = RTOL,
 ) -> LogLikelihood:  # fmt: skip
     """The log-density of a fit and its gradient as a plain function, for samplers and optimisers of one's own.
 
     Arguments:
         scene, data, free, prior, own, rtol: as of `fit`. Lines through the scatter are turned for the scene's values.
-        resolution: of the integrals.
 
     Returns:
         LogLikelihood: a function of a mapping or sequence of values, SI.
@@ -154,7 +153,7 @@ def log_likelihood(
     parts, entries = problem(scene, data, free, prior, own, check_rtol(rtol))
     likelihood = Joint(parts, entries.names, rtol)
     likelihood.aim(entries.values(entries.start))
-    return LogLikelihood(Objective(likelihood, entries, resolution or Resolution(approximate=False)))
+    return LogLikelihood(Objective(likelihood, entries, Resolution(approximate=False)))
 
 
 class LogLikelihood:

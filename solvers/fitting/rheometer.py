@@ -45,10 +45,10 @@ def flow_curve_of(source: str | Path) -> tuple[np.ndarray, np.ndarray]:
         raise InputError("CURVE.csv", str(source), _ACCEPTED, "has no line that names a shear rate and a viscosity")
     factors, first = {}, line + 1
     for kind, place in places.items():
-        unit = _unit(rows[line][place])
+        unit = _parts(rows[line][place])[1]
         while not unit and first < len(rows) and not _numbers(rows[first], places):
             below = rows[first][place] if place < len(rows[first]) else ""
-            unit = _unit(below) or below.strip()
+            unit = _parts(below)[1] or below.strip()
             first += 0 if unit else 1
         factors[kind] = _factor(unit, kind, rows[line][place])
     values = [numbers for row in rows[line + 1 :] if (numbers := _numbers(row, places))]
@@ -98,10 +98,6 @@ def _parts(cell: str) -> tuple[str, str]:
     match = _HEAD.fullmatch(cell)
     assert match is not None
     return match["name"].strip(), (match["unit"] or match["plain"] or "").strip()
-
-
-def _unit(cell: str) -> str:
-    return _parts(cell)[1]
 
 
 def _factor(unit: str, kind: str, name: str) -> float:

@@ -5,17 +5,15 @@ name before use; an entry that disagrees is removed, with a remark, and made aga
 the entries, moved into place and never changed, so several processes may write at once. A library is loaded from a
 verified copy that is removed at once, so later changes of the file do not affect a running process.
 
-A folder that other users can write to is refused, because its content is executed. If no folder can be written, entries
-go to a private temporary folder that is removed with the process, with one remark.
+A folder that other users can write to is refused, because its content is executed. What the folder does not take stays
+in memory as long as the process runs, with one remark.
 """
 
-import atexit
 import errno
 import hashlib
 import itertools
 import os
 import stat
-import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from functools import lru_cache
@@ -29,14 +27,12 @@ from .thread_caches import Locks
 Loaded = TypeVar("Loaded")
 
 _NAMED = "WETDOUBLET_CACHE"
-_PRIVATE = "WETDOUBLET_PRIVATE_CACHE"  # environment variable that passes the folder of this run to workers
 _MAKING = ".new-"  # prefix of temporary files and folders; `.making-` is what older versions remove
 _DIGITS = 32  # hexadecimal digits of the digest in a name
 _LARGEST = 1 << 28  # bytes; larger than any entry
 _ROOM = 16 << 20  # bytes; ample for a compilation
 _PROBE = bytes(1 << 18)  # content of a trial entry, larger than most
-_REFUSED: set[Path] = set()  # folders whose failure was reported
-_LOCK = threading.RLock()
+_MEMORY: dict[str, bytes] = {}  # entries that the folder did not take
 _BY_NAME = Locks()
 
 
@@ -66,26 +62,27 @@ def fetch(name: str, make: Callable[[], bytes]) -> bytes:
         content = lookup(name)
         if content is None:
             content = make()
-            _put(name, content)
+            if reason := _write_failure(name, content):
+                _MEMORY[name] = content
+                say_once(f"{folder()}: {reason}; what is derived or compiled is kept in memory while this runs")
         return content
 
 
 def lookup(name: str) -> bytes | None:
     """The content of the entry of that name; None if it is missing or damaged."""
     stem, _, suffix = name.rpartition(".")
-    for shelf in _shelves():
-        for file in _names(shelf):
-            first, _, digest = file.removesuffix(f".{suffix}").rpartition(".")
-            if first == stem and file.endswith(f".{suffix}"):
-                content = _verified(shelf / file, digest)
-                if content is not None:
-                    return content
-    return None
+    for file in _names():
+        first, _, digest = file.removesuffix(f".{suffix}").rpartition(".")
+        if first == stem and file.endswith(f".{suffix}"):
+            content = _verified(folder() / file, digest)
+            if content is not None:
+                return content
+    return _MEMORY.get(name)
 
 
 def has(prefix: str) -> bool:
     """True if an entry's name begins with `prefix`; the entry is not read."""
-    return any(name.startswith(prefix) for shelf in _shelves() for name in _names(shelf))
+    return any(name.startswith(prefix) for name in (*_names(), *_MEMORY))
 
 
 def loaded(content: bytes, opened: Callable[[str], Loaded]) -> Loaded:
@@ -175,18 +172,11 @@ def _write_new(path: Path, content: bytes) -> None:
 # ---- reading
 
 
-def _shelves() -> Iterator[Path]:
-    """Folders with entries: the user's, and the temporary one of this run if any."""
-    private = os.environ.get(_PRIVATE)
-    for shelf in (folder(), *([Path(private)] if private else [])):
-        with suppress(OSError):
-            _check_private(shelf)
-            yield shelf
-
-
-def _names(shelf: Path) -> list[str]:
+def _names() -> list[str]:
+    """Names of the files in the user's folder; none where it is not there, or others can write to it."""
     try:
-        return os.listdir(shelf)  # noqa: PTH208 # names, of which there may be thousands
+        _check_private(folder())
+        return os.listdir(folder())  # noqa: PTH208 # names, of which there may be thousands
     except OSError:
         return []
 
@@ -237,74 +227,23 @@ def _alone(status: os.stat_result) -> bool:
 # ---- writing
 
 
-def settle() -> None:
-    """Determine where entries can be written before workers start, which share that folder but report nothing."""
-    with _LOCK:
-        if folder() not in _REFUSED and (reason := why_unwritable()):
-            _refuse(reason, os.environ.get(_PRIVATE) or _put_in_private_folder("", _PROBE))
-
-
 def why_unwritable() -> str:
     """Why the user's folder cannot be written; "" if it can."""
-    return _write_failure(folder(), "", _PROBE)
+    return _write_failure("", _PROBE)
 
 
-def _put(name: str, content: bytes) -> None:
-    """Write an entry to the first folder that accepts it."""
-    with _LOCK:
-        refused = folder() in _REFUSED
-        reason = "" if refused else _write_failure(folder(), name, content)
-        if not refused and not reason:
-            return
-        private = os.environ.get(_PRIVATE)
-        usable = private and not _write_failure(Path(private), name, content)
-        where = private if usable else _put_in_private_folder(name, content)
-        if not refused:
-            _refuse(reason, where)
-
-
-def _refuse(reason: str, where: str | None) -> None:
-    """Remember and say once that the user's folder cannot be written."""
-    _REFUSED.add(folder())
-    place = "not kept" if where is None else f"kept in {where} while this runs"
-    say(f"{folder()}: {reason}; what is derived or compiled is {place}")
-
-
-def _write_failure(place: Path, name: str, content: bytes) -> str:
+def _write_failure(name: str, content: bytes) -> str:
     """Write an entry; returns why that failed, or "" if it did not. With an empty name only test the folder."""
     stem, _, suffix = name.rpartition(".")
-    file = place / f"{_MAKING}{os.urandom(8).hex()}"
+    file = folder() / f"{_MAKING}{os.urandom(8).hex()}"
     try:
-        _check_private(place, create=place == folder())
+        _check_private(folder(), create=True)
         try:
             _write_new(file, content)
             if name:
-                file.replace(place / f"{stem}.{digest_of(content)}.{suffix}")
+                file.replace(folder() / f"{stem}.{digest_of(content)}.{suffix}")
         finally:
             file.unlink(missing_ok=True)
     except OSError as error:
         return error.strerror or str(error)
     return ""
-
-
-def _put_in_private_folder(name: str, content: bytes) -> str | None:
-    """Create a private folder for this run and write an entry there; returns its path, None if that fails."""
-    import shutil
-    import tempfile
-
-    for root in _temporary():
-        with suppress(OSError):
-            place = tempfile.mkdtemp(prefix="wetdoublet-cache-", dir=root)
-            if not _write_failure(Path(place), name, content):
-                os.environ[_PRIVATE] = place
-                atexit.register(_leave, place, os.getpid())
-                return place
-            shutil.rmtree(place, ignore_errors=True)
-    return None
-
-
-def _leave(place: str, owner: int) -> None:
-    import shutil
-
-    if os.getpid() == owner:  # not a forked child
-        shutil.rmtree(place, ignore_errors=True)

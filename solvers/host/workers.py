@@ -12,13 +12,11 @@ from typing import Any, TypeVar
 
 from ..errors import ComputationError
 from .remarks import silence_workers
-from .user_cache import settle
 
 K = TypeVar("K")
 R = TypeVar("R")
 _LOOK = 0.2  # s between checks for the parent
 _PR_SET_PDEATHSIG = 1
-_LASTING = threading.Lock()  # of the lasting pool
 
 
 @contextmanager
@@ -26,8 +24,7 @@ def workers(count: int, env: Mapping[str, str] | None = None) -> Iterator[Any]:
     """A pool of `count` processes for the calling thread; they are killed if an exception leaves the context."""
     from loky import ProcessPoolExecutor  # starts workers without importing the caller's script
 
-    settle()
-    pool = ProcessPoolExecutor(max_workers=count, initializer=_begin, initargs=(os.getpid(), True), env=env)
+    pool = ProcessPoolExecutor(max_workers=count, initializer=_begin, initargs=(os.getpid(),), env=env)
     done = False
     try:
         yield pool
@@ -69,30 +66,6 @@ def in_workers(cores: int, run: Callable[..., R], parts: Iterable[tuple[K, tuple
 
 
 @contextmanager
-def lasting_workers(count: int) -> Iterator[Any]:
-    """A pool that is kept for the next caller; killed if an exception leaves the context.
-
-    There is one such pool; while a thread uses it, other threads get temporary ones.
-    """
-    if not _LASTING.acquire(blocking=False):
-        with workers(count) as pool:
-            yield pool
-        return
-    try:
-        from loky import get_reusable_executor
-
-        settle()
-        pool = get_reusable_executor(max_workers=count, initializer=_begin, initargs=(os.getpid(), False))
-        try:
-            yield pool
-        except BaseException:
-            pool.shutdown(wait=True, kill_workers=True)
-            raise
-    finally:
-        _LASTING.release()
-
-
-@contextmanager
 def undisturbed() -> Iterator[None]:
     """Block Ctrl-C and SIGTERM in this process and in the processes that it starts meanwhile."""
     if not hasattr(signal, "pthread_sigmask"):
@@ -105,18 +78,13 @@ def undisturbed() -> Iterator[None]:
         signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
-def _begin(parent: int, bound: bool) -> None:
-    """Initialise a worker: ignore interrupts, suppress remarks, end with the parent process.
-
-    Arguments:
-        parent: process id of the parent.
-        bound: True if the starting thread outlives the worker.
-    """
+def _begin(parent: int) -> None:
+    """Initialise a worker: ignore interrupts, suppress remarks, end with the parent process, whose id is given."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     if hasattr(signal, "pthread_sigmask"):
         signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGTERM})
     silence_workers()
-    if bound and sys.platform == "linux":  # immediate even in a long computation; sent when the starting *thread* ends
+    if sys.platform == "linux":  # immediate even in a long computation; sent when the starting *thread* ends
         ctypes.CDLL(None).prctl(_PR_SET_PDEATHSIG, signal.SIGKILL, 0, 0, 0)
     threading.Thread(target=_watch, args=(parent,), daemon=True).start()
 

@@ -344,26 +344,25 @@ def _names_an_address(file: str) -> bool:
 
 
 @contextmanager
-def connected(scheduler: Any, label: str = "client") -> Iterator[Client]:
+def connected(scheduler: Any) -> Iterator[Client]:
     """A client of the scheduler; what is opened or started for it is closed at the end.
 
     Arguments:
         scheduler: a client, which stays open; an address; a scheduler's file; `local` or `local:N` for N processes on
             this machine, by default one for each core.
-        label: argument or option that names the scheduler.
 
     Raises:
         InputError: it is no scheduler, or is not reachable.
         ComputationError: dask.distributed is not installed.
     """
-    checked = check_scheduler(scheduler, label)
+    checked = check_scheduler(scheduler, "client")
     if not isinstance(checked, str):
         yield checked
         return
     try:
         from distributed import Client, LocalCluster
     except ImportError:
-        raise ComputationError(f"{label} needs dask.distributed", advice=install_extra("cluster")) from None
+        raise ComputationError("client needs dask.distributed", advice=install_extra("cluster")) from None
     from multiprocessing.resource_tracker import ensure_running
 
     with ExitStack() as opened:
@@ -391,7 +390,7 @@ def connected(scheduler: Any, label: str = "client") -> Iterator[Client]:
             client = opened.enter_context(Client(scheduler_file=checked) if file else Client(checked))
         except (OSError, ValueError) as error:
             message = " ".join(str(error).split())
-            raise InputError(label, scheduler, ACCEPTED, f"is not reachable ({message[:120]})") from None
+            raise InputError("client", scheduler, ACCEPTED, f"is not reachable ({message[:120]})") from None
         yield client
 
 

@@ -148,7 +148,7 @@ def _pair(data: xarray.Dataset, curves: Curves) -> Figure:
         _frame(axes, data, left_most=axes is left)
         _exact(axes, curves.get(0, ()))
         _failed(axes, data)
-    draw_contours(right, data, [level for level in _LEVELS if level == 1 or level > top])
+    _contours(right, data, [level for level in _LEVELS if level == 1 or level > top])
     right.tick_params(labelleft=False)
     _legend(figure.add_subplot(grid[0, :]), _handles(data, curves), _WIDTH)
     return figure
@@ -187,7 +187,7 @@ def _multiples(data: xarray.Dataset, varied: list[str], curves: Curves) -> tuple
         _frame(axes, panel, left_most, lowest)
         _exact(axes, curves.get(place, ()))
         _failed(axes, panel)
-        draw_contours(axes, panel, _LEVELS)
+        _contours(axes, panel, _LEVELS)
         axes.tick_params(labelleft=left_most, labelbottom=lowest)
     lines = Line2D([], [], color=INK, linewidth=0.9, label="normal restitution $e_n$")
     _legend(figure.add_subplot(grid[0, :]), [*_handles(data, curves), lines], figure.get_figwidth())
@@ -260,52 +260,19 @@ def _failed(axes: Axes, data: xarray.Dataset) -> None:
         axes.plot(x, y, clip_on=False, zorder=5, **_CROSS | {"markersize": max(2.0, min(6.0, 90 / max(outcome.shape)))})
 
 
-def draw_contours(axes: Axes, data: xarray.Dataset, levels: Sequence[float]) -> None:
-    """Draw labelled contours of restitution, separately for each outcome because it jumps between them.
-
-    Only those on which there is room for the label: others would lie too close to each other to be told apart.
-    """
+def _contours(axes: Axes, data: xarray.Dataset, levels: Sequence[float]) -> None:
+    """Draw labelled contours of restitution, separately for each outcome because it jumps between them."""
     outcome, restitution = _upright(data, "outcome"), _upright(data, "restitution")
     x, y = np.degrees(data["angle"].values), data[_vertical(data)].values
-    taken: list[np.ndarray] = []
     for k in (1, 2):
         values = np.ma.masked_where(outcome != k, restitution)
         if min(values.shape) < 2 or values.count() < 4:
             continue
-        wanted = [level for level in levels if values.min() < level < values.max()]
-        if wanted:
-            lines = axes.contour(x, y, values, wanted)
-            pieces = dict(zip(wanted, lines.allsegs, strict=True))
-            lines.remove()
-            for level in sorted(wanted, key=lambda level: level != 1):
-                if _label(axes, f"{level:g}", pieces[level], taken):
-                    style: Any = {"linewidths": 1.4 if level == 1 else 0.9, "path_effects": [halo()], "zorder": 4}
-                    axes.contour(x, y, values, [level], colors=INK, **style)
-
-
-_SHORTEST, _NEAREST, _MARGIN = 0.1, 0.075, 0.05  # of a line with a label; of labels; of a label and the frame
-
-
-def _label(axes: Axes, text: str, pieces: Sequence[np.ndarray], taken: list[np.ndarray]) -> bool:
-    """Write a label on the longest piece of a contour, clear of other labels and of the frame; False without room."""
-    best, length = None, _SHORTEST
-    for piece in pieces:
-        places = axes.transAxes.inverted().transform(axes.transData.transform(piece))
-        steps = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(places, axis=0).T))])
-        if steps[-1] > length:
-            best, length = (places, steps), steps[-1]
-    if best is None:
-        return False
-    places, steps = best
-    for share in (0.5, 0.35, 0.65, 0.2, 0.8):
-        place = np.array([np.interp(share * length, steps, along) for along in places.T])
-        clear = all(np.hypot(*(place - other)) > _NEAREST for other in taken)
-        if clear and (place > _MARGIN).all() and (place < 1 - _MARGIN).all():
-            taken.append(place)
-            style: Any = {"ha": "center", "va": "center", "fontsize": 8, "color": INK, "path_effects": [halo(3)]}
-            axes.text(float(place[0]), float(place[1]), text, transform=axes.transAxes, zorder=5, **style)
-            return True
-    return False
+        if wanted := [level for level in levels if values.min() < level < values.max()]:
+            widths = [1.4 if level == 1 else 0.9 for level in wanted]
+            lines = axes.contour(x, y, values, wanted, colors=INK, linewidths=widths, path_effects=[halo()], zorder=4)
+            for label in axes.clabel(lines, fmt="%g", fontsize=8):
+                label.set_path_effects([halo(3)])
 
 
 def _frame(axes: Axes, data: xarray.Dataset, left_most: bool, lowest: bool = True) -> None:

@@ -94,8 +94,8 @@ class BoundarySensitivities(Drawn):
             [self.boundaries.change_dict(shift.change, angle) | shift.to_dict() for shift in line]
             for angle, line in zip(self.angles, self.changes, strict=True)
         ]
-        scene = self.boundaries.scene
-        units = {name: scene.fields[name].unit or "1" for name in self.parameters} if scene else {}
+        fields = self.boundaries.scene.fields
+        units = {name: fields[name].unit or "1" for name in self.parameters}
         return {"angles": list(self.angles), "changes": changes} | self.boundaries.origin(angles="rad", **units)
 
     def to_dataset(self) -> xarray.Dataset:

@@ -15,18 +15,16 @@ from ..host.pictures import Drawn
 from ..results import DEFINITIONS
 from ..scene.held import NAMES
 from ..scene.origin import Recorded, provenance
-from ..scene.schema import SPEEDS
 from .parameters import Row, cell
 
 if TYPE_CHECKING:
     import xarray
 
     from ..scene.scene import Scene
-    from .boundaries import BoundarySensitivities
 
 _STICK_NOTES = (
     "a stick: its restitution is 0, and nothing else of it is defined, up to the boundary of sticking;",
-    "that boundary and its sensitivities: `wetdoublet boundary SCENE --angle A --wrt NAMES`, or .boundary() in Python",
+    "that boundary and its sensitivities: `wetdoublet boundary SCENE --angle A --wrt NAMES`, `boundary_sensitivities`",
 )
 _ABOUT = ("outcome", "method", "engine", "hold")
 _SHOWN = 5  # most quantities side by side
@@ -91,28 +89,6 @@ class Sensitivities(Recorded, Drawn, NotebookTable):
         """Units of the quantities and the parameters."""
         entries = self.scene.fields
         return {y: DEFINITIONS[y].unit for y in self.value} | {p: entries[p].unit or "1" for p in self.parameters}
-
-    def boundary(self) -> BoundarySensitivities:
-        """The boundaries at this impact angle, and how they move with the same parameters.
-
-        A stick has no derivatives of its own: its restitution is 0 up to the boundary where it ceases to stick.
-
-        Returns:
-            BoundarySensitivities: the changes of outcome in ascending order of the Stokes number.
-
-        Raises:
-            ComputationError: a boundary could not be traced.
-
-        Example:
-            >>> from wetdoublet.solvers import sensitivities
-            >>> stick = sensitivities("granulation", wrt="liquid.viscosity", stokes=0.01, angle="60 deg")
-            >>> stick.outcome, stick.boundary().changes[0][0].change.before
-            ('stick', 'stick')
-        """
-        from .boundaries import boundary_sensitivities
-
-        names = [name for name in self.parameters if name not in SPEEDS]
-        return boundary_sensitivities(self.scene, angle=self.scene.angle, wrt=names or None)
 
     def to_dataset(self) -> xarray.Dataset:
         """Dataset of value, gradient and elasticity over `quantity` and `parameter`; NaN for None. Imports xarray."""
