@@ -26,7 +26,7 @@ _SIZES = {"radius", "diameter", "reduced_radius", "mass", "density", "reduced_ma
 _PAGE = """<!doctype html>
 <html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width,initial-scale=1">
 <meta http-equiv="Content-Security-Policy" content="default-src 'none'; script-src 'sha256-{script_digest}' \
-'wasm-unsafe-eval' blob:; worker-src blob:; style-src 'unsafe-inline'">
+'wasm-unsafe-eval' blob:; worker-src blob:; style-src 'unsafe-inline'; img-src data: blob:">
 <title>wetdoublet: {name}</title><style>{style}</style></head>
 <body><header><h1>{title}</h1>
 <p><span>{about}</span> Turn a knob, or pick an impact in the map. Everything is computed in this page, by

@@ -128,6 +128,10 @@ export class Curves {
   mark(time: number): void {
     this.plots.forEach((plot, k) => (this.heads[k]!.style.left = `${plot.valToPos(Math.min(time, this.path!.end) / this.unit, "x")}px`));
   }
+
+  get canvases(): HTMLCanvasElement[] {
+    return this.plots.map((each) => each.ctx.canvas);
+  }
 }
 
 /** Zero and the powers of ten between two times; with their halves and fifths where these are few. */

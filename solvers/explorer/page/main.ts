@@ -1,4 +1,4 @@
-// The page: knobs, map, answer, doublet, curves; and what goes out of it (address, TOML, Python).
+// The page: knobs, map, answer, doublet, curves; and what goes out of it (address, TOML, Python, pictures).
 import "uplot/dist/uPlot.min.css";
 import "./style.css";
 import { isBadInput, Law, unpacked, type Collision, type Impact } from "./law";
@@ -12,6 +12,7 @@ import { geometry, Trajectory } from "./trajectory";
 import type { Knob, Scene, SpeedKind, State, Told } from "./scene";
 
 const SECONDS = 6; // of the animation at speed 1
+const TITLE = 20; // px above a panel of a saved picture
 const LISTED = 9; // events named below the curves
 const AFTER = 0.3; // of that, behind a separation
 const told = JSON.parse(document.getElementById("scene")!.textContent!) as Told;
@@ -178,7 +179,9 @@ class Page {
       el("div", { class: "buttons" },
         button("Copy link", () => this.copy(location.href)),
         button("Scene file (TOML)", () => this.copy(toml(this.state, scene, this.law), true)),
-        button("Line of Python", () => this.copy(python(this.state, scene, this.law), true))),
+        button("Line of Python", () => this.copy(python(this.state, scene, this.law), true)),
+        button("Picture, SVG", () => void this.picture("svg")),
+        button("Picture, PNG", () => void this.picture("png"))),
       this.code,
     );
     document.body.append(el("main", {}, controls, el("div", { class: "column middle" }, mapCard, answerCard, share), el("div", { class: "column" }, doubletCard, curvesCard)));
@@ -462,19 +465,22 @@ class Page {
     this.showEnergy(path, time);
   }
 
-  /** The ledger as it fills: what is there, what is stored, what is lost. */
+  /** The ledger as it fills: what is there, what is stored, what is lost; and why they may part faster than they came. */
   private showEnergy(path: Trajectory, time: number): void {
     if (scene.wall && !scene.ledger) return;
     const shares = path.ledger(path.at(Math.min(time, path.end)));
-    if (this.energy.querySelectorAll("li").length !== shares.length + 1)
+    const gains = Number.isFinite(path.overtakes);
+    if (this.energy.childElementCount !== (gains ? 4 : 3) || this.energy.querySelectorAll("li").length !== shares.length + 1)
       this.energy.replaceChildren(
         el("p", { class: "note" }, "Where the initial kinetic energy is now. In colour: in motion, or stored (below 0: given); striped: lost."),
         el("div", { class: "bar", "aria-hidden": "true" }, ...shares.map(([colour]) => el("i", { class: colour }))),
         el("ul", {}, ...shares.map(([colour, name]) => el("li", {}, el("i", { class: colour }), `${name} `, el("b"))), el("li", {}, "sum ", el("b"))),
+        ...(gains ? [el("p", { class: "note" })] : []),
       );
     const whole = shares.reduce((sum, [, , part]) => sum + Math.max(part, 0), 0);
     const bars = this.energy.querySelectorAll<HTMLElement>(".bar i");
     const numbers = [...this.energy.querySelectorAll("b")];
+    if (gains) this.energy.lastElementChild!.textContent = path.overtakes <= time ? "Now faster along the line of centres than it came: rotation has become normal motion." : "";
     shares.forEach(([, , part], k) => {
       bars[k]!.style.width = `${(100 * Math.max(part, 0)) / whole}%`;
       numbers[k]!.textContent = percent(part);
@@ -489,6 +495,51 @@ class Page {
     this.code.value = text;
     if (show) this.code.select();
     navigator.clipboard?.writeText(text).catch(() => undefined);
+  }
+
+  /** Map, doublet, curves and answer in one picture. */
+  private async picture(kind: "svg" | "png"): Promise<void> {
+    const canvases = [this.map.canvas, ...this.curves.canvases];
+    const titles = ["", ...[...document.querySelectorAll(".u-title")].map((each) => each.textContent!)];
+    const styled = this.doublet.svg.cloneNode(true) as SVGSVGElement;
+    const names = ["--liquid", "--first", "--second", "--ink", "--accent"];
+    const style = getComputedStyle(document.documentElement);
+    const resolve = (text: string): string => names.reduce((all, each) => all.replaceAll(`var(${each})`, style.getPropertyValue(each).trim()), text);
+    const sizes = canvases.map((each) => [each.width / devicePixelRatio, each.height / devicePixelRatio] as const);
+    const right = sizes.slice(1).reduce((sum, each) => sum + each[1] + TITLE, 0) + 320;
+    const width = sizes[0]![0] + Math.max(sizes[1]?.[0] ?? 0, 420) + 30;
+    const height = Math.max(sizes[0]![1] + 140, right) + 70;
+    const ink = style.getPropertyValue("--ink").trim();
+    const write = (text: string, x: number, y: number, weight = "normal"): string =>
+      `<text x="${x}" y="${y}" font-family="sans-serif" font-size="13" font-weight="${weight}" fill="${ink}">${el("p", {}, text).innerHTML}</text>`;
+    styled.setAttribute("x", `${sizes[0]![0] + 20}`);
+    styled.setAttribute("y", "40");
+    styled.setAttribute("width", "420");
+    styled.setAttribute("height", "300");
+    const words = `${this.title.textContent} ${this.said.textContent}`.match(new RegExp(`.{1,${Math.floor(sizes[0]![0] / 7)}}(\\s|$)`, "g")) ?? [];
+    let y = 350;
+    const images = canvases.map((each, k) => {
+      const [w, h] = sizes[k]!;
+      const place = k ? [sizes[0]![0] + 20, y] : [10, 40];
+      if (k) y += h + TITLE;
+      return `${k ? write(titles[k]!, sizes[0]![0] + 70, place[1]! - 4, "bold") : ""}<image x="${place[0]}" y="${place[1]}" width="${w}" height="${h}" href="${each.toDataURL()}"/>`;
+    });
+    const lines = words.map((each, k) => write(each, 14, sizes[0]![1] + 64 + 18 * k)).join("");
+    const head = `<rect width="100%" height="100%" fill="${style.getPropertyValue("--card")}"/>${write(`wetdoublet: ${scene.name}`, 14, 24, "bold")}${lines}`;
+    const drawn = resolve(styled.outerHTML).replaceAll('class="note"', `font-family="sans-serif" font-size="12" fill="${ink}"`);
+    const svg = `<svg xmlns="http://www.w3.org/2000/svg" width="${width}" height="${height}" viewBox="0 0 ${width} ${height}">${head}${images.join("")}${drawn}</svg>`;
+    let blob = new Blob([svg], { type: "image/svg+xml" });
+    if (kind === "png") {
+      const image = new Image();
+      image.src = `data:image/svg+xml;charset=utf-8,${encodeURIComponent(svg)}`;
+      await image.decode();
+      const canvas = el("canvas", { width: `${2 * width}`, height: `${2 * height}` });
+      canvas.getContext("2d")!.drawImage(image, 0, 0, 2 * width, 2 * height);
+      blob = await new Promise((resolve) => canvas.toBlob((made) => resolve(made!), "image/png"));
+    }
+    const link = el("a", { href: URL.createObjectURL(blob), download: `${scene.name}.${kind}` });
+    link.click();
+    setTimeout(() => URL.revokeObjectURL(link.href), 10000);
   }
 
   /** What tests read and do. */

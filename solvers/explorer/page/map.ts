@@ -233,6 +233,10 @@ export class RegimeMap {
       ctx.stroke();
     }
   }
+
+  get canvas(): HTMLCanvasElement {
+    return this.plot!.ctx.canvas;
+  }
 }
 
 /** The cell of an outcome that is farthest from others, apart from those near the sides; -1 if its region is narrow. */

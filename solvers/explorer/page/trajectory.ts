@@ -151,6 +151,12 @@ export class Trajectory {
     return initial ? [...motion, ...parts.filter((each) => each !== false)] : motion;
   }
 
+  /** The first time at which they part faster along the line of centres than they came; NaN if none. */
+  get overtakes(): number {
+    const k = this.columns.velocity.findIndex((each) => each > this.impact.speed);
+    return k < 0 ? NaN : this.columns.time[k]!;
+  }
+
   /** Shares of the initial kinetic energy: along the line of centres, around it or along the wall, of the spins. */
   energies = (frame: Frame): Energies => frame.motion.map((each) => each / this.whole) as Energies;
 
