@@ -11,7 +11,7 @@ import numpy as np
 _WIDE, _LEVELS = 3, 6  # levels of refinement about the most promising candidates, and in all
 _PROMISING = 24  # candidates around which finer ones are tried, beside those of the design
 _ROUNDS = 30
-_GAIN, _LOSS = (1e-6, 3e-3)  # of that logarithm: least worth an exchange, and what neighbours may cost by becoming one
+_GAIN, _LOSS = 1e-6, 3e-3  # of that logarithm: least worth an exchange, and what neighbours may cost by becoming one
 _AROUND = np.array([(i, j) for i in (-1, 0, 1) for j in (-1, 0, 1) if (i, j) != (0, 0)])
 
 

@@ -130,9 +130,11 @@ static iv exp_of_ends(double low, double high)
     const iv x = {-low, high}, sign = {-1.0, 1.0};
     iv sum = {-1.0, 1.05}, rest, scale;
     for (int i = 0; i < 2; i++) {
-        double n = floor(sign[i]*x[i]*1.4426950408889634);
-        while (rest[i] = x[i] - sign[i]*n*LN2_HIGH + iv_mul(iv_point(-n), LN2_LOW)[i], sign[i]*rest[i] < 0.0)
+        double n = floor(sign[i]*x[i]*1.4426950408889634) + 1.0;
+        do {
             n -= 1.0;
+            rest[i] = x[i] - sign[i]*n*LN2_HIGH + iv_mul(iv_point(-n), LN2_LOW)[i];
+        } while (sign[i]*rest[i] < 0.0);
         scale[i] = ldexp(1.0, (int)n);
     }
     for (int k = 16; k > 0; k--)
