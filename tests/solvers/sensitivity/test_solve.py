@@ -104,7 +104,7 @@ def test_the_command():
     assert record["gradients"][0]["restitution"] == pytest.approx(0.610114, rel=1e-5)
     for option, message in (
         ("liquid.viscosty=0.5:5 Pa s", "--free"), ("liquid.viscosity=0.5:5", "--free"), ("bridge.law=1:2", "--free"),
-        ("impact.stokes=0.1:0.2", "stokes"),
+        ("impact.stokes=0.1:0.2", "--stokes"),
     ):  # fmt: skip
         wrong = run(*arguments, "--free", option)
         assert wrong.exit_code == 2 and wrong.stderr.startswith(message)
