@@ -97,6 +97,7 @@ class _Smoothing:
         self._unfolded: dict[sp.Symbol, sp.Expr] = {}  # of them, those that were asked for: sums of many are long
         self.kinks: list[tuple[sp.Symbol, sp.Symbol]] = []
         self._sides: dict[sp.Expr, sp.Expr] = {}
+        self._jumps: set[sp.Symbol] = set()  # sides by which a value, and not only a slope, may change
 
     def __call__(self, node: sp.Expr) -> sp.Expr:
         if isinstance(node, sp.Piecewise):
@@ -109,7 +110,7 @@ class _Smoothing:
         if isinstance(node, sp.Abs):
             return self._side(arguments[0]) * arguments[0]
         if isinstance(node, sp.sign):
-            return self._side(arguments[0])
+            return 2 * self._step(arguments[0]) - 1
         if isinstance(node, sp.Heaviside):
             return self._step(arguments[0])
         if isinstance(node, (sp.Max, sp.Min)):
@@ -137,10 +138,19 @@ class _Smoothing:
         return expression.xreplace({symbol: self._unfolded[symbol] for symbol in symbols})
 
     def _side(self, inner: sp.Expr) -> sp.Expr:
-        """1 where an expression is positive and -1 where it is negative."""
+        """1 where an expression is positive and -1 where it is negative.
+
+        Of one that jumps it is that on either side of the jump: within WIDTH no number resolves where the jump is zero.
+        """
+        jump = min(self._jumps & self._within(inner), key=str, default=None)
+        if jump is not None:
+            upper, lower = (self._side(self._where(inner, jump, side)) for side in (1, -1))
+            return (1 + jump) / 2 * upper + (1 - jump) / 2 * lower
         factors = sp.Mul.make_args(sp.factor_terms(inner))
         sign = sp.Mul(*(sp.sign(factor) for factor in factors if factor.is_positive or factor.is_negative))
         rest = sp.Mul(*(factor for factor in factors if not (factor.is_positive or factor.is_negative)))
+        # in lowest terms a number of 16 digits makes a sum of 1e16, on whose kink no step would be short enough
+        rest = rest / max(1, *(abs(term.as_coeff_Mul()[0]) for term in sp.Add.make_args(rest)))
         if rest == 1 or rest.is_nonnegative:
             return sign
         if -rest in self._sides:
@@ -153,9 +163,25 @@ class _Smoothing:
                 self.kinks.append((kink, side))
         return sign * self._sides[rest]
 
+    def _within(self, expression: sp.Expr) -> set[sp.Symbol]:
+        """The symbols of an expression and of its named parts."""
+        symbols = set(expression.free_symbols)
+        for symbol, value in reversed(self.definitions):  # a part stands behind what it is made of
+            if symbol in symbols:
+                symbols |= value.free_symbols
+        return symbols
+
+    def _where(self, expression: sp.Expr, jump: sp.Symbol, side: int) -> sp.Expr:
+        """An expression, and its named parts, on one side of a jump."""
+        within, fixed = self._within(expression), {jump: sp.Integer(side)}
+        for symbol, value in list(self.definitions):
+            if symbol != jump and symbol in within and value.free_symbols & fixed.keys():
+                fixed[symbol] = self._named("part", value.xreplace(fixed))
+        return expression.xreplace(fixed)
+
     def _named(self, what: str, value: sp.Expr) -> sp.Expr:
         """A part with a name, which no expansion takes apart: differences keep their digits."""
-        if value.is_Symbol and what != "kink":
+        if (value.is_Symbol or value.is_number) and what != "kink":
             return value
         symbol = sp.Symbol(f"{what}_{len(self.definitions) + 1}", real=True)
         self.definitions.append((symbol, value))
@@ -168,7 +194,9 @@ class _Smoothing:
 
     def _step(self, inner: sp.Expr) -> sp.Expr:
         """1 where an expression is positive and 0 where it is negative."""
-        return (1 + self._side(inner)) / 2
+        side = self._side(inner)
+        self._jumps |= side.free_symbols
+        return (1 + side) / 2
 
     def _extreme(self, values: Iterable[sp.Expr], sign: int) -> sp.Expr:
         first, *others = values

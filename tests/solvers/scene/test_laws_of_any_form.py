@@ -172,6 +172,24 @@ def test_what_a_law_reads_and_the_scene_has_not_is_named(tmp_path: Path):
         collide(own)
 
 
+@pytest.mark.parametrize("kink", ["2 + sin(0.355 - 1.67)", "1.15"], ids=["a long number", "within the jump"])
+def test_a_largest_of_what_jumps_is_passed(kink: str, tmp_path: Path):
+    """At 1.05 x0 the second jumps from 1.05 to 1.27; the trajectory is that of the branches, written out."""
+    least, jumps = f"({kink})", "Piecewise(({}, x < 1.05*x0), ({}, True))"
+    forms = (
+        f"Max({least}, {jumps.format('x/x0', 'x/x0 + 0.22')})",
+        jumps.format(f"Piecewise(({least}, x/x0 < {least}), (x/x0, True))", "x/x0 + 0.22"),
+    )
+    laws = (f'law("attraction", "mine", force=(x0/x)**2*({form}))' for form in forms)
+    found, expected = (
+        collide(scene(tmp_path, law), stokes=0.215, angle="24 deg", rtol=1e-10, engine=engine)
+        for law, engine in zip(laws, ("taylor", "cvodes"), strict=True)
+    )
+    assert found.outcome == expected.outcome != "stick"
+    assert found.steps < 200
+    assert found.restitution == pytest.approx(expected.restitution, rel=1e-9)
+
+
 def test_a_kink_may_lie_at_a_multiple_of_the_film_thickness(tmp_path: Path):
     """The forms of a law are not compared on its kinks, where it has no slope."""
     body = 'kink = quantity("kink", unit="1", default="0.9")\n'
