@@ -44,7 +44,7 @@ def by_replay(
             partial(sequence_of, problem, until=until), choice, quadratures(model, ledger), plugin, rtol
         )
     except Stopped as stopped:
-        if not _confirmed(problem, rtol, plugin, until):
+        if not confirmed(problem, rtol, plugin, until):
             raise problem.in_si(stopped.error(plugin, model)) from None
         return collision(problem, rtol, ledger, trajectory, until)
     conserved = ledger and model.oblique and not (model.strings or model.wall)
@@ -70,7 +70,7 @@ def by_replay(
     )
 
 
-def _confirmed(problem: Problem, rtol: float, plugin: str, until: float | None) -> bool:
+def confirmed(problem: Problem, rtol: float, plugin: str, until: float | None = None) -> bool:
     """True if the kernel's trajectory, if it is not too long, agrees with the equations step by step."""
     try:
         ran = followed(problem, rtol, until, ledger=True, trajectory=True)

@@ -15,6 +15,7 @@ import numpy as np
 
 from ...generated.automaton import LAST_ANSWER, OUTCOMES, STICK
 from ..collision.by_kernel import followed, sequence_of
+from ..collision.by_replay import confirmed
 from ..engines.casadi.replay import Replay, Stopped, replayed
 from ..engines.casadi.sequence import EventSequence
 from ..engines.taylor.call import Impacts, run_kernel
@@ -27,6 +28,7 @@ from .ends import FAILED, OPEN, TERMS, TRANSVERSE, Ends, is_open, of_kernel, of_
 from .pairs import Pairs, dot, length
 
 _SLIDES = np.pi / 4  # slides as fast as it approaches
+_BEYOND = 1 + 1e-6  # times that of a decision: a contact there is then behind all motions, by every engine
 
 
 @dataclass
@@ -71,6 +73,9 @@ def _by_replay(impacts: Impacts, plugin: str, rtol: float, ledger: bool) -> Plan
             path, replay, model, p = _replayed(_problem(impacts, k), plugin, rtol, ledger)
         except WetDoubletError as error:
             result.reason[k] = str(error)
+            if confirmed(_problem(impacts, k), rtol, plugin):
+                for name, values in vars(_by_kernel(impacts.subset(slice(k, k + 1)), rtol, 1, ledger)).items():
+                    getattr(result, name)[k] = values[0]
             continue
         outputs = model.values("outputs", replay.y, p)
         outcome[k], result.certified[k] = OUTCOMES.index(path.outcome), path.certified
@@ -102,8 +107,12 @@ def _replayed(
 def _terms_at(n: Problem, engine: str, rtol: float, until: float) -> np.ndarray:
     """The terms of a stick's ledger at a time, s."""
     if engine != "taylor":
-        _, replay, model, p = _replayed(n, engine, rtol, True, until)
-        return of_replay(model, replay, p)
+        try:
+            _, replay, model, p = _replayed(n, engine, rtol, True, until)
+            return of_replay(model, replay, p)
+        except WetDoubletError:
+            if not confirmed(n, rtol, engine, until):
+                raise
     account = followed(n, rtol, until, ledger=True).ledger
     assert account is not None  # requested
     terms: np.ndarray = of_kernel(account)[0]
@@ -153,14 +162,14 @@ def beside_wall(pairs: Pairs, engine: str, rtol: float, threads: int, ledger: bo
         ends.slip[:] = np.where((first > 0) & (ends.outcome > 0), last / first, np.nan)
     if ledger:
         for k in np.flatnonzero(ends.outcome == OUTCOMES.index(STICK)):  # each was decided at a time of its own
-            ends.time[k] = max(motion.time[k] for motion in parts) * thickness / speed[k]
+            ends.time[k] = _BEYOND * max(motion.time[k] for motion in parts) * thickness / speed[k]
             for motion, impacts in zip(parts, planar, strict=True):
                 try:
                     motion.energy[k] = _terms_at(_problem(impacts, int(k)), engine, rtol, float(ends.time[k]))
                 except WetDoubletError as error:
                     ends.outcome[k], ends.certified[k], ends.reason[k] = FAILED, False, str(error)
         ends.energy[:] = _energies(pairs, sliding, rolling, [motion.energy for motion in parts])
-        wrong = is_open(ends.energy, ends.outcome > 0, rtol)
+        wrong = is_open(ends.energy, ends.outcome > FAILED, rtol)
         ends.outcome[wrong], ends.reason[wrong] = FAILED, OPEN
     return ends
 

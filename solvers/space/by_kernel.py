@@ -46,7 +46,7 @@ def by_kernel(pairs: Pairs, rtol: float, threads: int, ledger: bool = False) -> 
     if (which := np.flatnonzero(~planar)).size:
         ends.put(which, _in_space(pairs.subset(which), rtol, threads, ledger))
     if ledger:  # where it is open the trajectory is wrong
-        wrong = is_open(ends.energy, ends.outcome > 0, rtol)
+        wrong = is_open(ends.energy, ends.outcome > FAILED, rtol)
         ends.outcome[wrong], ends.reason[wrong] = FAILED, OPEN
     return ends
 

@@ -112,7 +112,7 @@ def _end(pair: Pairs, plugin: str, rtol: float, ledger: bool) -> Ends:
     if ledger:
         ends.energy[0] = n.energy * of_replay(model, replay, p)
         ends.energy[:, :2] += 0.0 if turns else spin_energy(pair, pair.spins)[0]
-        if is_open(ends.energy, ends.outcome > 0, rtol)[0]:
+        if is_open(ends.energy, ends.outcome > FAILED, rtol)[0]:
             raise ComputationError(OPEN)
     return ends
 

@@ -216,10 +216,10 @@ def residual(terms: np.ndarray) -> np.ndarray:
     return rest
 
 
-def is_open(terms: np.ndarray, separated: np.ndarray, rtol: float) -> np.ndarray:
-    """Mask of separated collisions whose residual says that the trajectory is wrong."""
+def is_open(terms: np.ndarray, decided: np.ndarray, rtol: float) -> np.ndarray:
+    """Mask of decided collisions whose residual says that the trajectory is wrong."""
     rest = np.abs(residual(terms))
-    mask: np.ndarray = separated & (rest > open_beyond(rtol) * np.maximum(np.abs(terms).max(axis=1), rest))
+    mask: np.ndarray = decided & (rest > open_beyond(rtol) * np.maximum(np.abs(terms).max(axis=1), rest))
     return mask
 
 

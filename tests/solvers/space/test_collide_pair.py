@@ -216,3 +216,35 @@ def test_it_closes_for_a_stick_beside_a_wall(engine):
     before = kinetic(WALL, moving, spins)
     assert float(found["energy.initial"]) == pytest.approx(before[0], rel=1e-12)
     assert abs(float(found["energy.residual"])) < 1e-8 * before[0]
+
+
+def test_a_contact_where_a_stick_is_decided_is_in_the_ledger():
+    """Beside a wall four planar collisions give it, which all end at one contact: it is behind all of them."""
+    scene = Scene.from_toml("""
+        particles.reduced_radius = "9.41138 um"
+        particles.density = "751.504 kg/m^3"
+        particles.roughness = "3.45053e-08 m"
+        particles.dry_restitution = 0.0663816
+        liquid.viscosity = "0.068371 Pa s"
+        liquid.film_thickness = "8.13022e-07 m"
+        liquid.glass_transition_pressure = "213240000000.0 Pa"
+        bridge.volume = 0.181138
+        bridge.contact_angle = "0 rad"
+        bridge.law = "soulie"
+        bridge.rupture = "common"
+        bridge.surface_tension = "324.729 uN/m"
+        attraction.hamaker = "2.19469e-13 J"
+        model = {film = "cavitating", tangential = "immersed"}
+        partner = {wall = true}
+    """)
+    normal = (0.9600173152314087, -0.07153808725872322, -0.2706456290562283)
+    velocities = ((22.951347780855663, 63.72047656598894, -80.286573095806), (0.0, 0.0, 0.0))
+    spins = ((2250550.809730682, -8149055.328729709, -2700031.604016313),)
+    kernel, other = (
+        values(collide_pair(scene, normal, velocities, spins, rtol=1e-10, ledger=True, engine=engine))
+        for engine in ("taylor", "rosenbrock")
+    )
+    assert kernel["outcome"] == other["outcome"] == OUTCOMES.index("stick")
+    assert kernel["energy.dry_contact"] > 0
+    for name in ("energy.dry_contact", "energy.final"):
+        assert kernel[name] == pytest.approx(other[name], rel=1e-6)
