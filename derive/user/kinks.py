@@ -149,8 +149,9 @@ class _Smoothing:
         factors = sp.Mul.make_args(sp.factor_terms(inner))
         sign = sp.Mul(*(sp.sign(factor) for factor in factors if factor.is_positive or factor.is_negative))
         rest = sp.Mul(*(factor for factor in factors if not (factor.is_positive or factor.is_negative)))
-        # in lowest terms a number of 16 digits makes a sum of 1e16, on whose kink no step would be short enough
-        rest = rest / max(1, *(abs(term.as_coeff_Mul()[0]) for term in sp.Add.make_args(rest)))
+        largest = max(abs(term.as_coeff_Mul()[0]) for term in sp.Add.make_args(rest))
+        if largest > 10**5:  # as of a number of 16 digits in lowest terms: WIDTH over it is lost in rounding
+            rest = rest / largest
         if rest == 1 or rest.is_nonnegative:
             return sign
         if -rest in self._sides:
