@@ -27,7 +27,7 @@ enum { PATIENCE = SPACE ? 25 : 100, PENALTY = SPACE ? 75 : 1000, COLUMNS = SPACE
 static const double WORTH = SPACE ? 10.0 : 25.0; /* least number of Taylor steps replaced by one, which costs 5 to 10 */
 static const double FLOOR = SPACE ? 1e-12 : 5e-14; /* relative rounding error of a state, amplified by extrapolation */
 static const double TICK = 2.3e-16;     /* relative: the next time that differs */
-static const double EXCITED = 0.1;    /* the same of friction in space: Taylor steps keep its slip off the creep, which a few damp */
+static const double EXCITED = 0.1;      /* as WORTH, where friction rests in space: Taylor steps excite its slip, a few of these damp it */
 static const double LEAST_TERM = 0.1; /* a smaller angle or loss counts as this: its rate is rounded like those of the large ones */
 static const double LEAST = 1e-300;    /* error allowed where a state is zero and stays so */
 static const double ESTIMATED = SPACE ? 20.0 : 1.0; /* times the tolerance: what the last column but one may err by */
@@ -79,6 +79,9 @@ enum { LAST_VECTOR = END_OF_VECTORS - 3 };
 #define LAST_OF(state) (LAST_VECTOR + ((state) - FIRST_VECTOR)%3)
 #define IN_LAST(state) ((state) >= LAST_VECTOR && (state) < END_OF_VECTORS)
 
+/* Friction changes every vector by `ratio` times what it does to the last one: row i of I - h J is row i less that times the
+ * row of the last vector, and the last vector's chief row is all of its rows along the line.
+ */
 static void begin_rows(slow *w, const vec *y)
 {
     vec change[STATES], square = splat(0.0), largest = square;
