@@ -110,7 +110,7 @@ class _Smoothing:
         if isinstance(node, sp.Abs):
             return self._side(arguments[0]) * arguments[0]
         if isinstance(node, sp.sign):
-            return 2 * self._step(arguments[0]) - 1
+            return self._side(arguments[0])
         if isinstance(node, sp.Heaviside):
             return self._step(arguments[0])
         if isinstance(node, (sp.Max, sp.Min)):
