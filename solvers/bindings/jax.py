@@ -28,6 +28,8 @@ def collide_many(
 ) -> Any:  # fmt: skip
     """Results of many collisions, differentiable by speeds, angles and the entries that vary.
 
+    Each call makes a `law`; where it is called again and again, as in training, take the function of `law` itself.
+
     Arguments:
         scene, of, rtol, undifferentiable: as for `law`.
         speed, angle, vary: normal speeds (m/s), angles (rad) and entries of the scene by dotted name (SI), arrays that
