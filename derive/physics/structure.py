@@ -94,11 +94,10 @@ def all_structures() -> tuple[Structure, ...]:
 def committed() -> tuple[Structure, ...]:
     """The structures emitted in advance; the others are derived when a scene first needs them.
 
-    Structures that combine more than one of strings, another attraction and a spreading film are left out, and those
-    with friction or in space.
+    Those of the paper, with unequal spheres and walls; not both bridge and strings.
     """
-    plain = (s for s in all_structures() if not s.friction and s.partner != "space")
-    return tuple(s for s in plain if s.strings + s.attraction + s.spread < 2)
+    plain = (s for s in all_structures() if not (s.friction or s.attraction or s.spread or s.partner == "space"))
+    return tuple(s for s in plain if not (s.bridge and s.strings))
 
 
 _EITHER = (False, True)

@@ -311,9 +311,28 @@ static inline vec glass_clearance(const constants *c, const vec *y)
     return glass_pressure_clearance_value(&c->glass, y[GAP], -y[NORMAL_VELOCITY]);
 }
 
-#include "shared/start_oblique_strings.h"
+/* State at initial contact. */
+static inline void start(const constants *c, vec *y)
+{
+    (void)c; (void)y;
+    y[GAP] = splat(1.0);
+    y[NORMAL_VELOCITY] = splat((-1.0));
+    y[ORBITAL_MOMENTUM] = c->initial_turning*((c->aspect + 4.0)*(c->aspect + 4.0));
+    y[SPIN] = c->initial_spin;
+    y[ROTATION] = splat(0.0);
+}
 
-#include "shared/rebound_oblique_strings.h"
+/* State just after a rebound: u -> -e_dry u; the other states are continuous. */
+static inline void rebound(const constants *c, const vec *y, vec *after)
+{
+    (void)c; (void)y;
+    vec normal_velocity_2 = c->normal_velocity_2_per_normal_velocity*y[NORMAL_VELOCITY];
+    after[GAP] = y[GAP];
+    after[NORMAL_VELOCITY] = normal_velocity_2;
+    after[ORBITAL_MOMENTUM] = y[ORBITAL_MOMENTUM];
+    after[SPIN] = y[SPIN];
+    after[ROTATION] = y[ROTATION];
+}
 
 /* Sum of the normal forces except the film's, over m v0^2/x0: positive inward. */
 static inline vec inward_force(const constants *c, const vec *y)
@@ -338,7 +357,31 @@ static inline vec inward_force(const constants *c, const vec *y)
     return inward_force;
 }
 
-#include "shared/stored_energy_oblique_strings.h"
+/* Energies of the state over m v0^2. Their sum. */
+static inline vec stored_energy(const constants *c, const vec *y)
+{
+    (void)c; (void)y;
+    vec distance = c->aspect*y[GAP] + 4.0;
+    vec distance_squared = distance*distance;
+    vec orbital_rate = y[ORBITAL_MOMENTUM]/distance_squared;
+    vec gap_squared = y[GAP]*y[GAP];
+    vec scaled_rotation = 0.5*y[ROTATION];
+    vec sine_of_scaled_rotation = vec_sin(scaled_rotation);
+    vec sine_of_scaled_rotation_squared = sine_of_scaled_rotation*sine_of_scaled_rotation;
+    vec distance_by_sine_of_scaled_rotation_squared = distance*sine_of_scaled_rotation_squared;
+    vec offset_squared = c->offset_squared_per_gap_squared*gap_squared +
+        4.0*distance_by_sine_of_scaled_rotation_squared;
+    vec orbital_rate_squared = orbital_rate*orbital_rate;
+    vec distance_squared_by_orbital_rate_squared = distance_squared*orbital_rate_squared;
+    vec normal_velocity_squared = y[NORMAL_VELOCITY]*y[NORMAL_VELOCITY];
+    vec spin_squared = y[SPIN]*y[SPIN];
+    vec strings_rise_law = strings_rise_value(&c->strings_rise_law, offset_squared);
+    vec energy =
+        c->energy_per_distance_squared_by_orbital_rate_squared*distance_squared_by_orbital_rate_squared +
+        0.5*normal_velocity_squared + c->energy_per_spin_squared*spin_squared +
+        c->energy_per_strings_rise_law*strings_rise_law;
+    return energy;
+}
 
 enum { OUTPUTS = 4 };
 /* Results for a separated doublet: restitutions, and rates over their scale. */

@@ -581,7 +581,26 @@ OUTLINE void expand_slopes(slopes *restrict s, const slope_constants *c, const s
     }
 }
 
-#include "shared/tangent_coefficients_oblique_strings.h"
+/* Coefficient k + 1 of a derivative of the states, with its source terms. */
+INLINE void tangent_coefficients(vec (*t)[TERMS], const slopes *s, const slope_constants *c, const series *of,
+    const constants *v, vec film, vec shear, const vec *const *source, int k)
+{
+    double next = 1.0/(k + 1);
+    (void)s; (void)c; (void)of; (void)v; (void)film; (void)shear;
+    t[GAP][k + 1] = (t[NORMAL_VELOCITY][k])*next;
+    t[NORMAL_VELOCITY][k + 1] = (product(s->normal_velocity_by_gap, t[GAP], k) +
+        product(s->normal_velocity_by_normal_velocity, t[NORMAL_VELOCITY], k) +
+        product(s->normal_velocity_by_orbital_momentum, t[ORBITAL_MOMENTUM], k) +
+        product(s->normal_velocity_by_rotation, t[ROTATION], k) + source[NORMAL_VELOCITY][k])*next;
+    t[ORBITAL_MOMENTUM][k + 1] = (product(s->orbital_momentum_by_gap, t[GAP], k) +
+        product(s->orbital_momentum_by_orbital_momentum, t[ORBITAL_MOMENTUM], k) +
+        product(s->orbital_momentum_by_spin, t[SPIN], k) + product(s->orbital_momentum_by_rotation,
+        t[ROTATION], k) + source[ORBITAL_MOMENTUM][k])*next;
+    t[SPIN][k + 1] = (product(s->spin_by_gap, t[GAP], k) + product(s->spin_by_orbital_momentum,
+        t[ORBITAL_MOMENTUM], k) + product(s->spin_by_spin, t[SPIN], k) + source[SPIN][k])*next;
+    t[ROTATION][k + 1] = (product(s->rotation_by_gap, t[GAP], k) + product(s->rotation_by_orbital_momentum,
+        t[ORBITAL_MOMENTUM], k) + source[ROTATION][k])*next;
+}
 
 /* Source terms of the derivatives by a group; zero ones are left unset. */
 static inline void sources(const slopes *s, const series *of, int group, const vec **source)
@@ -625,9 +644,44 @@ static inline vec contraction(const series *of, const constants *v, vec film, ve
         film*of->film_resistance_law.result[0])/v->stokes;
 }
 
-#include "shared/start_along_oblique_strings.h"
+/* Derivative of the initial state by a group. */
+static inline void start_along(const constants *v, int group, vec *after)
+{
+    (void)v;
+    after[GAP] = splat(0.0);
+    after[NORMAL_VELOCITY] = splat(0.0);
+    after[ORBITAL_MOMENTUM] = splat(0.0);
+    after[SPIN] = splat(0.0);
+    after[ROTATION] = splat(0.0);
+    switch (group) {
+    case BY_ASPECT:
+        after[ORBITAL_MOMENTUM] += 2.0*v->initial_turning*(v->aspect + 4.0);
+        break;
+    case BY_INITIAL_TURNING:
+        after[ORBITAL_MOMENTUM] += ((v->aspect + 4.0)*(v->aspect + 4.0));
+        break;
+    case BY_INITIAL_SPIN:
+        after[SPIN] += 1.0;
+        break;
+    }
+}
 
-#include "shared/rebound_along_oblique_strings.h"
+/* Derivative of the state just after a rebound. */
+static inline void rebound_along(const constants *v, const vec *y, const vec *t, int group, vec *after)
+{
+    (void)v;
+    (void)y;
+    after[GAP] = t[GAP];
+    after[NORMAL_VELOCITY] = -v->dry_restitution*t[NORMAL_VELOCITY];
+    after[ORBITAL_MOMENTUM] = t[ORBITAL_MOMENTUM];
+    after[SPIN] = t[SPIN];
+    after[ROTATION] = t[ROTATION];
+    switch (group) {
+    case BY_DRY_RESTITUTION:
+        after[NORMAL_VELOCITY] += -y[NORMAL_VELOCITY];
+        break;
+    }
+}
 
 #include "shared/outputs_along_oblique.h"
 
