@@ -5,9 +5,11 @@ Names are loaded on first use, so that a command pays only for what it needs.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from functools import wraps
 from importlib import import_module
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -45,42 +47,9 @@ if TYPE_CHECKING:
     from .sensitivity.uncertainty import band
     from .space.collide_pair import collide_pair
 
-_NAMES = {
-    "averages.averages": "collision_averages",
-    "boundaries.boundary": "atlas boundary",
-    "boundaries.result": "Atlas Boundaries",
-    "collision.collide": "collide",
-    "collision.result": "Collision",
-    "engines.kernels": "compile_kernels",
-    "errors": "CheckFailed ComputationError InputError ModelWarning WetDoubletError",
-    "explorer.page_of_scene": "Explorer explore",
-    "export.hybrid": "Equations equations",
-    "fitting.examine": "check_data",
-    "fitting.fit": "fit log_likelihood",
-    "fitting.flow_curve": "flow_curve",
-    "fitting.result": "Fit",
-    "fitting.tracks": "tracks",
-    "host.pictures": "plot",
-    "many.collide_many": "collide_many",
-    "many.regime_map": "regime_map",
-    "planning.design": "design",
-    "planning.result": "Design",
-    "engines.interval.prove": "Proof prove",
-    "proofs.proved_boundary": "ProvedBoundary prove_boundary",
-    "proofs.proved_map": "ProvedMap prove_map",
-    "scene.scene": "Scene",
-    "sensitivity.boundaries": "BoundarySensitivities boundary_sensitivities",
-    "sensitivity.critical": "critical",
-    "sensitivity.critical_speeds": "Critical",
-    "sensitivity.gradients_many": "gradients_many",
-    "sensitivity.pair_gradients": "pair_gradients",
-    "sensitivity.result": "Sensitivities",
-    "sensitivity.sensitivities": "sensitivities",
-    "sensitivity.solve": "solve",
-    "sensitivity.uncertainty": "band",
-    "space.collide_pair": "collide_pair",
-}
-_HOMES = {name: home for home, names in _NAMES.items() for name in names.split()}
+# Where each name is stands in the imports above, which are for type checkers alone: they are read here as text.
+_IMPORTS = re.findall(r"^    from \.(\S+) import (.+)$", Path(__file__).read_text(encoding="utf-8"), re.MULTILINE)
+_HOMES = {name: home for home, names in _IMPORTS for name in names.split(", ")}
 
 __all__ = [
     "Atlas", "Boundaries", "BoundarySensitivities", "CheckFailed", "Collision", "ComputationError", "Critical",
