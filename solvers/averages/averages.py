@@ -13,10 +13,9 @@ import numpy as np
 from ..engines.settings import RTOL, check_rtol
 from ..errors import InputError
 from ..host.arguments import check_function, check_name
-from ..host.cores import usable_cores
-from ..host.outputs import check_file
+from ..host.files import check_file
 from ..host.progress import Progress
-from ..host.workers import in_workers
+from ..host.workers import in_workers, usable_cores
 from ..many.arguments import checked_numbers, first_accepted
 from ..many.blocks import checkpoint
 from ..many.impacts import Block, fill, software

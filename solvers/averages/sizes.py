@@ -9,7 +9,7 @@ import numpy as np
 from ...generated.automaton import BOUNCE, LAST_ANSWER, OUTCOMES
 from ..changes.experiment import STEEPEST, UNDECIDED, Experiment, Rows
 from ..engines.settings import FEW, KERNEL_STEPS
-from ..host.cores import usable_cores
+from ..host.workers import usable_cores
 from ..many.by_kernel import rates_of
 from ..scene.scene import Scene
 from ..scene.schema import MEETING

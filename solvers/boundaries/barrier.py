@@ -18,7 +18,7 @@ import numpy as np
 from ...generated.automaton import SAFETY
 from ..engines.casadi.sequence import tangential_edge
 from ..model.model import Model
-from ..scene.contact import contact_gap
+from ..scene.groups import contact_gap
 
 _GAPS = 201
 _SHALLOW = 0.1  # largest depth in the film, relative to its thickness, of a shallow cycle

@@ -13,7 +13,7 @@ from ..changes.brackets import Brackets, enclose
 from ..engines.settings import KERNEL_STEPS
 from ..errors import ComputationError
 from ..model.dimensionless import nondimensionalise
-from ..scene.contact import GAPS
+from ..scene.groups import GAPS
 from ..scene.origin import Recorded
 from .samples import SAMPLE_BUDGET, answers
 from .scene_sampler import SceneSampler

@@ -10,7 +10,7 @@ from ...generated.automaton import LAST_ANSWER, Purpose
 from ..engines.taylor.call import run_kernel
 from ..engines.taylor.record import run_recorded
 from ..errors import ComputationError, InputError
-from ..host.cores import usable_cores
+from ..host.workers import usable_cores
 from ..many.arguments import ascending, checked_numbers, checked_vary
 from ..many.by_kernel import impacts_of
 from ..many.impacts import Impacts

@@ -12,7 +12,7 @@ import numpy as np
 
 from ...generated import scaling
 from ...generated.automaton import OUTCOMES
-from ..formatting.notebook import NotebookTable
+from ..formatting.tables import NotebookTable
 from ..host.pictures import Drawn
 from ..results import outcome_attributes
 from ..scene.origin import Recorded, origin, provenance

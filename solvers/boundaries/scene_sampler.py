@@ -14,8 +14,7 @@ from ..engines.taylor.record import run_recorded
 from ..errors import ComputationError, InputError
 from ..model.dimensionless import nondimensionalise
 from ..model.model import load, select_model
-from ..scene.contact import GAPS, NEVER_MET
-from ..scene.groups import formulas, si_values
+from ..scene.groups import GAPS, NEVER_MET, formulas, si_values
 from ..scene.scene import Scene
 from .barrier import Potential
 from .samples import SAMPLE, SAMPLE_BUDGET

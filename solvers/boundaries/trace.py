@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..errors import ComputationError
-from ..host.cores import usable_cores
+from ..host.workers import usable_cores
 from ..scene.scene import Scene
 from .changes import Change, changes_along
 from .samples import answers, first_grid, sampled

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass, fields
 
-from ..formatting.notebook import NotebookTable
+from ..formatting.tables import NotebookTable
 from ..host.pictures import Drawn
 from .budget import Budget
 from .outcome import Outcome

@@ -10,10 +10,11 @@ from collections.abc import Callable
 from contextlib import suppress
 from typing import Any, ClassVar, Self
 
-from ..host.progress import duration, forecast
 from ..host.remarks import say, underway
 
 _FIRST = 10.0  # s
+_WORTH = 2.0  # s that are left, from which a forecast is made
+_SAMPLE = 0.5  # s of work that a forecast is made from
 
 
 class Bar:
@@ -36,8 +37,7 @@ class Bar:
         self, unit: str, cheaper: str = "", *, factor: float = 1.0, at_least: bool = False,
         clock: Callable[[], float] = time.monotonic,
     ) -> None:  # fmt: skip
-        self.unit, self.clock = unit, clock
-        self._options: dict[str, Any] = {"cheaper": cheaper, "factor": factor, "at_least": at_least}
+        self.unit, self.cheaper, self.factor, self.at_least, self.clock = unit, cheaper, factor, at_least, clock
         self._first: tuple[int, float] | None = None
         self._forecast_written = False
         self.done = 0
@@ -72,11 +72,22 @@ class Bar:
         self.shown.update(done - self.shown.n)
 
     def forecast(self) -> str | None:
-        """How long the rest takes; None where that cannot be told yet."""
+        """How long the rest takes; None where that cannot be told yet, or where it is less than 2 s."""
         if self._first is None or self.total is None:
             return None
-        first, began = self._first
-        return forecast(self.done, self.total, self.clock() - began, self.unit, before=first, **self._options)
+        before, began = self._first
+        counted, seconds = self.done - before, self.clock() - began
+        if seconds < _SAMPLE or counted <= 0:
+            return None
+        rest = seconds * (self.total - self.done) / counted
+        if rest < _WORTH:
+            return None
+        word, about, bounds = "at least" if self.at_least else "about", "", ""
+        if self.factor > 1:
+            about, bounds = "about ", f" ({duration(rest / self.factor)} to {duration(rest * self.factor)})"
+        sample = f"{counted} of {about}{self.total - before} {self.unit} in {seconds:.1f} s"
+        line = f"{word} {duration(rest)} more{bounds}: {sample}"
+        return line + (f"; {self.cheaper}" if self.cheaper else "")
 
     def __enter__(self) -> Bar:
         return self
@@ -85,6 +96,14 @@ class Bar:
         Bar.latest = None
         if self.shown is not None:
             self.shown.close()
+
+
+def duration(seconds: float) -> str:
+    """Two digits of a duration, with its unit."""
+    for unit, size in (("h", 3600.0), ("min", 60.0)):
+        if seconds >= 2 * size:
+            return f"{float(f'{seconds / size:.2g}'):g} {unit}"
+    return f"{float(f'{seconds:.2g}'):g} s"
 
 
 class AtWork:

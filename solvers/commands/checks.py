@@ -10,8 +10,7 @@ import click
 
 from ..errors import CheckFailed
 from ..host.arguments import check_name, check_whole
-from ..host.files import write, write_all_in
-from ..host.outputs import check_file, check_folder
+from ..host.files import check_file, check_folder, write, write_all_in
 from ..scene.fields import Field, Range
 from .bar import Bar
 from .options import Request, Shown, json_text, refuse

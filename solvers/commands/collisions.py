@@ -11,7 +11,7 @@ import click
 
 from ..errors import CheckFailed, InputError
 from ..host import files
-from ..host.outputs import check_file
+from ..host.files import check_file
 from ..scene import units
 from ..scene.schema import FIELDS
 from . import texts

@@ -13,7 +13,7 @@ import click
 
 from ..engines.settings import check_engine, check_rtol
 from ..errors import InputError, excerpt
-from ..host import files, outputs
+from ..host import files
 from ..scene.fields import Field
 from ..scene.held import check_hold
 from ..scene.schema import FIELDS, SPEEDS, SPINS
@@ -50,20 +50,18 @@ class SceneRequest:
         cls,
         source: str | None,
         changes: Sequence[str] = (),
-        stokes: str | None = None,
-        speed: str | None = None,
-        angle: str | None = None,
-        relative_speed: str | None = None,
         model: str | None = None,
         hold: str | None = None,
         varies: bool = True,
+        **impact_texts: str | None,
     ) -> SceneRequest:
         """Return the checked request; InputError naming the first wrong option.
 
         Arguments:
             varies: the command varies entries itself, which --hold concerns as well.
+            impact_texts: of `impact_of`.
         """
-        typed = impact_of(stokes=stokes, speed=speed, relative_speed=relative_speed, angle=angle)
+        typed = impact_of(**impact_texts)
         impact = {key: with_degrees(FIELDS[f"impact.{key}"], text) for key, text in typed.items()}
         numbers(typed)
         if hold is not None:
@@ -160,9 +158,8 @@ def impact_of(**given: str | None) -> dict[str, str]:
     first, *more = [key for key in typed if key != "angle"] or [""]
     if more:
         accepted = "only one of " + ", ".join(flag(name.partition(".")[2]) for name in SPEEDS)
-        raise InputError(
-            flag(more[0]), typed[more[0]], accepted, f"is given together with {flag(first)} = {typed[first]}"
-        )
+        problem = f"is given together with {flag(first)} = {typed[first]}"
+        raise InputError(flag(more[0]), typed[more[0]], accepted, problem)
     return typed
 
 
@@ -199,14 +196,13 @@ SHARED |= options_of(
     --prior NAME=PRIOR: What is known of an entry, as particles.roughness="2 um +- 20 %"; repeatable.
 """.strip("\n")
 )
-_REPEATED = {"multiple": True}
-SHARED["changes"] = replace(SHARED["changes"], settings=_REPEATED)
-SHARED["uncertainty"] = replace(
-    SHARED["uncertainty"], read=lambda given: typed(assigned(_DEVIATION, given)), settings=_REPEATED
-)
-SHARED["prior"] = replace(SHARED["prior"], read=partial(assigned, _PRIOR), settings=_REPEATED)
-SHARED["rtol"] = replace(SHARED["rtol"], read=check_rtol)
-SHARED["engine"] = replace(SHARED["engine"], read=check_engine)
+for _name, _read in (
+    ("uncertainty", lambda given: typed(assigned(_DEVIATION, given))),
+    ("prior", partial(assigned, _PRIOR)),
+    ("rtol", check_rtol),
+    ("engine", check_engine),
+):
+    SHARED[_name] = replace(SHARED[_name], read=_read)
 _IMPACT = ("source", "stokes", "speed", "relative_speed", "angle", "changes", "hold", "model")
 
 
@@ -239,8 +235,8 @@ class Output:
     @classmethod
     def check(cls, as_json: bool = False, plot: str | None = None, output: str | None = None) -> Output:
         """Check the two files; InputError naming the option that cannot be written."""
-        picture = None if plot is None else outputs.check_file(plot, "--plot", outputs.PICTURES)
-        file = None if output is None else outputs.check_file(output, "-o")
+        picture = None if plot is None else files.check_file(plot, "--plot", files.PICTURES)
+        file = None if output is None else files.check_file(output, "-o")
         check_apart(file, picture, "--plot")
         return cls(as_json, picture, file)
 

@@ -10,9 +10,9 @@ from typing import Annotated, Any
 
 import click
 
+from ..engines.settings import MOST, MOST_STORED
 from ..errors import CheckFailed, ComputationError, InputError
-from ..host.outputs import check_file
-from ..scene.ranges import MOST, MOST_STORED, check_cells
+from ..host.files import check_file
 from ..scene.schema import FIELDS
 from . import texts
 from .bar import Bar
@@ -103,7 +103,7 @@ def map_(
 def _axes(impacts: Mapping[str, str], vary: Sequence[str], most: int) -> dict[str, Any]:
     """The axes of the impact, SI; InputError for the first wrong one."""
     ranges = {texts.flag(name): text for name, text in impacts.items()}
-    check_cells(ranges | {f"--vary {text.partition('=')[0]}": text for text in vary}, most)
+    texts.check_cells(ranges | {f"--vary {text.partition('=')[0]}": text for text in vary}, most)
     return texts.axes(impacts)
 
 

@@ -14,8 +14,7 @@ from ..engines.settings import check_rtol
 from ..errors import CheckFailed, InputError
 from ..host import bounded, files
 from ..host.arguments import check_name
-from ..host.files import differing, write_all_in
-from ..host.outputs import check_file
+from ..host.files import check_file, differing, write_all_in
 from ..scene.scenefile import PRESETS, description, read_text, template
 from .bar import Bar
 from .options import Changes, Request, Written, WrittenText, group, json_text, refuse, several
@@ -185,7 +184,7 @@ def explore(output: str, others: tuple[str, ...], request: Request) -> None:
 
     Options:
         -o FILE (output): File to write, .html.
-        --with SCENE (others): Another scene to choose from; may be repeated.
+        --with SCENE (others): Another scene to choose from; repeatable.
     """
     check_file(output, "-o", (".html", ".htm"))
     scene = request.scene(remark=True)
@@ -256,8 +255,7 @@ def _model(source: Path, folder: Path | None, check: bool) -> None:
 
     from ..host.emitted import deriving
     from ..host.user_cache import fetch, lookup
-    from ..scene.user_model_derived import derived_package, origin_of
-    from ..scene.user_model_source import key_of
+    from ..scene.user_model_source import derived_package, key_of, origin_of
 
     key = key_of(source.read_bytes() if source.is_file() else b"", origin_of(source, folder))
     before = lookup(key) if key and not check else None

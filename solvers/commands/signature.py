@@ -4,7 +4,7 @@ import ast
 import inspect
 import re
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from functools import partial
 from importlib import import_module
 from pathlib import Path
@@ -14,7 +14,7 @@ import click
 
 from ..engines.settings import UNTIL
 from ..errors import InputError
-from ..host import outputs
+from ..host import files
 from ..scene.schema import FIELDS
 from . import texts
 
@@ -26,9 +26,9 @@ _PUBLIC = r"^        (\w+): ((?:.|\n {12})*)"
 _FORMS: dict[str, Callable[[Any], Any]] = {
     "N": texts.whole,
     "NAMES": texts.names,
-    "DIR": partial(outputs.check_folder, label=""),
-    "FILE.png": partial(outputs.check_file, label="", suffixes=outputs.PICTURES),
-    "FILE.toml": partial(outputs.check_file, label="", suffixes=(".toml",)),
+    "DIR": partial(files.check_folder, label=""),
+    "FILE.png": partial(files.check_file, label="", suffixes=files.PICTURES),
+    "FILE.toml": partial(files.check_file, label="", suffixes=(".toml",)),
     "TIME": UNTIL.number,
 }
 """What reads a text, by what stands for it in the help."""
@@ -43,22 +43,24 @@ class Option:
         metavar: what stands for its value in the help; "" for an option without value.
         help: its line in the help.
         read: the value of the text, None for the text; an InputError of it without a field is about the option.
-        settings: further arguments of `click.Option` or `click.Argument`.
     """
 
     flag: str
     metavar: str = ""
     help: str = ""
     read: Callable[[Any], Any] | None = None
-    settings: Mapping[str, Any] = field(default_factory=dict)
 
     def parameter(self, name: str) -> click.Parameter:
         """The parameter of click."""
         if self.flag[0] != "-":  # not required by click, so that a wrong option is reported before a missing argument
-            form: dict[str, Any] = {"required": False, "shell_complete": _completed, **self.settings}
-            return click.Argument([name], metavar=self.flag, **form)
-        form = {"metavar": self.metavar, "shell_complete": _completed} if self.metavar else {"is_flag": True}
-        return click.Option([self.flag, name], help=self.help, **{**form, **self.settings})
+            many = -1 if "..." in self.flag else 1
+            return click.Argument([name], metavar=self.flag, required=False, nargs=many, shell_complete=_completed)
+        if not self.metavar:
+            return click.Option([self.flag, name], is_flag=True, help=self.help)
+        form: dict[str, Any] = {"metavar": self.metavar, "multiple": self.help.endswith("repeatable.")}
+        if self.metavar[0] == "[":  # of [N=500] the value may be absent
+            form |= {"is_flag": False, "flag_value": self.metavar[3:-1]}
+        return click.Option([self.flag, name], help=self.help, shell_complete=_completed, **form)
 
 
 _CHOICES = {
@@ -108,10 +110,9 @@ def command(public: str = "", **required: str) -> Callable[[Callable[..., None]]
     The docstring's last section has a line `--flag VALUE: help` for each option, `--flag VALUE (name): help` where the
     parameter has another name. Of an option that several commands have, the flag alone says the rest; a line without
     help has that of the public function's docstring, with the default of its signature. What stands for the value says
-    how it is read, unless the parameter's annotation does; `str` is the text as it is typed; of [N=500] the value may
-    be absent. Tuples and dictionaries are repeatable. What is absent is None; the function's `**` has those that are
-    present and no parameter of its own. An InputError about a parameter, of whatever function, is reported under its
-    option.
+    how it is read, unless the parameter's annotation does; `str` is the text as it is typed. An option whose help ends
+    in "repeatable." is. What is absent is None; the function's `**` has those that are present and no parameter of its
+    own. An InputError about a parameter, of whatever function, is reported under its option.
 
     Arguments:
         public: the file below solvers/ and its function that the command is of, `collision.collide:collide`.
@@ -204,11 +205,7 @@ def options_of(text: str, public: str = "") -> dict[str, Option]:
         name = name or flag.lstrip("-").replace("-", "_")
         plain = SHARED.get(name, Option(flag))
         meaning = meaning or plain.help or (_meaning(public, name) if public and flag[0] == "-" else "")
-        settings: dict[str, Any] = {"nargs": -1} if "..." in flag else {}
-        if metavar and metavar[0] == "[":
-            settings = {"is_flag": False, "flag_value": metavar[3:-1]}
-        settings = {**plain.settings, **settings}
-        options[name] = replace(plain, flag=flag, metavar=metavar or plain.metavar, help=meaning, settings=settings)
+        options[name] = replace(plain, flag=flag, metavar=metavar or plain.metavar, help=meaning)
     return options
 
 
@@ -231,13 +228,12 @@ def _meaning(public: str, name: str) -> str:
 def _read_by(name: str, option: Option, hint: Any) -> Option:
     """An option that is read as its annotation or its form says."""
     kind, *more = get_args(hint) if get_origin(hint) is Annotated else (hint,)
-    settings = {"multiple": True} if get_origin(kind) in (tuple, dict) or kind in (tuple, dict) else {}
     entry = FIELDS.get(f"impact.{name}")
     if more or kind is str or (str in get_args(kind) and get_origin(kind) is not list):
-        return replace(option, read=more[0] if more else None, settings={**option.settings, **settings})
+        return replace(option, read=more[0] if more else None)
     if option.read is None and entry is not None and option.metavar in ("RANGE", "LO:HI"):
         return replace(option, read=partial(texts.entry_range if option.metavar == "RANGE" else texts.span, entry))
-    return replace(option, read=option.read or _FORMS.get(option.metavar), settings={**option.settings, **settings})
+    return replace(option, read=option.read or _FORMS.get(option.metavar))
 
 
 def passed(**arguments: Any) -> dict[str, Any]:

@@ -3,12 +3,14 @@
 An InputError without a field is about the option that is read.
 """
 
+import math
+import re
 from collections.abc import Mapping, Sequence
 
+from ..engines.settings import MOST, most_collisions
 from ..errors import InputError, excerpt
 from ..scene import units
 from ..scene.fields import Field
-from ..scene.ranges import MOST, Ends, parse_range
 from ..scene.schema import FIELDS
 
 Range = tuple[float, float] | tuple[str, str]
@@ -84,8 +86,59 @@ def with_degrees(entry: Field, text: str) -> str:
 
 
 def entry_range(entry: Field, text: str, label: str = "", *, most: int = MOST) -> list[float]:
-    """The values (SI) of a range of an entry, either end of which may carry the unit; bare angles are in degrees."""
-    return parse_range(text, label, entry_ends(entry, label, text), unit=_in_units(entry), most=most)
+    """The values (SI) of a range of an entry, evenly spaced or evenly in the logarithm; InputError for anything else.
+
+    Arguments:
+        text: `LO:HI:N` or `log:LO:HI:N`, both ends included, N = 1 only with LO = HI; or a single value. Either end may
+            carry the unit; bare angles are in degrees.
+        most: largest number of values.
+    """
+    form = f"LO:HI:N or log:LO:HI:N {_in_units(entry)}".rstrip()
+    accepted = f"{form}, LO < HI and N >= 2 (or LO = HI and N = 1), or one value"
+    parts = text.split(":")
+    logarithmic = parts[0].strip() == "log"
+    if logarithmic:
+        parts = parts[1:]
+    if len(parts) == 1 and not logarithmic and parts[0].strip():
+        try:
+            return [_ends(entry, parts[0], parts[0], label, text)[0]]
+        except InputError as error:
+            raise InputError(label, text, f"{error.accepted}, or a range LO:HI:N, log:LO:HI:N", error.problem) from None
+    if len(parts) != 3 or not re.fullmatch(r"\s*[0-9]{1,30}\s*", parts[2], re.ASCII):
+        raise InputError(label, text, accepted, "is not a range")
+    low, high = _ends(entry, parts[0], parts[1], label, text)
+    count = int(parts[2])
+    if count > most:
+        raise InputError(label, text, f"{accepted}, N at most {most}", "has too many values")
+    if low > high or count < 1 or (count == 1) != (low == high):
+        raise InputError(label, text, accepted, "is not a range")
+    if logarithmic and low <= 0:
+        raise InputError(label, text, accepted + ", LO > 0 for log", "has no logarithm")
+    if count == 1:
+        return [low]
+    steps = (i / (count - 1) for i in range(1, count - 1))
+    if logarithmic:
+        log_low, log_high = math.log(low), math.log(high)
+        inner = [math.exp(log_low + s * (log_high - log_low)) for s in steps]
+    else:
+        inner = [low + s * (high - low) for s in steps]
+    return [low, *inner, high]  # the ends exactly as given, without rounding
+
+
+def check_cells(ranges: Mapping[str, str], most: int) -> None:
+    """Raise InputError if the product of the ranges' counts exceeds what a map can hold, before allocating any.
+
+    Arguments:
+        ranges: option -> its range; malformed ranges are ignored here and reported by `entry_range`.
+        most: collisions in all.
+    """
+    cells, sizes = 1, []
+    for label, text in ranges.items():
+        if count := re.search(r":\s*([0-9]{1,9})\s*$", text, re.ASCII):
+            cells *= max(1, int(count[1]))
+            sizes.append(count[1])
+            if cells > most >= int(count[1]):
+                raise InputError(label, text, most_collisions(most), f"makes {' x '.join(sizes)} collisions")
 
 
 def axes(impact: Mapping[str, str]) -> dict[str, list[float]]:
@@ -106,7 +159,7 @@ def span(entry: Field, text: str, label: str = "") -> Range:
     measured = _measured(entry, ends)
     quantity = entry.measured if measured else entry
     accepted = f"{f'LO:HI {_in_units(quantity)}'.strip()}, with LO below HI"
-    low, high = entry_ends(quantity, label, text)(*ends) if len(ends) == 2 else (0.0, 0.0)
+    low, high = _ends(quantity, ends[0], ends[1], label, text) if len(ends) == 2 else (0.0, 0.0)
     if not low < high:
         raise InputError(label, text, accepted, "is not a range")
     return (f"{low!r} {entry.or_unit}", f"{high!r} {entry.or_unit}") if measured else (low, high)
@@ -117,27 +170,23 @@ def _measured(entry: Field, ends: Sequence[str]) -> bool:
     return bool(entry.or_unit) and not all(units.is_number(end) for end in ends)
 
 
-def entry_ends(entry: Field, label: str, text: str) -> Ends:
-    """Function that reads both ends of a range of an entry (SI): an end without a unit has that of the other.
+def _ends(entry: Field, low: str, high: str, label: str, text: str) -> tuple[float, float]:
+    """Both ends of a range of an entry (SI): an end without a unit has that of the other.
 
     Arguments:
         text: the range as it is typed, for the error.
     """
-
-    def read(low: str, high: str) -> tuple[float, float]:
-        bare = [units.is_number(end) for end in (low, high)]
-        if all(bare) and entry.unit and entry.unit != "rad":
-            unit = units.unit_of(entry.example.strip('"'))
-            ends = f"{low}:{high}" if ":" in text else low
-            example = text.replace(ends, f"{ends.rstrip()} {unit}", 1).strip()
-            raise InputError(label, text, f'a number with its unit, as "{example}"', "has no unit")
-        if bare[0] != bare[1]:
-            unit = units.unit_of(high if bare[0] else low)
-            low, high = (f"{end.strip()} {unit}" if units.is_number(end) else end for end in (low, high))
-        first, last = (entry.number(with_degrees(entry, end), label=label) for end in (low, high))
-        return first, last
-
-    return read
+    bare = [units.is_number(end) for end in (low, high)]
+    if all(bare) and entry.unit and entry.unit != "rad":
+        unit = units.unit_of(entry.example.strip('"'))
+        ends = f"{low}:{high}" if ":" in text else low
+        example = text.replace(ends, f"{ends.rstrip()} {unit}", 1).strip()
+        raise InputError(label, text, f'a number with its unit, as "{example}"', "has no unit")
+    if bare[0] != bare[1]:
+        unit = units.unit_of(high if bare[0] else low)
+        low, high = (f"{end.strip()} {unit}" if units.is_number(end) else end for end in (low, high))
+    first, last = (entry.number(with_degrees(entry, end), label=label) for end in (low, high))
+    return first, last
 
 
 def _in_units(entry: Field) -> str:

@@ -11,9 +11,16 @@ RTOL = 1e-9  # default
 KERNEL_STEPS, KERNEL_STEPS_IN_SPACE = 1_000_000, 300_000
 ROSENBROCK_STEPS, ROSENBROCK_STEPS_IN_SPACE = 15_000, 5_000  # most of one phase at the default tolerance
 SMALL = 10_000  # a map of up to this many collisions takes less time than the compiler, for a user's model
+MOST = 10_000_000  # collisions of a map, at 130 bytes each, or values of a range; more are probably a typing error
+MOST_STORED = 10**10  # the same for a map that is written to disk as it is computed
 FEW = 100  # up to this many collisions, a second core does not pay
 TOLERANCE = Field("rtol", "a relative tolerance", "1e-9", Range("from 1e-13 to 1e-3", 1e-13, 1e-3, False, False))
 UNTIL = Field("until", "a time after initial contact", '"5 ms"', unit="s")  # to which a stick is followed on
+
+
+def most_collisions(most: int) -> str:
+    """What is accepted as the size of a map, in words."""
+    return f"at most {most} collisions in all" + ("" if most > MOST else ", or more without a picture in a .zarr")
 
 
 def casadi_steps(rtol: float, space: bool = False) -> int:

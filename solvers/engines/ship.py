@@ -10,8 +10,8 @@ from dataclasses import asdict
 from pathlib import Path
 
 from ..host.compiler import CannotCompile, compiler, library
-from ..host.cores import usable_cores
 from ..host.user_cache import digest_of
+from ..host.workers import usable_cores
 from ..model.key import ModelKey
 from .machine import SETS, InstructionSet, here
 from .taylor.shipped import SUFFIX, compilation, name_of

@@ -13,7 +13,7 @@ import numpy as np
 
 from ...generated.automaton import OUTCOMES
 from ..errors import InputError, did_you_mean
-from ..formatting.markdown import aligned
+from ..formatting.tables import aligned
 from ..host import bounded
 from ..host.emitted import text, with_imports
 from ..many.collide_many import collide_many
@@ -194,7 +194,7 @@ def _folder(path: str) -> dict[str, str]:
         names = [name for name in listed if name.endswith(".py") and not name.endswith(others)]
         texts = {name.removesuffix(".py"): bounded.text(folder / name) for name in names}
         return {name: with_imports(module, texts.__getitem__) for name, module in texts.items()}
-    except (AttributeError, OSError, ValueError, KeyError, TypeError, SyntaxError, bounded.NotRead):
+    except (AttributeError, OSError, ValueError, KeyError, TypeError, SyntaxError):
         raise InputError("diff", path, accepted, "holds nothing emitted") from None
 
 

@@ -12,7 +12,7 @@ from ...generated.automaton import OUTCOMES, STICK
 from ..boundaries.window import stokes_range
 from ..changes.experiment import STEEPEST, Experiment, free_names
 from ..errors import InputError, several
-from ..formatting.markdown import aligned
+from ..formatting.tables import aligned
 from ..scene.held import NAMES
 from ..scene.origin import Recorded
 from ..scene.scene import Scene

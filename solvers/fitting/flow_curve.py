@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import InputError
-from ..formatting.markdown import aligned
+from ..formatting.tables import aligned
 from ..host.pictures import Drawn
 from ..scene.origin import Recorded
 from ..scene.schema import FIELDS

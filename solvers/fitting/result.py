@@ -11,9 +11,9 @@ from typing import Any
 import numpy as np
 
 from ..errors import InputError
-from ..formatting.markdown import aligned
+from ..formatting.tables import aligned
 from ..host import files
-from ..host.outputs import check_file
+from ..host.files import check_file
 from ..host.pictures import plot
 from ..host.progress import Estimated, Progress
 from ..scene.origin import origin, plain

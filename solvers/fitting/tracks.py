@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import InputError
-from ..formatting.markdown import aligned
+from ..formatting.tables import aligned
 from ..scene import units
 from ..scene.columns import Column, row_name
 from ..scene.scene import Scene

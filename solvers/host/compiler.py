@@ -113,9 +113,7 @@ def library(source: str, flags: Sequence[str]) -> bytes:
         raise CannotCompile("there is no compiler")
     limit = _limit()
     try:
-        with cache.room() as place:
-            (place / "source.c").write_text(source, encoding="utf-8")
-            content = _compiled(working.command, flags, place, limit)
+        content = _compiled(working.command, source, flags, limit)
         cache.loaded(content, ctypes.CDLL)  # one that does not load is not kept
     except subprocess.TimeoutExpired:
         os.environ[_GIVEN_UP] = "1"
@@ -138,9 +136,7 @@ def webassembly(source: str, flags: Sequence[str]) -> bytes:
     failed = []
     for command in filter(None, map(_command, (*_zig(), "clang"))):
         try:
-            with cache.room() as place:
-                (place / "source.c").write_text(source, encoding="utf-8")
-                return _compiled(command, flags, place, _limit())
+            return _compiled(command, source, flags, _limit())
         except (CannotCompile, OSError, subprocess.TimeoutExpired) as error:
             failed.append(f"{shlex.join(command)}: {' '.join(str(error).split())}")
     raise CannotCompile("; ".join(failed) or f"there is neither {_ZIG} nor clang")
@@ -221,26 +217,27 @@ def _identity(word: str) -> str:
 def _try(command: tuple[str, ...], limit: float) -> None:
     """Compile the test program and run it. CannotCompile, TimeoutExpired or OSError if that fails."""
     with cache.room() as place:
-        (place / "source.c").write_text(_TRIAL)
         program = place / "trial"
-        program.write_bytes(_compiled(command, (), place, limit))
+        program.write_bytes(_compiled(command, _TRIAL, (), limit))
         program.chmod(0o700)
         if _run((str(program),), limit)[0] != _ANSWER:
             raise CannotCompile("what it compiles does not run")
 
 
-def _compiled(command: tuple[str, ...], flags: Sequence[str], place: Path, limit: float) -> bytes:
-    """The binary compiled from `source.c` of a folder. CannotCompile, TimeoutExpired or OSError if that fails."""
+def _compiled(command: tuple[str, ...], source: str, flags: Sequence[str], limit: float) -> bytes:
+    """The binary of a C file. CannotCompile, TimeoutExpired or OSError if that fails."""
     if _ZIG in command:  # "-s": without text with paths of this machine
         flags = [*(flag for flag in flags if flag not in _ONLY_GCC), "-s"]
-    binary = place / "made"
-    status, output = _run((*command, *flags, "-o", str(binary), str(place / "source.c"), "-lm"), limit, place)
-    if status:
-        lines = output.strip().splitlines() or [f"ended by signal {-status}" if status < 0 else "no message"]
-        raise CannotCompile(next((line for line in lines if "error" in line), lines[-1]))
-    if not binary.is_file():
-        raise CannotCompile("nothing came of it")
-    return binary.read_bytes()
+    with cache.room() as place:
+        file, binary = place / "source.c", place / "made"
+        file.write_text(source, encoding="utf-8")
+        status, output = _run((*command, *flags, "-o", str(binary), str(file), "-lm"), limit, place)
+        if status:
+            lines = output.strip().splitlines() or [f"ended by signal {-status}" if status < 0 else "no message"]
+            raise CannotCompile(next((line for line in lines if "error" in line), lines[-1]))
+        if not binary.is_file():
+            raise CannotCompile("nothing came of it")
+        return binary.read_bytes()
 
 
 def _run(command: tuple[str, ...], limit: float, place: Path | None = None) -> tuple[int, str]:

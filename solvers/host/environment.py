@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from .compiler import compiler
-from .cores import usable_cores
+from .workers import usable_cores
 
 _PACKAGES = ("wetdoublet", "casadi", "numpy", "scipy", "heyoka")
 

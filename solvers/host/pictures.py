@@ -12,8 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from ..errors import InputError
-from .files import save
-from .outputs import PICTURES, check_file
+from .files import PICTURES, check_file, save
 
 if TYPE_CHECKING:
     import xarray

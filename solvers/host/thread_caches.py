@@ -9,7 +9,7 @@ import threading
 from collections import deque
 from collections.abc import Callable, Hashable
 from contextlib import AbstractContextManager
-from functools import lru_cache, update_wrapper
+from functools import lru_cache, update_wrapper, wraps
 from typing import Any, Generic, ParamSpec, TypeVar, cast
 
 P = ParamSpec("P")
@@ -35,40 +35,26 @@ class _Lease:
 class _Own(threading.local):
     def __init__(self) -> None:
         self.lease = _Lease(_FREE)
-        self.workspace = self.lease.workspace
 
 
 _OWN = _Own()
 
 
-class OwnCache(Generic[P, T]):
-    """A function with a separate cache in every thread."""
-
-    def __init__(self, build: Callable[P, T], maxsize: int | None) -> None:
-        self.__wrapped__, self._maxsize = build, maxsize
-        update_wrapper(self, build)
-
-    def __call__(self, *args: P.args, **kwargs: P.kwargs) -> T:
-        result: T = self._here()(*args, **kwargs)
-        return result
-
-    def cache_clear(self) -> None:
-        self._here().cache_clear()
-
-    def cache_info(self) -> Any:
-        return self._here().cache_info()
-
-    def _here(self) -> Any:
-        workspace = _OWN.workspace
-        try:
-            return workspace[self]
-        except KeyError:
-            return workspace.setdefault(self, lru_cache(self._maxsize)(self.__wrapped__))
-
-
-def own_cache(maxsize: int | None) -> Callable[[Callable[P, T]], OwnCache[P, T]]:
+def own_cache(maxsize: int | None) -> Callable[[Callable[P, T]], Callable[P, T]]:
     """Decorate a function of hashable arguments: each thread caches its latest `maxsize` results."""
-    return lambda build: OwnCache(build, maxsize)
+
+    def decorate(build: Callable[P, T]) -> Callable[P, T]:
+        @wraps(build)
+        def cached(*args: P.args, **kwargs: P.kwargs) -> T:
+            caches = _OWN.lease.workspace
+            if build not in caches:
+                caches[build] = lru_cache(maxsize)(build)
+            result: T = caches[build](*args, **kwargs)
+            return result
+
+        return cached
+
+    return decorate
 
 
 class Locks:

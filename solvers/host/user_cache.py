@@ -20,7 +20,6 @@ from functools import lru_cache
 from pathlib import Path
 from typing import TypeVar
 
-from .files import write_all
 from .remarks import say, say_once
 from .thread_caches import Locks
 
@@ -162,11 +161,8 @@ def _temporary() -> Iterator[Path]:
 
 
 def _write_new(path: Path, content: bytes) -> None:
-    descriptor = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600)
-    try:
-        write_all(descriptor, content)
-    finally:
-        os.close(descriptor)
+    path.touch(mode=0o600, exist_ok=False)
+    path.write_bytes(content)
 
 
 # ---- reading

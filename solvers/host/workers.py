@@ -1,4 +1,4 @@
-"""Worker processes, which ignore Ctrl-C and end with their parent."""
+"""Worker processes, which ignore Ctrl-C and end with their parent, and the number of cores for them."""
 
 import ctypes
 import os
@@ -17,6 +17,11 @@ K = TypeVar("K")
 R = TypeVar("R")
 _LOOK = 0.2  # s between checks for the parent
 _PR_SET_PDEATHSIG = 1
+
+
+def usable_cores() -> int:
+    """Number of cores that this process may use, which may be less than the machine's."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
 @contextmanager

@@ -29,13 +29,11 @@ import numpy as np
 from ..engines.arithmetic import arithmetic, difference, has_kernel
 from ..errors import ComputationError, InputError, install_extra
 from ..host import bounded
-from ..host.cores import usable_cores
-from ..host.files import write
+from ..host.files import check_file, write
 from ..host.interrupts import check, held
-from ..host.outputs import check_file
 from ..host.progress import Progress
 from ..host.remarks import say, silence_workers
-from ..host.workers import undisturbed
+from ..host.workers import undisturbed, usable_cores
 from .compute import complete
 from .impacts import Block, Impacts, Place, empty, fill
 
@@ -186,9 +184,9 @@ def check_store(path: object, label: str) -> Path:
     """Return the path of a Zarr store to write; InputError naming `label` if it cannot be, or is something else's."""
     file = check_file(path, label, (SUFFIX,), replaced=True, folder=True)
     try:
-        attributes = json.loads(bounded.read(file / "zarr.json", _LARGEST_FILE))["attributes"]
+        attributes = json.loads(bounded.read(file / "zarr.json", _LARGEST_FILE, label, ACCEPTED))["attributes"]
         ours = {"scene", "rtol", "engine"} <= {*attributes}
-    except (OSError, ValueError, KeyError, TypeError, bounded.NotRead):
+    except (ValueError, KeyError, TypeError):  # an InputError too
         ours = False
     if bounded.exists(file) and not ours:
         accepted = f"a name ending in {SUFFIX} that is free, or that of a map written here before"
@@ -337,8 +335,8 @@ def check_scheduler(scheduler: object, label: str) -> Any:
 
 def _names_an_address(file: str) -> bool:
     try:
-        content = json.loads(bounded.read(Path(file), _LARGEST_FILE))
-    except (OSError, ValueError, bounded.NotRead):
+        content = json.loads(bounded.read(file, _LARGEST_FILE, "client", ACCEPTED))
+    except ValueError:  # an InputError too
         return False
     return isinstance(content, dict) and isinstance(content.get("address"), str)
 

@@ -13,9 +13,8 @@ from ..engines.taylor.call import run_kernel
 from ..engines.taylor.layout import OWN_LEDGER, result
 from ..model.model import load, select_model
 from ..results import DEFINITIONS, LEDGER, NONE, RATES, REVERSALS, TERMS
-from ..scene.contact import AT_ANY_SPEED, gap_at_any_speed, never_touching
 from ..scene.entry_rules import FARTHEST
-from ..scene.groups import formulas
+from ..scene.groups import AT_ANY_SPEED, formulas, gap_at_any_speed, never_touching
 from ..scene.quantities import NO_GLASS
 from ..scene.scene import Scene
 from .impacts import Block, Impacts

@@ -14,8 +14,7 @@ from ...generated.automaton import OUTCOMES
 from ..collision.collide import integrated
 from ..engines.settings import FEW
 from ..errors import InputError, WetDoubletError
-from ..host.cores import usable_cores
-from ..host.workers import in_workers
+from ..host.workers import in_workers, usable_cores
 from ..model.dimensionless import nondimensionalise
 from ..model.validity import flags
 from ..results import FAILED, INTEGRATED, LEDGER, NONE, OF_IMPACT, REVERSALS, VALIDITY

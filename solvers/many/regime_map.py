@@ -11,18 +11,17 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...generated.automaton import OUTCOMES
-from ..engines.settings import RTOL, SMALL, check_engine, check_rtol
+from ..engines.settings import MOST, MOST_STORED, RTOL, SMALL, check_engine, check_rtol, most_collisions
 from ..errors import InputError
 from ..formatting.labelled import Column
 from ..host import files
 from ..host.arguments import check_function
-from ..host.outputs import check_file
+from ..host.files import check_file
 from ..host.progress import Progress
 from ..model.validity import flag_words
 from ..results import BY_DEFAULT, FAILED, IMPACT, REVERSALS, VALIDITY, attributes
 from ..scene.groups import formulas
 from ..scene.origin import release
-from ..scene.ranges import MOST, MOST_STORED, most_collisions
 from ..scene.scene import Scene
 from ..scene.schema import MEETING, SPEEDS
 from ..scene.user_model import Package

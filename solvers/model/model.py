@@ -13,9 +13,9 @@ from casadi import SX, Function, densify, fmax, fmin, vertcat
 from ...generated.assemble import Laws, symbols, vector
 from ...generated.automaton import EVENTS, LEAST_SLIP, Event
 from ..host import emitted
-from ..host.buffered import Buffered
+from ..host.casadi_calls import Buffered
 from ..host.thread_caches import own_cache
-from ..scene.contact import GAPS
+from ..scene.groups import GAPS, law_module
 from ..scene.scene import Scene
 from ..scene.user_model import Package
 from ..scene.user_model_declared import OwnEvent
@@ -84,11 +84,8 @@ def _structure(choice: ModelKey) -> ModuleType:
 
 
 def _law(package: Package | None, slot: str, name: str) -> Any:
-    if package is None:
-        return emitted.law(slot, name)
-    if name in package.laws(slot):
-        return package.law(slot, name)
-    return _Narrow(emitted.law(slot, name), package, slot)
+    law = law_module(package, slot, name)
+    return law if package is None or name in package.laws(slot) else _Narrow(law, package, slot)
 
 
 class _Narrow:

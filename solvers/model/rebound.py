@@ -6,7 +6,7 @@ import numpy as np
 from casadi import SX, Function, densify, if_else, vertcat
 
 from ..host.thread_caches import own_cache
-from ..scene.contact import GAPS
+from ..scene.groups import GAPS
 from .key import ModelKey
 from .model import Model, load
 

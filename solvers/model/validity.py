@@ -17,8 +17,7 @@ import numpy as np
 from ...generated.automaton import BOUNCE, OUTCOMES
 from ..errors import ModelWarning
 from ..host.emitted import LAWS
-from ..scene.contact import GAPS, NEVER_MET
-from ..scene.groups import formulas, law_module, si_values
+from ..scene.groups import GAPS, NEVER_MET, formulas, law_module, si_values
 from ..scene.liquids import is_named, liquid
 from ..scene.scene import Scene
 
@@ -130,7 +129,7 @@ def _wall_coupling(scene: Scene, values: Values) -> Any:
     """Torque of sliding along a wall by the leading logarithm over the published one, at the smallest gap."""
     if not scene.wall or scene.law_of("shear") not in LAWS["shear"]:
         return math.nan
-    edge = law_module(scene, "shear", scene.model.tangential).edge
+    edge = law_module(scene.package, "shear", scene.model.tangential).edge
     outer = edge(values["film_thickness"] / values["reduced_radius"]) * values["film_thickness"]
     gap = values["smallest_gap"]  # NaN for a stick, whose spin is not defined
     on = _library(values)
@@ -373,7 +372,7 @@ def law_limits(scene: Scene) -> list[Limit]:
     """The range of the scene's bridge law as limits; none where its source gives no range."""
     if scene.bridge is None:
         return []
-    law = law_module(scene, "bridge", scene.bridge.law)
+    law = law_module(scene.package, "bridge", scene.bridge.law)
     ranges: dict[str, tuple[float | None, float | None]] = getattr(law, "VALIDITY", {})
     limits = []
     for name, (least, most) in ranges.items():

@@ -11,7 +11,7 @@ import numpy as np
 
 from ..fitting.free_entries import FreeEntries, in_unit, interval
 from ..fitting.measurements import Measurements
-from ..formatting.markdown import aligned
+from ..formatting.tables import aligned
 from ..host.pictures import Drawn
 from ..scene.held import NAMES
 from ..scene.origin import Recorded

@@ -18,8 +18,8 @@ from ..engines.interval.build import NotProvable
 from ..engines.interval.call import BOX, Range, enclose
 from ..engines.interval.inputs import COMPUTED, Inputs, outward
 from ..errors import ComputationError, InputError
-from ..host.cores import usable_cores
 from ..host.pictures import Drawn
+from ..host.workers import usable_cores
 from ..many.collide_many import collide_many
 from ..results import outcome_attributes
 from ..scene.held import AXIS_LABELS

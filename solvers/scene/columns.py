@@ -112,17 +112,13 @@ def _columns(
 
 def text_of(source: str | Path, label: str, accepted: str = _IMPACTS) -> str:
     """The text of a file; InputError if it cannot be read."""
+    content = bounded.read(source, _LARGEST, label, accepted)
     try:
-        content = bounded.read(Path(source), _LARGEST)
         if content.startswith((BOM_UTF16_LE, BOM_UTF16_BE)):  # "Unicode text" of Excel
             return content.decode("utf-16")
         with suppress(UnicodeDecodeError):
             return content.decode("utf-8-sig")
         return content.decode("ascii" if b"\0" in content else "cp1252")  # ° and µ of Excel and Fiji on Windows
-    except FileNotFoundError:
-        raise InputError(label, str(source), accepted, "is no file") from None
-    except bounded.NotRead as reason:
-        raise InputError(label, str(source), accepted, str(reason)) from None
     except UnicodeDecodeError:
         raise InputError(label, str(source), accepted, "is not UTF-8 text") from None
 

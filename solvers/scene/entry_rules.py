@@ -7,12 +7,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Mapping
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from ..errors import InputError, excerpt
 from ..host import emitted
 from . import user_model as custom
-from .contact import AT_ANY_SPEED, ENTRIES, gap_at_any_speed, never_touching
+from .groups import AT_ANY_SPEED, REMOVERS, System, gap_at_any_speed, never_touching
 from .quantities import initial_gap
 from .schema import (
     ALTERNATIVES,
@@ -26,10 +26,6 @@ from .schema import (
     SPINS,
     TABLES,
 )
-
-if TYPE_CHECKING:
-    from .groups import System
-    from .user_model import Package
 
 Refused = Iterator[tuple[str, str, str]]
 FARTHEST = 1e4  # largest ratio of radii or masses; beyond it the equations lose digits (use the limit, a wall)
@@ -71,7 +67,7 @@ def check_arguments(name: object, given: object, comments: object, package: obje
 
 
 def check_entries(
-    entries: Mapping[str, Any], package: Package | None = None, *, from_file: bool = False
+    entries: Mapping[str, Any], package: custom.Package | None = None, *, from_file: bool = False
 ) -> dict[str, float | str]:
     """Return the entries in SI; InputError for one that is unknown, wrong by itself, or an alternative to another."""
     emitted.check_laws()  # which say what entries may be
@@ -117,7 +113,7 @@ def missing(entries: Mapping[str, Any], tables: Iterable[str] = ()) -> Refused:
             yield other, f"{FIELDS[other].accepts}, or neither of the two", problem
 
 
-def liquid_rules(entries: Mapping[str, Any], package: Package | None) -> Refused:
+def liquid_rules(entries: Mapping[str, Any], package: custom.Package | None) -> Refused:
     """Entries of another law of liquids, or a law that nothing is made for.
 
     With `newtonian`, given as such, those of the other laws stand idle.
@@ -176,17 +172,6 @@ def way_rules(entries: Mapping[str, Any], values: Mapping[str, Any]) -> Refused:
         yield fraction, "no such entry beside a wall", "is no part of a wall's liquid"
 
 
-def check_together(scene: System) -> None:
-    """Raise InputError where entries are valid one by one but not together."""
-    for rule in (_partner, _laws, _lengths, _speeds):
-        refuse(rule(scene), scene.given)
-
-
-def check_speed(scene: System) -> None:
-    """Raise InputError if the Stokes number or the speed leaves the range of a double."""
-    refuse(_speeds(scene), scene.given)
-
-
 def _lengths(scene: System) -> Refused:
     """The film between the gaps of contact and rupture, and strings that let the spheres swing around each other."""
     entries, x0, ruptured = dict(scene.given), scene.liquid.film_thickness, scene.rupture_gap
@@ -194,7 +179,7 @@ def _lengths(scene: System) -> Refused:
     if "liquid.film_thickness" in entries:
         film_text = f"liquid.film_thickness = {excerpt(entries['liquid.film_thickness'])}"
     for word in AT_ANY_SPEED:
-        name = ENTRIES[word]
+        name = REMOVERS[word]
         if name in entries and gap_at_any_speed(word, scene.material) >= 1:
             yield name, f"{FIELDS[name].what} below {film_text}", "is not below the film thickness"
     if scene.bridge is not None and not x0 < ruptured < math.inf:
@@ -265,7 +250,7 @@ def _laws(scene: System) -> Refused:
         accepted = f"common, or own with bridge.law one of {', '.join(scene.laws_with('bridge', 'rupture_distance'))}"
         yield "bridge.rupture", accepted, f"is not known for the law {bridge.law}"
     if never_touching(scene.material):
-        positive = f"a positive {' or '.join(reversed(ENTRIES.values()))}"
+        positive = f"a positive {' or '.join(reversed(REMOVERS.values()))}"
         if scene.attraction is not None and scene.attraction.hamaker > 0:
             problem = "lets the gap close, where the van der Waals attraction is without bounds"
             yield "particles.roughness", positive, problem
@@ -274,7 +259,7 @@ def _laws(scene: System) -> Refused:
             yield "particles.roughness", f"{positive}, or liquid.glass_transition_pressure", problem
 
 
-def _speeds(scene: System) -> Refused:
+def speed_rules(scene: System) -> Refused:
     """A Stokes number or a speed that leaves the range of a double."""
     entries, a = dict(scene.given), scene.reduced_radius
     drag = 6 * math.pi * scene.liquid.viscosity * a * a
@@ -287,3 +272,7 @@ def _speeds(scene: System) -> Refused:
         counterpart = scene.speed if name == "impact.stokes" else scene.stokes
         if not (counterpart and counterpart < math.inf):
             yield name, FIELDS[name].accepts, "is too far off for this scene"
+
+
+TOGETHER = (_partner, _laws, _lengths, speed_rules)
+"""Rules for a scene whose entries are valid one by one."""

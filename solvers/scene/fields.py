@@ -55,6 +55,7 @@ class Field:
     Arguments:
         what: the accepted value in words, for messages.
         choices: what each means.
+        slot: the slot whose laws the choices are.
         gives: vocabulary name of the quantity that equals the entry times `factor`, if it differs from the entry's;
             empty if the quantity depends on other entries too (`quantities`).
         default: what acts, SI or a choice, where its table is there without it.
@@ -77,6 +78,7 @@ class Field:
     or_unit: str | None = None
     words: tuple[str, ...] = ()
     by_name: bool = False
+    slot: str = ""
 
     @cached_property
     def measured(self) -> Field:

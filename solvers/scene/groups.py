@@ -9,10 +9,10 @@ from typing import Any
 import numpy as np
 
 from ...generated import scaling
+from ...generated.automaton import CRITERIA
 from ..errors import InputError
 from ..host import emitted
 from ..host.emitted import LAWS
-from .contact import GAPS
 from .fields import Field, Raw
 from .quantities import Ways, normal_speed, quantities
 from .schema import FIELDS, MEETING, SPEEDS, Attraction, Bridge, Impact, Liquid, Model, Particles, Partner, Pendulum
@@ -23,6 +23,21 @@ _VARIANTS = (
     "initial_rate_pair", "centrifugal_pair", "generalised_centrifugal", "obliquity_pair", "obliquity_wall",
     "obliquity_space", "rate_scale_pair", "rate_scale_wall",
 )  # fmt: skip
+
+GAPS = {word: row.limit for word, row in CRITERIA.items() if row.contact}
+"""Word of a rebound criterion with a fixed gap -> name of that gap's group."""
+NEVER_MET = dict(row.removed_by for row in CRITERIA.values() if row.removed_by is not None)
+"""Quantities that disable the rebound criteria, SI."""
+REMOVERS = {
+    word: next(name for name, field in FIELDS.items() if field.quantity == row.removed_by[0])
+    for word, row in CRITERIA.items()
+    if row.removed_by is not None
+}
+"""Word of such a criterion -> entry of a scene that removes it."""
+AT_ANY_SPEED = tuple(word for word, group in GAPS.items() if "speed" not in scaling.ARGUMENTS[group])
+"""Criteria whose gap is that of the scene, however fast the impact."""
+TIE = "tie of " + " and ".join(CRITERIA[word].name for word in reversed(GAPS))
+"""Boundary at which two criteria are met at the same gap."""
 
 
 @dataclass(frozen=True)
@@ -127,12 +142,6 @@ class System:
             return self.liquid.film_thickness
         return scaled("rupture_gap", self) * self.liquid.film_thickness
 
-    def elastic_length(self, speed: float) -> float | None:
-        """Return x_r in m, the gap at which elastic deformation stops `speed` (m/s); None without Young's modulus."""
-        if self.particles.youngs_modulus is None:
-            return None
-        return scaled("elastic_gap", self, speed) * self.liquid.film_thickness
-
     @cached_property
     def stokes_per_speed(self) -> float:
         """m/(6 pi mu a^2) in s/m: ratio of the Stokes number to the normal speed."""
@@ -210,16 +219,12 @@ def _own_rupture_gap(
     package: Package | None, law: str, reduced_radius: Any, film_thickness: Any, volume: Any, contact_angle: Any
 ) -> Any:
     """The gap at which a bridge ruptures by its own law, whose module is read here, when numbers are at hand."""
-    distance = _law(package, "bridge", law).rupture_distance(volume, contact_angle)
+    distance = law_module(package, "bridge", law).rupture_distance(volume, contact_angle)
     return 2 * reduced_radius * distance / film_thickness
 
 
-def law_module(scene: System, slot: str, name: str) -> Any:
+def law_module(package: Package | None, slot: str, name: str) -> Any:
     """The emitted module of a law, from the library or the user's model."""
-    return _law(scene.package, slot, name)
-
-
-def _law(package: Package | None, slot: str, name: str) -> Any:
     if package is not None and name in package.laws(slot):
         return package.law(slot, name)
     return emitted.law(slot, name)
@@ -346,3 +351,32 @@ def groups_and_scales(scene: System, speed: float, angle: float) -> tuple[dict[s
         if all(map(values.__contains__, formula[1])):
             groups[name] = values[name] = _finite(scene, name, formula, values)
     return groups, {name: _finite(scene, name, formula, values) for name, formula in _SCALES.items()}
+
+
+# ---- the gap of solid contact: the largest of the gaps at which a rebound criterion is met
+
+
+def never_touching(quantities: Mapping[str, Any]) -> Any:
+    """Whether no criterion is met at a gap, by quantities (SI); elementwise for arrays."""
+    never: Any = True
+    for name, value in NEVER_MET.items():
+        never = never & (quantities.get(name, value) == value)
+    return never
+
+
+def gap_at_any_speed(word: str, quantities: Mapping[str, Any]) -> Any:
+    """Gap of a criterion of AT_ANY_SPEED over x0, from quantities (SI)."""
+    group = GAPS[word]
+    return getattr(scaling, group)(*(quantities[name] for name in scaling.ARGUMENTS[group]))
+
+
+def contact_gap(groups: Mapping[str, float]) -> float:
+    """Gap of solid contact, over x0."""
+    return max(groups[name] for name in GAPS.values())
+
+
+def contact_word(groups: Mapping[str, float]) -> str:
+    """Word that reports a contact: the first criterion whose gap is the largest and positive, else the last."""
+    *first, last = GAPS
+    contact = contact_gap(groups)
+    return next((word for word in first if groups[GAPS[word]] == contact > 0), last)

@@ -168,9 +168,7 @@ def _called(name: str, value: Any) -> Any:
 
 def normal_speed(relative: Any, angle: Any) -> Any:
     """The normal component of a relative velocity, m/s."""
-    if isinstance(angle, float):
-        return relative * math.cos(angle)
-    return relative * (angle.cos() if hasattr(angle, "cos") else np.cos(angle))
+    return relative * _called("cos", angle)
 
 
 def over_equal(ratio: Any) -> Any:

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any, Self
 
 from ..errors import InputError
-from ..formatting.notebook import NotebookTable
+from ..formatting.tables import NotebookTable
 from ..host.arguments import check_mapping
 from . import entry_rules as rules
 from . import scenefile
@@ -75,7 +75,8 @@ class Scene(System, NotebookTable):
         }
         for name, value in chosen.items():
             object.__setattr__(self, name, value)
-        rules.check_together(self)
+        for rule in rules.TOGETHER:
+            rules.refuse(rule(self), self.given)
         check_criteria(self, self.speed)
 
     # ---- reading and writing
@@ -263,16 +264,13 @@ class Scene(System, NotebookTable):
             InputError: no acceptable number, or a volume where the scene gives V/R^3, or the reverse.
         """
         entry = fields(self.package)[name]
-        absolute = self.ways.volume == "absolute"
+        absolute = bool(entry.or_unit) and self.ways.volume == "absolute"
         if entry.or_unit and entry.with_unit(raw) != absolute:
-            accepted = f"{name} as the scene gives it: {'a volume with its unit' if absolute else 'a number V/R^3'}"
-            raise InputError(
-                label,
-                raw,
-                accepted,
-                "is V/R^3, where the scene gives a volume" if absolute else "is a volume, where the scene gives V/R^3",
-            )
-        return entry.measured.number(raw, label=label) if entry.or_unit and absolute else entry.number(raw, label=label)
+            own, problem = "a number V/R^3", "is a volume, where the scene gives V/R^3"
+            if absolute:
+                own, problem = "a volume with its unit", "is V/R^3, where the scene gives a volume"
+            raise InputError(label, raw, f"{name} as the scene gives it: {own}", problem)
+        return (entry.measured if absolute else entry).number(raw, label=label)
 
     def as_given(self, name: str, value: Any) -> Any:
         """A number or array as `si` has the entry, in a form that says what it is."""
@@ -291,13 +289,8 @@ class Scene(System, NotebookTable):
 
         Plain numbers are SI and radians. InputError if two of the three are given.
         """
-        impact = {
-            "impact.stokes": stokes,
-            "impact.speed": speed,
-            "impact.relative_speed": relative_speed,
-            "impact.angle": angle,
-        }
-        changes = {name: value for name, value in impact.items() if value is not None}
+        impact = {"stokes": stokes, "speed": speed, "relative_speed": relative_speed, "angle": angle}
+        changes = {f"impact.{name}": value for name, value in impact.items() if value is not None}
         if not changes:
             return self
         read, schema = rules.check_entries(changes, self.package), fields(self.package)
@@ -305,11 +298,8 @@ class Scene(System, NotebookTable):
         entries = {name: value for name, value in self.given if name not in replaced}
         again = changes.keys() <= entries.keys()  # then the order is the same
         entries |= {name: self._canonical(schema[name], raw) for name, raw in changes.items()}
-        return self._at_impact(
-            tuple((entries if again else _grouped(entries, {**dict(self.given), **changes})).items()),
-            read,
-            "" if replaced else self.held,
-        )
+        entries = entries if again else _grouped(entries, {**dict(self.given), **changes})
+        return self._at_impact(tuple(entries.items()), read, "" if replaced else self.held)
 
     def _at_impact(self, entries: tuple[tuple[str, Raw], ...], read: Mapping[str, float | str], held: str) -> Self:
         """Return the scene of these entries, of which only those of the impact differ; what has not changed is kept.
@@ -333,7 +323,7 @@ class Scene(System, NotebookTable):
             held=held,
             impact=Impact.of(dict(si)),
         )
-        rules.check_speed(result)
+        rules.refuse(rules.speed_rules(result), entries)
         return result
 
     def need_impact(self) -> tuple[float, float]:

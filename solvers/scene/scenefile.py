@@ -40,16 +40,11 @@ def read_text(source: str | Path) -> tuple[str, str]:
         raise InputError("scene", source, f"a Scene, {accepted}", "is not the name of a file")
     if isinstance(source, str) and not source.strip():  # Path("") would be the current folder
         raise InputError("scene", source, accepted, "is an empty name")
-    try:
-        content = bounded.read(Path(source), _LARGEST)
-    except FileNotFoundError:
-        is_name = isinstance(source, str) and not re.search(r"[/\\]|\.toml$", source)
-        hint = did_you_mean(source, PRESETS) if is_name else ""
-        if is_name and bounded.exists(Path(f"{source}.toml")):
-            hint = f", did you mean {source}.toml?"
-        raise InputError("scene", str(source), accepted, "is neither a file nor a preset" + hint) from None
-    except bounded.NotRead as reason:
-        raise InputError("scene", str(source), accepted, str(reason)) from None
+    absent = "is neither a file nor a preset"
+    if isinstance(source, str) and not re.search(r"[/\\]|\.toml$", source) and not bounded.exists(source):
+        beside = f"{source}.toml"
+        absent += f", did you mean {beside}?" if bounded.exists(beside) else did_you_mean(source, PRESETS)
+    content = bounded.read(os.fspath(source), _LARGEST, "scene", accepted, absent)
     try:
         return content.decode("utf-8-sig"), str(source)
     except UnicodeDecodeError as error:

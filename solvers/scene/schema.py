@@ -83,7 +83,7 @@ def choice(meanings: Mapping[str, str], slot: str = "") -> Any:
     """Declare an entry with choices and what they mean, the default first; those of a slot are its laws."""
     choices = {name: meanings.get(name, "") for name in LAWS[slot]} if slot else meanings
     default = next(iter(meanings))
-    return entry("", default, choices=choices, default=default)
+    return entry("", default, choices=choices, default=default, slot=slot)
 
 
 @dataclass(frozen=True)

@@ -10,6 +10,7 @@ import hashlib
 import json
 import os
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from functools import cached_property, lru_cache
 from pathlib import Path
@@ -24,15 +25,7 @@ from .schema import FIELDS, TABLES
 from .user_model_declared import TABLE, OwnCriterion, OwnEvent, Terms, field_of
 
 ACCEPTED = "a folder made by `wetdoublet generate MODEL.py --out DIR`, or a model file MODEL.py"
-ENTRIES = {
-    "bridge": "bridge.law",
-    "strings": "pendulum.law",
-    "arm": "model.arm",
-    "shear": "model.tangential",
-    "glass": "model.glass",
-    "film": "model.film",
-    "attraction": "attraction.law",
-}
+ENTRIES = {entry.slot: name for name, entry in FIELDS.items() if entry.slot} | {"attraction": "attraction.law"}
 """Slot -> the scene's entry that says which law fills it, where scenes have one."""
 
 
@@ -289,14 +282,10 @@ class Package:
         if self.folder is None:
             raise InputError("--model", self.name, ACCEPTED, "is only described here, its files are not at hand")
         file = self.folder / path
-        try:
-            if self.files is None:
-                content = bounded.read(file, bounded.LARGEST)
-            else:
-                content = self.files.get(path, "").encode()
-        except (OSError, bounded.NotRead):
-            content = b""
-        if hashlib.sha256(content).hexdigest() != self.manifest["files"].get(path):
+        content = None if self.files is None else self.files.get(path, "").encode()
+        with suppress(InputError):
+            content = bounded.read(file, bounded.LARGEST, "file", ACCEPTED) if content is None else content
+        if content is None or hashlib.sha256(content).hexdigest() != self.manifest["files"].get(path):
             raise InputError(str(file), None, f"files as they were emitted: {self.remedy}", "is not what was emitted")
         return content
 

@@ -1,4 +1,7 @@
-"""Opening of a user's model: an emitted folder, or a model file, derived on first use. A stale one is refused."""
+"""A user's model: opened, from an emitted folder (a stale one is refused) or a model file, and derived.
+
+A model file is derived on first use; only the functions that derive import sympy.
+"""
 
 import ast
 import hashlib
@@ -6,10 +9,13 @@ import json
 import os
 import re
 import sys
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
+from typing import Any
 
-from ..errors import InputError
+from ..errors import CheckFailed, InputError
 from ..host import bounded
 from ..host.emitted import derivation, deriving, library_digest
 from .user_model import ACCEPTED, Package
@@ -32,25 +38,23 @@ def open_package(source: str | Path | Package, label: str = "--model") -> Packag
     if bounded.is_folder(path):
         return _of_folder(path, label)
     if path.suffix == ".py" and bounded.is_file(path):
-        return _derived_once(key_of(_read(path, label)), "files_of", path)
+        return _derived_once(key_of(bounded.read(path, bounded.LARGEST, label, ACCEPTED)), files_of, path)
     raise InputError(label, str(source), ACCEPTED, "is neither a folder nor a model file")
 
 
 @lru_cache(maxsize=8)
 def liquid_package(law: str) -> Package:
     """The library's laws for a law of liquids, as a model; derived on first use, then cached."""
-    return _derived_once(f"liquid-{law}-{derivation()[:16]}-{library_digest()[:16]}.json", "files_of_liquid", law)
+    return _derived_once(f"liquid-{law}-{derivation()[:16]}-{library_digest()[:16]}.json", files_of_liquid, law)
 
 
-def _derived_once(key: str, function: str, source: Path | str) -> Package:
-    """The model that a function of `user_model_derived` gives, with a key from the cache of the user if it is there."""
+def _derived_once(key: str, derive: Callable[[Any], Mapping[str, str]], source: Path | str) -> Package:
+    """The model that a function derives of a source, with a key from the cache of the user if it is there."""
     from ..host.user_cache import fetch
 
     def derived() -> bytes:
-        from . import user_model_derived  # imports sympy
-
         with deriving():
-            return json.dumps(dict(getattr(user_model_derived, function)(source))).encode()
+            return json.dumps(dict(derive(source))).encode()
 
     files = json.loads(fetch(key, derived) if key else derived())
     return Package(files["manifest.json"], Path(source), files)
@@ -70,23 +74,13 @@ def _is_whole(package: Package) -> bool:
     )
 
 
-def _read(path: Path, label: str) -> bytes:
-    """Content of a model's file; InputError if it cannot be read or exceeds `bounded.LARGEST`."""
-    try:
-        return bounded.read(path, bounded.LARGEST)
-    except FileNotFoundError:
-        raise InputError(label, str(path), ACCEPTED, "is not there") from None
-    except bounded.NotRead as reason:
-        raise InputError(label, str(path), ACCEPTED, str(reason)) from None
-
-
 def _of_folder(folder: Path, label: str) -> Package:
     try:
         package = Package(bounded.text(folder / "manifest.json"), folder)
         current = (
             package.manifest["kind"] == "wetdoublet model" and package.manifest["format"] == 1 and _is_whole(package)
         )
-    except (OSError, ValueError, LookupError, AttributeError, TypeError, bounded.NotRead):
+    except (OSError, ValueError, LookupError, AttributeError, TypeError):
         current = False
     if not current:
         raise InputError(label, str(folder), ACCEPTED, "holds no emitted model")
@@ -94,10 +88,11 @@ def _of_folder(folder: Path, label: str) -> Package:
         problem = "was emitted for other equations of the library than these"
         raise InputError(label, str(folder), package.remedy.removeprefix("run "), problem)
     source = package.original
-    digest = package.manifest["files"]["model.py"]
-    if source and bounded.is_file(source) and hashlib.sha256(_read(source, label)).hexdigest() != digest:
-        problem = f"is stale: {source} has changed since"
-        raise InputError(label, str(folder), f"a model emitted from it: {package.remedy}", problem)
+    if source and bounded.is_file(source):
+        content = bounded.read(source, bounded.LARGEST, label, ACCEPTED)
+        if hashlib.sha256(content).hexdigest() != package.manifest["files"]["model.py"]:
+            problem = f"is stale: {source} has changed since"
+            raise InputError(label, str(folder), f"a model emitted from it: {package.remedy}", problem)
     for path in package.manifest["files"]:
         package.text_of(path)
     return package
@@ -120,3 +115,90 @@ def _depends_on_others(content: bytes) -> bool:
     names = [alias.name for node in nodes if isinstance(node, ast.Import) for alias in node.names]
     names += [node.module or "" for node in nodes if isinstance(node, ast.ImportFrom) and not node.level]
     return bool(_OTHERS.search(content)) or any(name.partition(".")[0] not in _STEADY for name in names)
+
+
+# ---- derivation
+
+
+@dataclass(frozen=True)
+class Derived:
+    """A derived model file: the report as text, its files (none if a check fails), and the failed checks."""
+
+    report: str
+    files: Mapping[str, str]
+    failed: str
+
+
+def derived_package(path: Path, folder: Path | None) -> Derived:
+    """Derive, check and emit a model file (imports sympy); `folder` is the destination of its files, if any.
+
+    With a folder, the report says what has changed against the model there, or else the library.
+
+    Raises:
+        InputError: not a valid model file; names the line, and what is accepted.
+    """
+    from ...derive.checks.regenerated import changed, earlier
+    from ...derive.checks.user import model_checks
+    from ...derive.checks.words import conserved, in_words
+    from ...derive.emit.user import package
+    from ...derive.user.declarations import ModelFileError
+
+    try:
+        model, checks = model_checks(path)
+    except ModelFileError as error:
+        raise InputError(error.field, error.value, error.accepted, error.problem) from None
+    width = max(len(check.name) for check in checks)
+    marks = {True: "ok  ", False: "FAIL", None: "note"}
+    lines = [f"{marks[check.ok]} {check.name:<{width}}  {check.figure}" for check in checks]
+    failing = [check.name for check in checks if check.ok is False]
+    if model is None or failing:
+        return Derived("\n".join(lines), {}, f"fails {', '.join(failing)}; nothing is emitted")
+    source, words = path.read_text(encoding="utf-8"), in_words(model)
+    files = package(model, source, library_digest(), conserved(model), words, origin_of(path, folder))
+    emitted = Package(files["manifest.json"], path, files)
+    for name, value in emitted.defaults.items():
+        try:
+            emitted.fields[name].read(value)
+        except InputError as error:
+            accepted = error.accepted.partition(", such as")[0]  # the example is this default
+            accepted += f", which is {unit}" if (unit := emitted.fields[name].unit) else ""
+            raise InputError(f"{path}: {name}, default", value, accepted, error.problem) from None
+    for law in model.laws:  # in the cache for the kernels: the first collisions then need no sympy
+        emitted.law_header(law.slot, law.name)
+        emitted.law_header(law.slot, law.name, slopes=True)
+    meanings = [f"{model.name}: {model.meaning}."]
+    meanings += [f"  {law.slot} law {law.name}: {law.meaning}" for law in model.laws]
+    meanings += [f"  event {event.proposed.word}: {event.proposed.meaning}" for event in model.events]
+    lines = [*meanings, "", *lines, "", *words]
+    if folder is not None:
+        lines += ["", *changed(earlier(folder / "model.py"), model)]
+    return Derived("\n".join(lines), files, "")
+
+
+def files_of(path: Path) -> Mapping[str, str]:
+    """What a model file is derived to (imports sympy); CheckFailed if one of its checks fails."""
+    package = derived_package(path, None)
+    if not package.files:
+        raise CheckFailed(f"{path}: {package.failed}")
+    return package.files
+
+
+def files_of_liquid(law: str) -> Mapping[str, str]:
+    """What the laws of the library for a liquid are derived to; they are checked where they are developed."""
+    from ...derive.emit.user import package
+    from ...derive.laws.liquids import file_of
+    from ...derive.laws.modelfile import read
+
+    path = file_of(law)
+    source = path.read_text(encoding="utf-8")
+    return package(read(path, source, path.stem), source, library_digest(), (), (), table="liquid")
+
+
+def origin_of(path: Path, folder: Path | None) -> str:
+    """Path of the model file relative to the folder."""
+    if folder is None:
+        return ""
+    try:
+        return Path(os.path.relpath(path.resolve(), folder.resolve())).as_posix()
+    except ValueError:  # on another drive
+        return ""

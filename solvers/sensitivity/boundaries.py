@@ -19,7 +19,7 @@ from ..changes.experiment import Experiment, Rows
 from ..changes.slopes import Lines, normals, outcomes_along, places_again, slopes
 from ..engines.settings import RTOL, check_rtol
 from ..errors import ComputationError, InputError
-from ..formatting.markdown import numbers_aligned
+from ..formatting.tables import numbers_aligned
 from ..host.arguments import check_function
 from ..host.pictures import Drawn
 from ..scene.origin import provenance

@@ -21,7 +21,7 @@ from ..engines.taylor.record import run_recorded
 from ..engines.taylor.tangent import DISTANCES, GRIPS
 from ..errors import ComputationError
 from ..model.dimensionless import Problem
-from ..scene.contact import TIE
+from ..scene.groups import TIE
 from ..scene.scene import Scene
 from .result import Near
 

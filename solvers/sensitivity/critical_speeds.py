@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field
 from typing import Any
 
-from ..formatting.markdown import aligned
+from ..formatting.tables import aligned
 from ..host.pictures import Drawn
 from ..scene.origin import origin
 from ..scene.scene import Scene

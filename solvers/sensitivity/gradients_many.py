@@ -18,8 +18,8 @@ from ..engines.taylor.orders import order_backward, order_for
 from ..engines.taylor.tangent import CHATTERS, DISTANCES, Carried, run_tangent
 from ..errors import WetDoubletError
 from ..formatting.labelled import Column, labelled
-from ..host.cores import usable_cores
 from ..host.pictures import register
+from ..host.workers import usable_cores
 from ..many import impacts as many
 from ..many.arguments import checked_columns, of_one_length
 from ..model.validity import warn

@@ -14,8 +14,7 @@ from ...generated import scaling
 from ..errors import InputError
 from ..host.arguments import check_names
 from ..host.thread_caches import own_cache
-from ..scene.contact import GAPS
-from ..scene.groups import Formula, formulas
+from ..scene.groups import GAPS, Formula, formulas
 from ..scene.quantities import Ways, initial_gap, normal_speed, quantities
 from ..scene.scene import Scene
 from ..scene.schema import FIELDS, MEETING, SPEEDS, SPINS, acting_defaults

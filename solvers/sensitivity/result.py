@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...generated.automaton import STICK
-from ..formatting.markdown import numbers_aligned
-from ..formatting.notebook import NotebookTable
+from ..formatting.tables import NotebookTable, numbers_aligned
 from ..host.pictures import Drawn
 from ..results import DEFINITIONS
 from ..scene.held import NAMES

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from ..collision.text import name_of
-from ..formatting.markdown import numbers_aligned
+from ..formatting.tables import numbers_aligned
 from ..results import DEFINITIONS
 from ..scene.origin import origin
 from ..scene.scene import Scene

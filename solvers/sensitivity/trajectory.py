@@ -26,7 +26,7 @@ from ..model.model import Model, load
 from ..model.phases import Flow, extra_units
 from ..model.rebound import reset, rubs
 from ..results import DEFINITIONS
-from ..scene.contact import GAPS, contact_word
+from ..scene.groups import GAPS, contact_word
 
 STATE = "state."  # begins the name of a component of the last state, among results
 

@@ -10,8 +10,8 @@ import numpy as np
 from ..engines.settings import FEW, RTOL, check_engine, check_rtol
 from ..errors import InputError
 from ..host.arguments import check_flag
-from ..host.cores import usable_cores
 from ..host.pictures import register
+from ..host.workers import usable_cores
 from ..model.validity import sentences, warn
 from ..results import attributes, outcome_attributes
 from ..scene.groups import si_values

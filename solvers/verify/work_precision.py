@@ -13,7 +13,7 @@ from ..collision.result import Collision
 from ..collision.text import name_of
 from ..engines.settings import ENGINES
 from ..errors import ComputationError
-from ..formatting.markdown import table
+from ..formatting.tables import table
 from ..host.environment import environment, one_core
 from ..host.pictures import Drawn
 from ..host.progress import Progress

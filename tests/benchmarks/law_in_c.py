@@ -24,7 +24,7 @@ from wetdoublet.solvers.engines.taylor.build import kernel
 from wetdoublet.solvers.engines.taylor.call import Impacts, run_kernel, task
 from wetdoublet.solvers.engines.taylor.layout import ANSWER
 from wetdoublet.solvers.export.law.kernels import PLANE, kernels
-from wetdoublet.solvers.formatting.markdown import table
+from wetdoublet.solvers.formatting.tables import table
 from wetdoublet.solvers.host.environment import environment
 
 from ..helpers.exported_law import Law, written

@@ -6,7 +6,7 @@ from pathlib import Path
 from random import Random
 
 from wetdoublet.solvers import ComputationError, InputError, Scene, collide, sensitivities
-from wetdoublet.solvers.scene.user_model_derived import derived_package
+from wetdoublet.solvers.scene.user_model_source import derived_package
 
 from .random_laws import random_model
 

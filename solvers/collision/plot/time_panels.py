@@ -16,8 +16,7 @@ from matplotlib.transforms import blended_transform_factory
 
 from ....generated.automaton import CRITERIA
 from ...formatting import ticks
-from ...scene.contact import GAPS
-from ...scene.groups import scaled
+from ...scene.groups import GAPS, scaled
 from ..outcome import Outcome
 from ..text import ends_early, prefix, quantity
 from .frames import Frame

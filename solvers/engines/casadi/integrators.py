@@ -15,8 +15,7 @@ from typing import Any
 import numpy as np
 from casadi import SX, Function, integrator, jacobian, jtimes, vertcat
 
-from ...host.buffered import Buffered
-from ...host.captured_stderr import captured_stderr
+from ...host.casadi_calls import Buffered, captured_stderr
 from ...host.interrupts import check
 from ...host.thread_caches import own_cache
 from ...model.phases import Flow, event_table, expressions

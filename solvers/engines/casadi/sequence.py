@@ -11,7 +11,7 @@ import numpy as np
 from ....generated.automaton import BOUNCE, CLOSING, CRITERIA, ENDS, EVENTS, KINDS, OPENING, ROTATE, STICK, EventKind
 from ...model.model import Model
 from ...model.phases import Phase
-from ...scene.contact import contact_gap
+from ...scene.groups import contact_gap
 
 _RESTS, _ROLLS, _RUPTURE, _SLIDES = (
     KINDS[kind] for kind in (EventKind.RESTS, EventKind.ROLLS, EventKind.RUPTURE, EventKind.SLIDES)

@@ -8,10 +8,10 @@ from functools import cache
 from ...errors import ComputationError
 from ...host.compiler import CannotCompile, compiler, key
 from ...host.compiler import library as compiled
-from ...host.cores import usable_cores
 from ...host.remarks import say_after
 from ...host.thread_caches import once
 from ...host.user_cache import fetch, has, loaded, lookup
+from ...host.workers import usable_cores
 from ...model.model import select_model
 from ...scene.scene import Scene
 from ..machine import here

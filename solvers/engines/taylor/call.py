@@ -17,8 +17,7 @@ from ....generated.automaton import LOOSEST
 from ...errors import InputError
 from ...model.dimensionless import Problem, nondimensionalise
 from ...model.model import select_model
-from ...scene.contact import NEVER_MET
-from ...scene.groups import rate_scales, sideways
+from ...scene.groups import NEVER_MET, rate_scales, sideways
 from ...scene.scene import Scene
 from ...scene.schema import FIELDS
 from ..settings import KERNEL_STEPS, KERNEL_STEPS_IN_SPACE

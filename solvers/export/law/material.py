@@ -8,10 +8,9 @@ from ....generated.automaton import Status
 from ...engines.settings import TOLERANCE
 from ...errors import CheckFailed
 from ...scene import user_model
-from ...scene.contact import NEVER_MET
 from ...scene.entry_rules import FARTHEST
 from ...scene.fields import Range
-from ...scene.groups import si_values
+from ...scene.groups import NEVER_MET, si_values
 from ...scene.quantities import NO_GLASS
 from ...scene.scene import Scene
 from ...scene.schema import FIELDS, SHEAR_RATE

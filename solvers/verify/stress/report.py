@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from ....generated.automaton import OUTCOMES
-from ...formatting.markdown import table
+from ...formatting.tables import table
 from ...host import files
 from .judge import SHARE, runs
 from .run import Stress

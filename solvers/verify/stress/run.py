@@ -9,10 +9,9 @@ from typing import Any
 from ...engines.taylor.build import compile_all
 from ...engines.taylor.call import variant
 from ...engines.taylor.source import Variant
-from ...host.cores import usable_cores
 from ...host.environment import environment
 from ...host.progress import Progress
-from ...host.workers import undisturbed, workers
+from ...host.workers import undisturbed, usable_cores, workers
 from .judge import fast_kernel, judge
 from .sample import SEED, sample
 from .verdict import DISAGREEMENTS, RTOL, Case, Issue, Verdict

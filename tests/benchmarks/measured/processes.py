@@ -10,7 +10,7 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 from wetdoublet.solvers.host.compiler import compiler
-from wetdoublet.solvers.host.cores import usable_cores
+from wetdoublet.solvers.host.workers import usable_cores
 
 from .timing import Tell
 

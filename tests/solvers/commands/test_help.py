@@ -10,7 +10,6 @@ from wetdoublet.solvers import collision_averages, design, tracks
 from wetdoublet.solvers.commands.cli import COMMANDS, cli
 from wetdoublet.solvers.commands.texts import entry_range
 from wetdoublet.solvers.errors import InputError
-from wetdoublet.solvers.scene.ranges import parse_range
 from wetdoublet.solvers.scene.schema import FIELDS
 
 from ...helpers.command import run
@@ -64,17 +63,13 @@ def test_a_shell_completes(line, completed):
     assert completed <= {entry.partition(",")[2] for entry in done.stdout.split()}
 
 
-def floats(low, high):
-    """Read both ends of a range as plain numbers, an empty one as 0."""
-    return float(low or "0"), float(high or "0")
-
-
 def test_ranges():
     """Both ends are included exactly; log is even in the logarithm; one value is a range too."""
-    assert parse_range("0:60:4", "--angle", floats) == [0, 20, 40, 60]
-    assert parse_range("log:0.01:100:5", "--stokes", floats) == pytest.approx([0.01, 0.1, 1, 10, 100])
-    assert parse_range("log:0.1:0.7:3", "--stokes", floats)[::2] == [0.1, 0.7]
-    assert parse_range("5:5:1", "--angle", floats) == parse_range("5", "--angle", floats) == [5]
+    stokes = FIELDS["impact.stokes"]
+    assert entry_range(stokes, "20:80:4") == [20, 40, 60, 80]
+    assert entry_range(stokes, "log:0.01:100:5") == pytest.approx([0.01, 0.1, 1, 10, 100])
+    assert entry_range(stokes, "log:0.1:0.7:3")[::2] == [0.1, 0.7]
+    assert entry_range(stokes, "5:5:1") == entry_range(stokes, "5") == [5]
 
 
 @pytest.mark.parametrize(
@@ -83,7 +78,7 @@ def test_ranges():
 def test_bad_ranges(text):
     """A range that is none, runs backwards or has the wrong count names its option."""
     with pytest.raises(InputError, match=r"--stokes: .*; accepted: .*"):
-        parse_range(text, "--stokes", floats)
+        entry_range(FIELDS["impact.stokes"], text, "--stokes")
 
 
 def test_angles_are_degrees_on_the_command_line():

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 from wetdoublet.solvers import InputError, Scene, collide
-from wetdoublet.solvers.host.bounded import NotRead, read
+from wetdoublet.solvers.host.bounded import read
 
 from ...helpers.command import run
 from ...helpers.mutations import files, judged
@@ -108,19 +108,11 @@ def test_pipes(tmp_path):
 
     thread = threading.Thread(target=slowly)
     thread.start()
-    assert read(Path(f"/dev/fd/{reader}"), 10_000) == TEXT.encode()
+    assert read(f"/dev/fd/{reader}", 10_000, "scene", "a file") == TEXT.encode()
     thread.join()
     os.close(reader)
-    with pytest.raises(NotRead, match="is larger than 10 bytes"):
-        read(Path("/dev/zero"), 10)
-
-
-def test_a_system_without_files_that_do_not_wait(tmp_path, monkeypatch):
-    """Where `os.set_blocking` refuses a file, as on Windows, it is read."""
-    (tmp_path / "scene.toml").write_text(TEXT)
-    monkeypatch.delattr(os, "O_NONBLOCK", raising=False)
-    monkeypatch.delattr(os, "set_blocking", raising=False)
-    assert read(tmp_path / "scene.toml", 10_000) == TEXT.encode()
+    with pytest.raises(InputError, match=r'^scene: "/dev/zero" is larger than 10 bytes; accepted: a file$'):
+        read("/dev/zero", 10, "scene", "a file")
 
 
 @posix

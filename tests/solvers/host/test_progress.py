@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 from wetdoublet.solvers import collide_many, collision_averages, fit
 from wetdoublet.solvers.commands.bar import AtWork, Bar
-from wetdoublet.solvers.host.progress import forecast
 from wetdoublet.solvers.host.remarks import say_after
 
 SPEEDS = [0.3, 0.8, 1.2, 1.6, 1.9, 2.2, 2.5, 3.0]
@@ -44,7 +43,7 @@ class Terminal(io.StringIO):
     ("counts", "more", "said"),
     [
         ((10, 50, 4.0), {}, "about 16 s more: 10 of 50 impacts in 4.0 s"),
-        ((30, 50, 4.0), {"before": 20}, "about 8 s more: 10 of 30 impacts in 4.0 s"),
+        ((30, 50, 4.0, 20), {}, "about 8 s more: 10 of 30 impacts in 4.0 s"),
         ((0, 50, 9.0), {}, None),
         ((10, 50, 0.1), {}, None),  # too short
         ((49, 50, 9.0), {}, None),  # nearly done
@@ -54,7 +53,13 @@ class Terminal(io.StringIO):
 )
 def test_a_forecast(counts, more, said):
     """The rest takes as long per item as the sample; there is none without a sample or need."""
-    assert forecast(*counts, "impacts", **more) == said
+    done, total, seconds, *before = counts
+    clock = Clock()
+    bar = Bar("impacts", clock=clock, **more)
+    bar(*(before or [0]), total)
+    clock.now = seconds
+    bar(done, total)
+    assert bar.forecast() == said
 
 
 @pytest.mark.parametrize(

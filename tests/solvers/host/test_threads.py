@@ -13,7 +13,7 @@ from typing import Any
 import pytest
 from casadi import SX
 from wetdoublet.solvers import Scene
-from wetdoublet.solvers.host.captured_stderr import captured_stderr
+from wetdoublet.solvers.host.casadi_calls import captured_stderr
 from wetdoublet.solvers.host.thread_caches import once, own_cache
 from wetdoublet.solvers.model.model import Model, load, select_model
 

@@ -12,6 +12,7 @@ from wetdoublet.derive.vocabulary.quantities import VOCABULARY
 from wetdoublet.solvers import collide
 from wetdoublet.solvers.errors import InputError
 from wetdoublet.solvers.scene import scenefile
+from wetdoublet.solvers.scene.groups import scaled
 from wetdoublet.solvers.scene.quantities import Ways, quantities
 from wetdoublet.solvers.scene.scene import Scene
 from wetdoublet.solvers.scene.scenefile import PRESETS
@@ -89,7 +90,8 @@ def test_reference_speeds_and_lengths(case):
     scene = Scene.from_dict(tables, from_file=True).with_impact(**case["impact"])
     assert scene.speed == pytest.approx(case["speed"], rel=1e-14)
     assert scene.rupture_gap == pytest.approx(case["rupture_gap"], rel=1e-14)
-    assert scene.elastic_length(scene.speed) == pytest.approx(case["elastic_length"], rel=1e-14)
+    elastic = scaled("elastic_gap", scene, scene.speed) * scene.liquid.film_thickness
+    assert elastic == pytest.approx(case["elastic_length"], rel=1e-14)
     assert scene.with_impact(speed=scene.speed).stokes == pytest.approx(case["impact"]["stokes"], rel=1e-14)
 
 
@@ -98,7 +100,7 @@ def test_defaults():
     scene = Scene.from_dict(tables({**BASE, **BRIDGE, "pendulum.length": "0.5 m"}))
     assert scene.pendulum.gravity == 9.81 and scene.pendulum.law == "exact" and scene.bridge.law == "mikami"
     assert (scene.model.arm, scene.model.tangential, scene.model.glass) == ("midgap", "immersed", "literal")
-    assert scene.elastic_length(1.0) is None and scene.speed is None
+    assert scene.particles.youngs_modulus is None and scene.speed is None
     assert "pendulum.gravity" not in scene.entries
     with pytest.raises(InputError, match="impact.stokes: missing; accepted: .*--stokes"):
         scene.need_impact()

@@ -3,7 +3,7 @@
 import math
 from typing import Any, NamedTuple
 
-from wetdoublet.solvers.formatting.markdown import table
+from wetdoublet.solvers.formatting.tables import table
 
 BOUNDS = (1e-4, 1e-6, 1e-8, 1e-10)  # of the largest error, in the table of costs at equal error
 

@@ -3,7 +3,7 @@
 import math
 from typing import Any
 
-from wetdoublet.solvers.formatting.markdown import table
+from wetdoublet.solvers.formatting.tables import table
 
 from ..peers.engines import HEYOKA, HEYOKA_ALONE
 from .tables import of_collisions, us

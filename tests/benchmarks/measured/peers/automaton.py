@@ -20,7 +20,7 @@ from wetdoublet.solvers.model.dimensionless import Problem
 from wetdoublet.solvers.model.key import ModelKey
 from wetdoublet.solvers.model.model import Model, load
 from wetdoublet.solvers.model.phases import Flow, Phase
-from wetdoublet.solvers.scene.contact import contact_gap, contact_word
+from wetdoublet.solvers.scene.groups import contact_gap, contact_word
 
 from ..tasks import Answer
 

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 from casadi import SX, Function, densify, jacobian, jtimes, vertcat
 from wetdoublet.solvers.engines.casadi.integrators import tolerance_for
-from wetdoublet.solvers.host.buffered import Buffered
+from wetdoublet.solvers.host.casadi_calls import Buffered
 from wetdoublet.solvers.model.dimensionless import Problem
 from wetdoublet.solvers.model.phases import Flow, event_table, expressions
 
