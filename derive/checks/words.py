@@ -24,9 +24,12 @@ def _arm(model: UserModel) -> Law:
 
 def torque(model: UserModel, law: Law | None = None) -> sp.Expr:
     """dL/dt without strings, scaled, with the model's own laws; other laws except the arm stay open."""
-    extended = replace(model, events=()).derived(BRIDGED)
-    arm = law or _arm(model)
-    rate = filled(momentum_rate(extended, {}), {"arm": arm})  # filled last: sympy factors no fractional powers in time
+    return _torque(replace(model, events=()).derived(BRIDGED), law or _arm(model))
+
+
+@cache  # for the check and the sentence
+def _torque(equations: Model, arm: Law) -> sp.Expr:
+    rate = filled(momentum_rate(equations, {}), {"arm": arm})  # filled last: sympy factors no fractional powers in time
     lever = arm["lever"](*arm["lever"].arguments)
     return sp.simplify(rate) if lever.is_rational_function() else rate
 

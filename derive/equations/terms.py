@@ -37,7 +37,10 @@ def settled(label: str, value: sp.Expr, structure: Structure) -> sp.Expr:
     rules = to_groups(CENTRES if structure.partner == "pair" else EQUAL)
     for _ in range(3):
         value = value.xreplace(rules)
-    return cancelled(label, sp.Add(*(sp.simplify(term) for term in sp.Add.make_args(sp.expand(value)))), value)
+    return cancelled(label, sp.Add(*map(_simplified, sp.Add.make_args(sp.expand(value)))), value)
+
+
+_simplified = cache(sp.simplify)  # structures of one model have most terms in common
 
 
 def clocks(structure: Structure) -> dict[sp.Symbol, sp.Expr]:

@@ -19,6 +19,7 @@ from wetdoublet.solvers.explorer.module import BUILT as FOLDER
 from wetdoublet.solvers.explorer.module import module
 from wetdoublet.solvers.explorer.page_of_scene import explore
 from wetdoublet.solvers.export.law.texts import LawSource, source
+from wetdoublet.solvers.host.user_cache import folder
 
 from ...helpers.flags import QUICK
 
@@ -54,9 +55,12 @@ def embedded(page: str) -> dict[str, bytes]:
 
 @pytest.mark.slow
 def test_a_law_that_does_not_come_with_the_package_is_compiled(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
-    """With an empty cache, and without optimization; the page has the module under the digest of its bytes."""
+    """Into a cache without modules, and without optimization; the page has it under the digest of its bytes."""
     scene = Scene.load("granulation-dry-bridge").with_entries({"partner.wall": True})
-    source(scene)  # what is derived for it has been derived before
+    source(scene)
+    for kind in ("derived", "emitted"):
+        for path in folder().glob(f"{kind}-*"):
+            shutil.copy(path, tmp_path)
     monkeypatch.setenv("WETDOUBLET_CACHE", str(tmp_path))
     monkeypatch.setattr(modules, "FLAGS", (*QUICK.split(), *modules.FLAGS[1:]))
     try:
@@ -70,9 +74,8 @@ def test_a_law_that_does_not_come_with_the_package_is_compiled(tmp_path: Path, m
 
 
 def without_compiler(monkeypatch: pytest.MonkeyPatch, empty: Path) -> None:
-    """No program on the path, no ziglang, nothing compiled before."""
+    """No program on the path, and no ziglang; the cache that tests share has no module."""
     monkeypatch.setenv("PATH", str(empty))
-    monkeypatch.setenv("WETDOUBLET_CACHE", str(empty / "cache"))
     monkeypatch.setitem(sys.modules, "ziglang", None)
 
 

@@ -32,7 +32,7 @@ def granulation(opened: Any) -> Page:
 def test_a_preset_opens_without_a_compiler(opened: Any, files: dict[str, Path], tmp_path: Path):
     """The command on a machine without one writes the page, and the page has the answer of Python, event by event."""
     (tmp_path / "ziglang.py").write_text("raise ImportError")
-    blocked = {"PATH": str(tmp_path), "PYTHONPATH": str(tmp_path), "WETDOUBLET_CACHE": str(tmp_path / "cache")}
+    blocked = {"PATH": str(tmp_path), "PYTHONPATH": str(tmp_path)}
     files["pendulum"] = tmp_path / "page.html"
     command = [sys.executable, "-m", "wetdoublet", "explore", "pendulum", "-o", str(files["pendulum"])]
     done = subprocess.run(command, env=os.environ | blocked, capture_output=True, text=True, check=False)

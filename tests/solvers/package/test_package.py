@@ -28,15 +28,18 @@ print(*run_setup("setup.py", stop_after="init").packages)
 """
 
 
-def loaded(program: str, **settings: str) -> set[str]:
-    """The modules, of packages outside the standard library, that a program has loaded at its end."""
-    tail = "import json, sys; print(json.dumps(sorted(sys.modules)))"
-    command, env = [sys.executable, "-c", f"{program}\n{tail}"], os.environ | settings
+def loaded(*programs: str, **settings: str) -> list[set[str]]:
+    """The modules, of packages outside the standard library, that a process has loaded at the end of each program."""
+    tell = "print(json.dumps(sorted(sys.modules)))"
+    text = "\n".join(["import json, sys", *(f"{program}\n{tell}" for program in programs)])
+    command, env = [sys.executable, "-c", text], os.environ | settings
     done = subprocess.run(command, capture_output=True, text=True, check=True, env=env)
-    found = json.loads(done.stdout.splitlines()[-1])
-    return {name for name in found if name.split(".")[0] not in sys.stdlib_module_names} | (
-        {"logging", "tempfile", "argparse"} & {*found}
-    )
+    told = [{*json.loads(line)} for line in done.stdout.splitlines() if line.startswith('["')]
+    return [
+        {name for name in found if name.split(".")[0] not in sys.stdlib_module_names}
+        | ({"logging", "tempfile", "argparse"} & found)
+        for found in told
+    ]
 
 
 def test_dir_is_the_public_names() -> None:
@@ -62,7 +65,7 @@ def test_a_name_that_is_not_there() -> None:
 
 
 COMMAND = """
-import runpy, sys
+import runpy
 sys.argv = ["wetdoublet", {}]
 try:
     runpy.run_module("wetdoublet", run_name="__main__")
@@ -70,36 +73,40 @@ except SystemExit as done:
     assert not done.code
 """
 HEAVY = {"sympy", "pint", "xarray", "matplotlib", "scipy", "dask", "distributed", "zarr", "loky", "jax", "torch"}
-LOADING: dict[str, tuple[str, set[str], set[str]]] = {  # program, what it needs, what it must not load
-    "import": ("import wetdoublet", {"wetdoublet"}, HEAVY | {"numpy", "casadi", "click"}),
-    "public names": ("import wetdoublet as w\nfor name in w.__all__: getattr(w, name)", {"numpy"}, HEAVY - {"scipy"}),
-    "collide": (COMMAND.format('"collide", "pendulum", "--json"'), {"casadi", "numpy"}, HEAVY),
-    "map": (
-        COMMAND.format('"map", "granulation", "--stokes", "0.02:0.1:2", "--angle", "60"'),
-        {"xarray"}, HEAVY - {"xarray"},
-    ),
-    "scenes": (COMMAND.format('"scenes"'), {"click"}, HEAVY | {"casadi"}),
-}  # fmt: skip
+LOADING = [  # one after another in a process: what each needs, and what none has loaded by then
+    [
+        ("import wetdoublet", {"wetdoublet"}, HEAVY | {"numpy", "casadi", "click"}),
+        (COMMAND.format('"scenes"'), {"click"}, HEAVY | {"casadi"}),
+        (COMMAND.format('"collide", "pendulum", "--json"'), {"casadi", "numpy"}, HEAVY),
+        (
+            COMMAND.format('"map", "granulation", "--stokes", "0.02:0.1:2", "--angle", "60"'),
+            {"xarray"}, HEAVY - {"xarray"},
+        ),
+    ],
+    [("import wetdoublet as w\nfor name in w.__all__: getattr(w, name)", {"numpy"}, HEAVY - {"scipy"})],
+]  # fmt: skip
 
 
-@pytest.mark.parametrize("name", LOADING)
-def test_loads_nothing_heavy(name: str) -> None:
+@pytest.mark.parametrize("steps", LOADING, ids=["commands", "public names"])
+def test_loads_nothing_heavy(steps: list[tuple[str, set[str], set[str]]]) -> None:
     """What makes a start fast; `python -m wetdoublet` is the command."""
-    program, needed, without = LOADING[name]
-    packages = {module.split(".")[0] for module in loaded(program)} - {"__main__", "_distutils_hack"}  # of setuptools
-    assert needed <= packages
-    assert not packages & without
-    assert name != "import" or packages == {"wetdoublet"}
+    for (_, needed, without), modules in zip(steps, loaded(*(program for program, *_ in steps)), strict=True):
+        packages = {module.split(".")[0] for module in modules} - {"__main__", "_distutils_hack"}  # of setuptools
+        assert needed <= packages
+        assert not packages & without
+        assert "wetdoublet" not in needed or packages == needed
 
 
 @pytest.mark.skipif(not kernel_supports(wd.Scene.load("granulation")), reason="no C compiler")
 def test_a_first_collision_loads_what_it_computes_with(tmp_path: Path) -> None:
     """No package but numpy and casadi, no engine that does not answer; with a kernel, no temporary files."""
     program = "import wetdoublet as wd\nwd.collide('granulation', stokes=0.3, angle=0.5)"
-    first, then = (loaded(program, WETDOUBLET_CACHE=str(tmp_path)) for _ in range(2))
+    first, (casadi, then) = (
+        loaded(*each, WETDOUBLET_CACHE=str(tmp_path)) for each in ([program], ["import casadi", program])
+    )
     engine = {"wetdoublet.solvers.engines.casadi.locate", "wetdoublet.solvers.certificates"}
-    assert not first & (HEAVY | engine | {"h5py", "click", "tqdm", "argparse"})
-    assert {name.split(".")[0] for name in then - loaded("import casadi")} == {"wetdoublet"}
+    assert not first[0] & (HEAVY | engine | {"h5py", "click", "tqdm", "argparse"})
+    assert {name.split(".")[0] for name in then - casadi} == {"wetdoublet"}
 
 
 def test_type_checkers_see_every_public_name() -> None:
