@@ -200,9 +200,13 @@ def _sheared(scene: Scene, values: Values) -> Any:
     return math.nan if measured is None else shear_rate(scene, values) / measured
 
 
+def _has_plateau(scene: Scene) -> bool:
+    return "plateau_rate" in LIQUIDS.get(scene.liquid.law or NEWTONIAN, ())
+
+
 def _creeping(scene: Scene, values: Values) -> Any:
     """Time of contact over that of the rate below which the liquid is Newtonian; NaN of a liquid without one."""
-    if "plateau_rate" not in LIQUIDS.get(scene.liquid.law or NEWTONIAN, ()):
+    if not _has_plateau(scene):
         return math.nan
     return values["contact_time"] * values["plateau_rate"]  # NaN for a stick
 
@@ -303,6 +307,11 @@ FLAGS: tuple[str, ...] = (*(limit.flag for limit in LIMITS), LAW_RANGE)
 """Words of the flags, in the order of their bits."""
 NEEDS = ("restitution", "tangential_restitution", "rotation", "contact_time", "smallest_gap")
 """Results that the limits ask for, beside the outcome."""
+
+
+def needs(scene: Scene) -> tuple[str, ...]:
+    """Those that the limits of a scene ask for."""
+    return NEEDS if _has_plateau(scene) else tuple(name for name in NEEDS if name != "contact_time")
 
 
 def sentences(scene: Scene, values: Values) -> list[str]:
