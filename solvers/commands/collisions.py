@@ -152,6 +152,8 @@ def prove(
     refuse({"--depth": not cells and depth}, "--depth with --map")
     if cells:
         edges: Any = {"angle": (), **texts.axes(impact)}  # the library says what is missing
+        for name in (name for name, values in edges.items() if len(values) == 1):
+            raise InputError(texts.flag(name), impact[name], "at least two rising edges of cells, as LO:HI:N")
 
         from ..proofs.proved_map import prove_map
 

@@ -216,7 +216,8 @@ def critical(angle: _Angles, wrt: Any, request: Entries, output: Shown, **chosen
     from ..sensitivity.materials import materials_of
 
     source = request.source or ""
-    materials = materials_of(source, request.entries) if source.lower().endswith(".csv") else request.scene()
+    is_table = source.lower().endswith(".csv")
+    materials = materials_of(source, request.entries, request.package) if is_table else request.scene()
     chosen |= passed(angle=angle, wrt="all" if wrt == ["all"] else wrt)
     with Bar("materials", "fewer materials or angles take less") as progress:
         result = critical(materials, progress=progress, **chosen)

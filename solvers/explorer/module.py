@@ -13,7 +13,7 @@ from ..errors import InputError
 from ..export.law.texts import LawSource
 from ..host.compiler import CannotCompile, webassembly
 from ..host.user_cache import digest_of, fetch
-from ..model.validity import LIMITS, NEEDS, WORDS, law_limits
+from ..model.validity import LIMITS, WORDS, law_limits, needs
 from ..scene.groups import si_values
 from ..scene.scene import Scene
 
@@ -95,7 +95,7 @@ def limits(scene: Scene, material: Sequence[str], entries: Sequence[str]) -> tup
         entries: members of the law's entries of a pair.
     """
     members = {name: SX.sym(name) for name in material}
-    results = ("speed", "angle", "outcome", *NEEDS, "density")
+    results = ("speed", "angle", "outcome", *needs(scene), "density")
     others = {name: SX.sym(name) for name in results}
     dense = "liquid_density" in entries
     values = {**si_values(scene, None, None), **members, **others}

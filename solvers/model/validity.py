@@ -20,6 +20,7 @@ from ..host.emitted import LAWS
 from ..scene.groups import GAPS, NEVER_MET, formulas, law_module, si_values
 from ..scene.liquids import is_named, liquid
 from ..scene.scene import Scene
+from ..scene.schema import LIQUIDS, NEWTONIAN
 
 Values = Mapping[str, Any]  # quantities under the vocabulary's names and results, SI: floats, arrays, expressions
 _ROUNDING = 1e-12  # 50 deg is inside of 50 deg
@@ -198,6 +199,17 @@ def _sheared(scene: Scene, values: Values) -> Any:
     return math.nan if measured is None else shear_rate(scene, values) / measured
 
 
+def _has_plateau(scene: Scene) -> bool:
+    return "plateau_rate" in LIQUIDS.get(scene.liquid.law or NEWTONIAN, ())
+
+
+def _creeping(scene: Scene, values: Values) -> Any:
+    """Time of contact over that of the rate below which the liquid is Newtonian; NaN of a liquid without one."""
+    if not _has_plateau(scene):
+        return math.nan
+    return values["contact_time"] * values["plateau_rate"]  # NaN for a stick
+
+
 def _partner(ratio: float) -> str:
     return "the partner is a wall" if math.isinf(ratio) else f"one radius is {ratio:.4g} times the other, above 1"
 
@@ -279,12 +291,26 @@ LIMITS: tuple[Limit, ...] = (
         ),
         most=1.0,
     ),
+    Limit(
+        "slow_creep",
+        _creeping,
+        lambda n: (
+            f"the contact lasts {n:.3g} times 1/liquid.plateau_rate: it ends in a creep at the viscosity of that rate; "
+            "lower the rate: what then lasts longer in proportion, a yield stress would hold as a stick"
+        ),
+        most=1.0,
+    ),
 )
 LAW_RANGE = "law_range"
 FLAGS: tuple[str, ...] = (*(limit.flag for limit in LIMITS), LAW_RANGE)
 """Words of the flags, in the order of their bits."""
-NEEDS = ("restitution", "tangential_restitution", "rotation", "smallest_gap")
+NEEDS = ("restitution", "tangential_restitution", "rotation", "contact_time", "smallest_gap")
 """Results that the limits ask for, beside the outcome."""
+
+
+def needs(scene: Scene) -> tuple[str, ...]:
+    """Those that the limits of a scene ask for."""
+    return NEEDS if _has_plateau(scene) else tuple(name for name in NEEDS if name != "contact_time")
 
 
 def sentences(scene: Scene, values: Values) -> list[str]:
@@ -342,6 +368,7 @@ def counted(mask: np.ndarray) -> list[tuple[str, int]]:
 WORDS = {
     "film_reynolds": f"inertia of the liquid, Re > {_REYNOLDS:g}",
     "shear_rate": "faster shear than measured",
+    "slow_creep": "creep below the plateau rate",
     "film_gap": f"thick film, x0/a > {_FILM_GAP:g}",
     "rupture_gap": f"wide gap at rupture, x_f/a > {_RUPTURE_GAP:g}",
     "bridge_liquid": "bridge larger than the coatings",

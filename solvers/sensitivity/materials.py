@@ -9,6 +9,8 @@ from ..errors import InputError, did_you_mean
 from ..scene.columns import columns_of, file_label, row_name
 from ..scene.scene import Scene
 from ..scene.schema import FIELDS, MEETING
+from ..scene.user_model import Package, fields
+from ..scene.user_model_source import open_package
 
 _SD = "_sd"
 _BARE = {name.rpartition(".")[2]: name for name in reversed(FIELDS)}
@@ -26,7 +28,9 @@ class Material:
     remark: str = ""
 
 
-def materials_of(source: Any, changes: Mapping[str, Any] | None = None) -> list[Material]:
+def materials_of(
+    source: Any, changes: Mapping[str, Any] | None = None, model: str | Path | Package | None = None
+) -> list[Material]:
     """The materials of a table, or the one that a scene is; a list of them is returned as it is.
 
     Arguments:
@@ -36,6 +40,7 @@ def materials_of(source: Any, changes: Mapping[str, Any] | None = None) -> list[
             `scene` names the scene file or preset that a row changes. Other columns without dot and unit are the row's
             name.
         changes: entries that all materials share, in place of the table's.
+        model: a user's model, whose quantities may be columns, as `custom.yield_stress [Pa]`.
 
     Raises:
         InputError: an unknown entry, or a row that makes no scene.
@@ -44,8 +49,10 @@ def materials_of(source: Any, changes: Mapping[str, Any] | None = None) -> list[
         return source
     is_table = Path(source).suffix.lower() == ".csv" if isinstance(source, (str, Path)) else hasattr(source, "keys")
     if not is_table:
-        scene = Scene.load(source)
+        scene = Scene.load(source, model)
         return [Material(scene.name, scene.with_entries(changes) if changes else scene)]
+    package = None if model is None else open_package(model, "model")
+    known = fields(package)
     columns, lines = columns_of(source, "materials", _TABLE)
     columns = [replace(column, name=_OF_IMPACT.get(column.name, column.name)) for column in columns]
     table = file_label(source, "materials")
@@ -53,39 +60,40 @@ def materials_of(source: Any, changes: Mapping[str, Any] | None = None) -> list[
         raise InputError(table, None, "at least one row", "has no rows")
     for column in columns:
         name = column.name.removesuffix(_SD)
-        if name not in FIELDS and ("." in name or name in _BARE or column.unit):
-            meant = f", did you mean {_BARE[name]}?" if name in _BARE else did_you_mean(name, [*FIELDS, *_BARE])
+        if name not in known and ("." in name or name in _BARE or column.unit):
+            meant = f", did you mean {_BARE[name]}?" if name in _BARE else did_you_mean(name, [*known, *_BARE])
             accepted = "entries of a scene by dotted name, and names of the rows without unit"
             raise InputError(f"{table}, header", column.name, accepted, f"is unknown{meant}")
-        if name in FIELDS and FIELDS[name].unit and column.unit is None and isinstance(source, (str, Path)):
-            accepted = f"the unit in brackets, such as {name} [{FIELDS[name].unit}]"
+        if name in known and known[name].unit and column.unit is None and isinstance(source, (str, Path)):
+            accepted = f"the unit in brackets, such as {name} [{known[name].unit}]"
             raise InputError(f"{table}, header", column.name, accepted, "has no unit")
     rows = []
     for k, line in enumerate(lines):
         cells = {column.name: _cell(column.unit, column.cells[k]) for column in columns}
-        entries = {name: value for name, value in cells.items() if name in FIELDS and value is not None}
+        entries = {name: value for name, value in cells.items() if name in known and value is not None}
         spread = {name.removesuffix(_SD): value for name, value in cells.items() if name.endswith(_SD) and value}
         names = [str(value) for name, value in cells.items() if "." not in name and name != "scene" and value]
         label = ", ".join(names) or row_name(k + 1, line)
         try:
-            scene = _scene(cells.get("scene"), entries).with_entries(changes or {})
+            scene = _scene(cells.get("scene"), entries, package).with_entries(changes or {})
         except InputError as error:
             where = f"{table}, {label}{f' (line {line})' * bool(names)}, {error.field}"
             raise InputError(where, error.value, error.accepted, error.problem) from None
-        empty = ", ".join(name for name, value in cells.items() if name in FIELDS and value is None)
+        empty = ", ".join(name for name, value in cells.items() if name in known and value is None)
         remark = f"empty in the table and left as in {cells.get('scene') or 'a scene without it'}: {empty}"
         rows.append(Material(label, scene, spread, remark if empty else ""))
     return rows
 
 
-def _scene(base: Any, entries: Mapping[str, Any]) -> Scene:
+def _scene(base: Any, entries: Mapping[str, Any], package: Package | None) -> Scene:
     if base:
-        return Scene.load(str(base)).with_entries(entries)
+        return Scene.load(str(base), package).with_entries(entries)
     tables: dict[str, dict[str, Any]] = {}
     for name, value in entries.items():
         table, _, key = name.partition(".")
         tables.setdefault(table, {})[key] = value
-    return Scene.from_dict(tables)
+    scene = Scene.from_dict(tables, package=package)
+    return scene if package is None else scene.with_model(package)
 
 
 def _cell(unit: str | None, cell: Any) -> Any:

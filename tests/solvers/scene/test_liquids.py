@@ -200,6 +200,22 @@ def test_collisions_of_a_thinning_liquid():
 
 
 @pytest.mark.slow
+def test_a_creep_at_the_plateau_rate_is_said():
+    """Where the yield stress would hold the doublet, the contact lasts as long as the rate is low, and that is said."""
+    plastic = {"liquid.law": "herschel-bulkley", "liquid.yield_stress": "200 Pa", "liquid.flow_index": 1.0}
+    scene = Scene.load("granulation-dry-bridge").with_entries({**plastic, "liquid.viscosity": "0.02 Pa s"})
+    rates = {"liquid.plateau_rate": np.array([[1000.0], [100.0]])}
+    found = collide_many(scene, speed=[0.1, 1.0], angle=1.0, vary=rates, of=["contact_time", "validity"])
+    (slow, quick), (slower, as_quick) = found["contact_time"].values
+    assert slower > 5 * slow
+    assert as_quick == pytest.approx(quick, rel=1e-5)
+    flag = 1 << found["validity"].attrs["flag_meanings"].split().index("slow_creep")
+    assert (found["validity"].values & flag != 0).tolist() == [[True, False], [True, False]]
+    one = collide(scene.with_entries({"liquid.plateau_rate": 1000.0}), speed=0.1, angle=1.0)
+    assert any(f"the contact lasts {1000 * slow:.3g} times 1/liquid.plateau_rate" in said for said in one.validity)
+
+
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["power-law", "carreau"])  # without and with plateaus
 def test_checks_of_the_laws(name: str):
     """Every check of a user's model holds for the library's liquids."""

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from wetdoublet.solvers import InputError, Scene, collide, critical
 from wetdoublet.solvers.sensitivity.critical_speeds import Critical, CriticalSpeed
+from wetdoublet.solvers.sensitivity.materials import materials_of
 from wetdoublet.solvers.sensitivity.plots import draw_critical
 
 from tests.helpers.command import run
@@ -83,6 +84,11 @@ fine;150;3;0.07;5;lactose-pvp
 coarse;600;12;0.4;;lactose-pvp
 """
 
+SOFT = """from wetdoublet.derive.user import *
+layer = quantity("layer", unit="m", bounds=">= 0", meaning="thickness of a soft layer")
+criterion("soft contact", gap=layer, meaning="the thickness of the soft layer")
+"""
+
 
 @pytest.mark.parametrize(
     ("before", "after", "where"),
@@ -141,6 +147,24 @@ def test_the_picture_names_its_marks() -> None:
         words = [text.get_text() for text in axes.get_legend().get_texts()]
         assert words == ["sticks up to", "95 % interval", "bounces above"]
         assert axes.get_xticklabels()[0].get_text() == r"\$a\$_1"
+
+
+def test_a_table_may_have_quantities_of_a_model(tmp_path: Path) -> None:
+    """Each row is its scene with the model and that value, with a scene in the table or without."""
+    model, plain = tmp_path / "soft.py", Scene.load("granulation")
+    model.write_text(SOFT)
+    wanted = plain.with_model(model).with_entries({"custom.layer": "3 um"})
+    whole = {name: [value] for name, value in plain.given if not name.startswith("impact.")}
+    for table in ({"scene": ["granulation"]}, whole):
+        [material] = materials_of(table | {"custom.layer": ["3 um"]}, model=model)
+        for speed in (0.1, 1.0):
+            impact = {"speed": speed, "angle": 0.5}
+            assert dict(material.scene.with_impact(**impact).si) == dict(wanted.with_impact(**impact).si)
+        assert material.scene.package == wanted.package
+    (tmp_path / "materials.csv").write_text("scene,custom.layer\ngranulation,3\n")
+    refused = run("critical", str(tmp_path / "materials.csv"), "--model", str(model))
+    assert refused.exit_code == 2
+    assert "custom.layer [m]" in refused.stderr
 
 
 def test_an_empty_cell_is_said() -> None:
