@@ -35,12 +35,10 @@ if TYPE_CHECKING:
     from .proofs.proved_map import ProvedMap, prove_map
     from .scene.scene import Scene
     from .sensitivity.boundaries import BoundarySensitivities, boundary_sensitivities
-    from .sensitivity.critical import critical
-    from .sensitivity.critical_speeds import Critical
+    from .sensitivity.critical import Critical, critical
     from .sensitivity.gradients_many import gradients_many
     from .sensitivity.pair_gradients import pair_gradients
-    from .sensitivity.result import Sensitivities
-    from .sensitivity.sensitivities import sensitivities
+    from .sensitivity.sensitivities import Sensitivities, sensitivities
     from .sensitivity.solve import solve
     from .sensitivity.uncertainty import band
     from .space.collide_pair import collide_pair
@@ -70,12 +68,10 @@ _NAMES = {
     "proofs.proved_map": "ProvedMap prove_map",
     "scene.scene": "Scene",
     "sensitivity.boundaries": "BoundarySensitivities boundary_sensitivities",
-    "sensitivity.critical": "critical",
-    "sensitivity.critical_speeds": "Critical",
+    "sensitivity.critical": "Critical critical",
     "sensitivity.gradients_many": "gradients_many",
     "sensitivity.pair_gradients": "pair_gradients",
-    "sensitivity.result": "Sensitivities",
-    "sensitivity.sensitivities": "sensitivities",
+    "sensitivity.sensitivities": "Sensitivities sensitivities",
     "sensitivity.solve": "solve",
     "sensitivity.uncertainty": "band",
     "space.collide_pair": "collide_pair",
