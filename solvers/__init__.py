@@ -37,12 +37,10 @@ if TYPE_CHECKING:
     from .proofs.proved_map import ProvedMap, prove_map
     from .scene.scene import Scene
     from .sensitivity.boundaries import BoundarySensitivities, boundary_sensitivities
-    from .sensitivity.critical import critical
-    from .sensitivity.critical_speeds import Critical
+    from .sensitivity.critical import Critical, critical
     from .sensitivity.gradients_many import gradients_many
     from .sensitivity.pair_gradients import pair_gradients
-    from .sensitivity.result import Sensitivities
-    from .sensitivity.sensitivities import sensitivities
+    from .sensitivity.sensitivities import Sensitivities, sensitivities
     from .sensitivity.solve import solve
     from .sensitivity.uncertainty import band
     from .space.collide_pair import collide_pair

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..changes.brackets import Brackets, enclose
 from .arcs import Arc
 from .cells import Meeting
 from .changes import FREE, GRAZE, REVERSED
@@ -15,7 +16,7 @@ TRIPLE, FOLD, CROSSING = "triple point", "fold", "crossing"
 CRITERION, KIND = "criterion change", "graze meets escape"
 BESIDE = 1e-8  # distance from a curve of the collisions that determine its kind, relative to the window
 _AT = 1e-9  # places closer than this are identical, relative to the window
-_PARTS, _NARROWED = 16, 6  # places between two, and rounds, to locate a change of kind along a curve
+_PARTS = 16  # places between two in a round, to locate a change of kind along a curve
 _NONE = -9  # unknown
 
 
@@ -97,35 +98,25 @@ def _cut(plane: Plane, arc: Arc, codes: np.ndarray, points: list[tuple[str, np.n
 
 def _located(plane: Plane, arc: Arc, k: int, before: int) -> np.ndarray:
     """Place between two points of a curve where the code ceases to be `before`."""
-    start, other = arc.points[k], arc.points[k + 1]
-    for _ in range(_NARROWED):
-        places = _between(plane, arc, start, other, _PARTS)
-        if not len(places):
-            break
-        codes = _codes(plane, arc, places)
-        places, codes = places[codes != _NONE], codes[codes != _NONE]
-        differs = np.flatnonzero(codes != before)
-        j = int(differs[0]) if differs.size else len(places)
-        start, other = places[j - 1] if j else start, places[j] if j < len(places) else other
-        if np.linalg.norm(other - start) < _AT:
-            break
-    middle = _between(plane, arc, start, other, 1)
-    return np.asarray(middle[0] if len(middle) else 0.5 * (start + other))
+    start, way = arc.points[k], arc.points[k + 1] - arc.points[k]
+    length = max(float(np.linalg.norm(way)), 1e-15)
+    normal, reach = np.array([-way[1], way[0]]) / length, max(0.2 * length, 1e-9)
 
+    def places(at: np.ndarray) -> np.ndarray:
+        """Places on the curve beside parts of the chord; NaN where it is not seen."""
+        alike = (np.full(at.size, value) for value in (reach, arc.right, arc.left))
+        return crossings(plane.labels, start + at[:, None] * way, np.tile(normal, (at.size, 1)), *alike)
 
-def _between(plane: Plane, arc: Arc, start: np.ndarray, other: np.ndarray, count: int) -> np.ndarray:
-    """Places on a curve between two of its points."""
-    way = other - start
-    length = float(np.linalg.norm(way))
-    if length < 1e-15:
-        return np.zeros((0, 2))
-    centres = start + np.arange(1, count + 1)[:, None] / (count + 1) * way
-    normal = np.array([-way[1], way[0]]) / length
-    places = crossings(
-        plane.labels, centres, np.tile(normal, (count, 1)), np.full(count, max(0.2 * length, 1e-9)),
-        np.full(count, arc.right), np.full(count, arc.left),
-    )  # fmt: skip
-    return np.asarray(places[~np.isnan(places[:, 0])])
+    def labels(_: np.ndarray, at: np.ndarray) -> np.ndarray:
+        points, codes = places(at), np.full(at.size, _NONE)
+        seen = np.flatnonzero(~np.isnan(points[:, 0]))
+        codes[seen] = _codes(plane, arc, points[seen])
+        return np.where(codes == _NONE, _NONE, codes != before)
+
+    whole = Brackets(*(np.array([value]) for value in (0, 0.0, 1.0, 0, 1)))
+    middle = enclose(labels, whole, _AT / length, at_once=_PARTS, unknown=_NONE).place[:1]
+    place = places(middle)[0]
+    return np.asarray(start + middle * way if np.isnan(place[0]) else place)
 
 
 def named(meetings: Sequence[Meeting]) -> list[tuple[str, np.ndarray]]:

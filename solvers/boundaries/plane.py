@@ -78,9 +78,7 @@ class Plane:
 
     def points(self, x: np.ndarray, stokes: np.ndarray) -> np.ndarray:
         """Points of the square at values of the entry and Stokes numbers."""
-        across = (np.asarray(x) - self.span[0]) / (self.span[1] - self.span[0])
-        low, high = self.stokes
-        return np.column_stack([across, np.log(np.asarray(stokes) / low) / math.log(high / low)])
+        return unit_points(self.span, self.stokes, x, stokes)
 
     def scene_at(self, x: float) -> tuple[Scene, float]:
         if self.over == ANGLE:
@@ -124,6 +122,12 @@ class Plane:
         angle = x if self.over == ANGLE else np.full(size, float(self.scene.angle or 0.0))
         columns = {"impact.stokes": self.stokes_at(points), "impact.angle": angle, self.over: x}
         return Impacts.listed(self.scene, columns, self.rtol)
+
+
+def unit_points(span: tuple[float, float], window: tuple[float, float], x: Any, stokes: Any) -> np.ndarray:
+    """Points of the unit square, n x 2, for values of x in a span and Stokes numbers in a window."""
+    across = (np.asarray(x) - span[0]) / (span[1] - span[0])
+    return np.column_stack([across, np.log(np.asarray(stokes) / window[0]) / math.log(window[1] / window[0])])
 
 
 def check_plane(scene: Scene, over: str, span: Any, stokes: Any, rtol: float) -> Plane:

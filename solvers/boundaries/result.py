@@ -21,7 +21,7 @@ from ..scene.scene import Scene
 from ..scene.schema import MEETING
 from .arcs import CHORD, Arc
 from .changes import MERGED, Change
-from .plane import ANGLE
+from .plane import ANGLE, unit_points
 from .regions import Slab, labelled, slabs
 
 if TYPE_CHECKING:
@@ -271,19 +271,17 @@ class Atlas(Boundaries):
         x, stokes = np.broadcast_arrays(np.asarray(x, dtype=float), np.asarray(stokes, dtype=float))
         inside = (x >= self.span[0]) & (x <= self.span[1]) & (stokes >= self.window[0]) & (stokes <= self.window[1])
         outcomes = np.full(x.shape, -1, dtype=np.int8)
-        outcomes[inside] = labelled(self.slabs(), self.unit(x[inside], stokes[inside]))
+        outcomes[inside] = labelled(self.slabs(), unit_points(self.span, self.window, x[inside], stokes[inside]))
         return outcomes
-
-    def unit(self, x: Any, stokes: Any) -> np.ndarray:
-        """Points of the unit square, n x 2, for values of x and Stokes numbers."""
-        across = (np.asarray(x) - self.span[0]) / (self.span[1] - self.span[0])
-        up = np.log(np.asarray(stokes) / self.window[0]) / math.log(self.window[1] / self.window[0])
-        return np.column_stack([across, up])
 
     def slabs(self) -> list[Slab]:
         """The window divided into slabs in x, with one outcome between neighbouring curves."""
         arcs = [
-            Arc(self.unit(curve.x, curve.stokes), OUTCOMES.index(curve.before), OUTCOMES.index(curve.after))
+            Arc(
+                unit_points(self.span, self.window, curve.x, curve.stokes),
+                OUTCOMES.index(curve.before),
+                OUTCOMES.index(curve.after),
+            )
             for curve in self.curves
         ]
         parts = slabs(arcs, np.array([0.5]), np.array([OUTCOMES.index(self.background)]))

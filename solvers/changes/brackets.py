@@ -14,6 +14,7 @@ import numpy as np
 
 _ROUNDS = 60  # of division; bisection reaches the rounding of a double before
 _PARTS = 16  # most parts into which a bracket is divided in a round
+_OTHERS = 17  # parts where nothing is known: none of these places was tried before
 
 Labels = Callable[[np.ndarray, np.ndarray], np.ndarray]
 """Indices of lines and places on them -> what happens there, as whole numbers; a change is where two differ."""
@@ -100,7 +101,7 @@ def enclose(
     """Divide brackets until they are no wider than `width`; the result is sorted by line and place.
 
     Brackets are halved, or divided into so many parts that a round has `at_once` samples, if few are left. One in which
-    no sample has a known label is divided into 16 parts; if all labels there are unknown too, it stays as it is, wider
+    no sample has a known label is divided into 17 parts; if all labels there are unknown too, it stays as it is, wider
     than asked.
 
     Arguments:
@@ -119,7 +120,7 @@ def enclose(
         if not brackets.size:
             break
         parts = min(_PARTS, max(2, 1 - (-at_once // brackets.size)))
-        owner, place = _divisions(brackets, np.where(undecided > 0, _PARTS, parts), logarithmic)
+        owner, place = _divisions(brackets, np.where(undecided > 0, _OTHERS, parts), logarithmic)
         label = labels(brackets.line[owner], place)
         mask = np.ones(label.size, bool) if unknown is None else label != unknown
         every = np.arange(brackets.size)

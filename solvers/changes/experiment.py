@@ -14,12 +14,10 @@ import numpy as np
 from casadi import SX, Function, densify, jacobian, vertcat
 
 from ...generated.automaton import LAST_ANSWER
-from ..engines.kernels import differentiates
 from ..engines.settings import KERNEL_STEPS
 from ..engines.taylor.call import Impacts, run_kernel
 from ..engines.taylor.layout import result
 from ..engines.taylor.tangent import run_tangent
-from ..errors import ComputationError
 from ..many.by_kernel import admissible
 from ..results import DEFINITIONS
 from ..scene.quantities import quantities
@@ -222,13 +220,10 @@ class Experiment:
         moved = (*(name for name, slope in self.slopes.items() if slope.any()), "speed", "angle")
         back = not forward and names == ("restitution",)
         run = run_tangent(impacts, oblique, rtol, rotation, None if back else moved, None, budget, back, False)
-        if run is None:
-            raise _without_derivatives()
         answers, slopes = run.answers, run.slopes
         failures = np.flatnonzero(answers["status"] > LAST_ANSWER)
         if back and failures.size:
             again = run_tangent(impacts.subset(failures), oblique, rtol, rotation, moved, None, budget, False, False)
-            assert again is not None
             answers[failures], slopes[failures] = again.answers, again.slopes[:, :, :1]
         done, count = answers["status"] <= LAST_ANSWER, len(self.rows.names)
         results.outcome[which] = np.where(done, answers["outcome"], UNDECIDED)
@@ -257,16 +252,3 @@ class Experiment:
         values = self.values.copy()
         values[k] += step
         return self.rows.at(values)
-
-
-def check_derivatives(scene: Scene) -> None:
-    """Raise ComputationError unless the kernel differentiates the scene's collisions on this machine."""
-    if not differentiates(scene, (True,)):
-        raise _without_derivatives()
-
-
-def _without_derivatives() -> ComputationError:
-    return ComputationError(
-        "derivatives by the compiled kernel are needed, which this scene or machine has not",
-        advice="install a C compiler, or leave out declared events and laws that have no derivative",
-    )

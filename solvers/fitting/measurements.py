@@ -10,7 +10,8 @@ from typing import Any
 import numpy as np
 
 from ...generated.automaton import OUTCOMES, STICK
-from ..changes.experiment import Rows, check_derivatives
+from ..changes.experiment import Rows
+from ..engines.taylor.tangent import check_derivatives
 from ..results import DEFINITIONS
 from ..scene.scene import Scene
 from .flights import FLIGHT, FlightRows, Flights
@@ -154,7 +155,7 @@ def stacked(tables: Sequence[Mapping[str, np.ndarray]], sizes: Sequence[int]) ->
 
 def rows_of(scene: Scene, names: tuple[str, ...], data: Measurements, rtol: float) -> Rows:
     """The scenes of the rows, with free entries; ComputationError if the kernel has no derivatives of them."""
-    check_derivatives(scene)
+    check_derivatives(scene, True)
     if data.flights is not None:
         return FlightRows(data.flights, scene, names, data.columns, data.size, rtol)
     return Rows(scene, names, data.columns, data.size if data.columns else 1, rtol)

@@ -23,7 +23,6 @@ from ..errors import ComputationError
 from ..model.dimensionless import Problem
 from ..scene.groups import TIE
 from ..scene.scene import Scene
-from .result import Near
 
 LIMIT, PER_RTOL, WIDEST = 1e-6, 1e4, 1e-3
 LADDER = tuple(np.geomspace(1e-9, 0.5, 30).tolist())
@@ -53,6 +52,18 @@ _CUT_OFF = {
 }
 # these alone are no change, but tell what one is
 _TURNS = tuple(KINDS[kind] for kind in (EventKind.TURNED, EventKind.FELL_BACK, EventKind.RUPTURE))
+
+
+@dataclass(frozen=True)
+class Near:
+    """The nearest known boundary, and the collision's distance from it relative to the quantity `of`."""
+
+    boundary: str
+    distance: float
+    of: str
+
+    def __str__(self) -> str:
+        return f"{self.boundary} at a relative distance of {self.distance:.2g} in {self.of}"
 
 
 def limit(rtol: float) -> float:
@@ -128,15 +139,9 @@ def course(answer: np.void, log: np.ndarray, words: Sequence[str], speed: float)
     """
     rows, passed_over = log[: answer["events"]], {*KINDS} - {*CRITERIA, *_TURNS, *_CUT_OFF, _RESTS}
     happened = [(words[kind], time) for kind, time in rows[["kind", "time"]].tolist()]
-    return Course(
-        bool(answer["outcome"] > 0) if answer["status"] <= LAST_ANSWER else None,
-        tuple(
-            word + AT_ONCE if word in CRITERIA and time == 0 else word
-            for word, time in happened
-            if word not in passed_over
-        ),
-        speed,
-    )
+    happened = [(word, time) for word, time in happened if word not in passed_over]
+    events = tuple(word + AT_ONCE if word in CRITERIA and time == 0 else word for word, time in happened)
+    return Course(bool(answer["outcome"] > 0) if answer["status"] <= LAST_ANSWER else None, events, speed)
 
 
 def courses_of(scene: Scene, n: Problem, factors: np.ndarray) -> list[Course]:

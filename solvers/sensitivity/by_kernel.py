@@ -1,11 +1,9 @@
 """Derivatives by the Taylor kernel in a scene's parameters, of one collision or of many of the same scene."""
 
 from collections.abc import Collection, Sequence
-from functools import lru_cache
 
 import numpy as np
 
-from ...generated import scaling
 from ...generated.automaton import LAST_ANSWER, OUTCOMES
 from ..engines.kernels import differentiates
 from ..engines.settings import KERNEL_STEPS
@@ -15,14 +13,13 @@ from ..engines.taylor.tangent import GRIPS, Carried, Scales, run_tangent
 from ..results import DEFINITIONS, TANGENTS
 from ..scene.groups import si_values
 from ..scene.scene import Scene
-from ..scene.schema import SPEEDS, SPINS
+from ..scene.schema import SPINS
 from .boundary_distance import check_grip
-from .parameters import RELATIVE, SCALES, Kind, parameter_map, references
+from .parameters import SCALES, Kind, parameter_map, references
 from .problem import Problem, Query, Slopes
 
 BACKWARD = ("restitution",)  # results that the kernel's adjoint differentiates
 DIRECTIONS = 4  # most parameters for which forward tangents cost no more than the adjoint (docs/engineering/kernel.md)
-_REFERENCE = 1.0, 0.5  # impact (m/s, rad) at which parameters are mapped
 _OF_UNEQUAL = frozenset(("radius_ratio", "mass_ratio"))  # quantities that make equal spheres unequal
 
 
@@ -48,8 +45,8 @@ def gradients_by_kernel(
     budget: int = KERNEL_STEPS,
     backward: bool = False,
     nearest: float = 0.0,
-) -> Along | None:
-    """Derivatives of impacts that are all oblique or all head-on; None without a kernel.
+) -> Along:
+    """Derivatives of impacts that are all oblique or all head-on; ComputationError without a kernel.
 
     Arguments:
         impacts: impacts of one scene, which differ only in speed and angle.
@@ -61,8 +58,6 @@ def gradients_by_kernel(
     moved, scales, units = _in_theta(impacts, kind, wrt)
     fold = not _OF_UNEQUAL & moved.keys()
     run = run_tangent(impacts, oblique, rtol, "rotation" in of, tuple(moved), order, budget, backward, fold, nearest)
-    if run is None:
-        return None
     value, first = np.full((len(of), impacts.size), np.nan), np.zeros((len(of), impacts.size, len(wrt)))
     separated, at_once = run.answers["outcome"] > 0, run.answers["time"] == 0
     unspun = scene.particles.friction is None and not scene.turns(0.0)
@@ -84,45 +79,18 @@ def gradients_by_kernel(
 def _in_theta(impacts: Impacts, kind: Kind, wrt: tuple[str, ...]) -> tuple[dict[str, np.ndarray], Scales, np.ndarray]:
     """Derivatives of quantities and scales in theta, as `Carried.along` takes them, and dp/dtheta of each impact.
 
-    Only those of speed and angle differ from impact to impact.
+    Only those of speed, angle and scales differ from impact to impact.
     """
-    scene, speed, angle = impacts.scene, impacts.speed, impacts.angle
-    by_theta, at_reference, units = _at_reference(scene, kind, wrt)
-    log_speed, units = (np.tile(row, (impacts.size, 1)) for row in (at_reference["speed"], units))
-    moved = dict(by_theta)
-    for k, name in enumerate(wrt):
-        if name == "impact.stokes":
-            of = scene.material
-            units[:, k] = scaling.stokes(of["reduced_radius"], of["reduced_mass"], of["viscosity"], speed)
-        elif name in SPEEDS:
-            units[:, k] = references(scene, (name,), speed, angle)[0]
-        elif name == "impact.angle":
-            units[:, k] = np.where(angle > 0, angle, 1.0)
-            moved["angle"] = np.where(np.arange(len(wrt)) == k, units[:, k, None], 0.0)
-            if kind.held == RELATIVE:
-                log_speed[:, k] = -angle * np.tan(angle)
-    if "speed" in moved:
-        moved["speed"] = log_speed * speed[:, None]
-    film, log_film = np.full(impacts.size, scene.liquid.film_thickness), at_reference["length"]
-    scales = {
-        "length": (film, log_film[None]),
-        "time": (film / speed, log_film - log_speed),
-        "rate": (impacts.rates, at_reference["rate"] - at_reference["speed"] + log_speed),
-    }
-    return moved, scales, units
-
-
-@lru_cache(maxsize=64)
-def _at_reference(
-    scene: Scene, kind: Kind, wrt: tuple[str, ...]
-) -> tuple[dict[str, np.ndarray], dict[str, np.ndarray], np.ndarray]:
-    """Derivatives at one impact: of the quantities that move, and of the logarithms of scales; and dp/dtheta."""
-    names = tuple(name for name in si_values(scene, *_REFERENCE) if name != "density")
-    numbers, in_theta, units = parameter_map(kind, wrt, names).at(references(scene, kind.entries, *_REFERENCE))
-    slopes = dict(zip((*names, *SCALES), in_theta, strict=True))
-    values = dict(zip((*names, *SCALES), numbers, strict=True))
-    moved = {name: slopes[name][None] for name in names if slopes[name].any()}
-    return moved, {name: slopes[name] / values[name] for name in ("speed", "length", "rate")}, units
+    scene, own = impacts.scene, ("speed", "angle")
+    reference = references(scene, kind.entries, impacts.speed, impacts.angle)
+    names = tuple(name for name in si_values(scene, None, None) if name != "density")
+    alike = parameter_map(kind, wrt, names).at(reference[:, 0])[1]
+    numbers, in_theta, units = parameter_map(kind, wrt, own).at(reference)
+    slopes = dict(zip((*own, *SCALES), in_theta, strict=True)) | {name: alike[k][None] for k, name in enumerate(names)}
+    values = dict(zip(SCALES, numbers[len(own) :], strict=True))
+    with np.errstate(divide="ignore", invalid="ignore"):  # head-on nothing has the scale of rates
+        scales = {name: (value, slopes[name] / value[:, None]) for name, value in values.items()}
+    return {name: slopes[name] for name in (*names, *own) if slopes[name].any()}, scales, units
 
 
 def slopes(problem: Problem, query: Query) -> Slopes | None:
@@ -131,10 +99,8 @@ def slopes(problem: Problem, query: Query) -> Slopes | None:
     if not path.separated or not offers(problem.scene, of, (problem.n.oblique,)):
         return None
     sharp = query.sharpened(path.parting)
-    along = gradients_by_kernel(Impacts.single(problem.n), problem.kind, problem.wrt, of, sharp, order_for(rtol))
-    if along is None:
-        return None
-    run, value, first = along
+    impact, order = Impacts.single(problem.n), order_for(rtol)
+    run, value, first = gradients_by_kernel(impact, problem.kind, problem.wrt, of, sharp, order)
     answer, (distance, boundary, _) = run.answers[0], run.near[0]
     if answer["status"] > LAST_ANSWER or OUTCOMES[answer["outcome"]] != path.outcome:
         return None

@@ -28,10 +28,9 @@ from ..scene.held import held_quantity
 from ..scene.origin import provenance
 from ..scene.scene import Scene
 from . import by_kernel as kernel
-from .boundary_distance import limit, refused
+from .boundary_distance import Near, limit, refused
 from .parameters import SIDEWAYS, check_wrt, elasticities, kind_of, references
 from .problem import NEAR, SHARPEST, Problem
-from .result import Near
 from .sensitivities import derivatives
 
 if TYPE_CHECKING:
@@ -151,26 +150,19 @@ def _stretch(request: _Gradients, which: np.ndarray) -> np.ndarray:
     # for few parameters forward tangents cost no more
     back = request.of == kernel.BACKWARD and len(request.wrt) > kernel.DIRECTIONS
 
-    def run_block(
-        block: np.ndarray, rtol: float, budget: int, backward: bool, nearest: float = 0.0
-    ) -> kernel.Along | None:
+    def run_block(block: np.ndarray, rtol: float, budget: int, backward: bool, nearest: float = 0.0) -> kernel.Along:
         order = (order_backward if backward else order_for)(request.rtol)
         return kernel.gradients_by_kernel(
             request.subset(block), kind, request.wrt, request.of, rtol, order, budget, backward, nearest
         )
 
     answered = run_block(which, request.rtol, _SOON, back, NEAR)  # what is nearer is repeated
-    if answered is None:
-        return which
     run, value, first = answered
     answers, measures = run.answers, run.near
     failures = np.flatnonzero(answers["status"] > LAST_ANSWER)
     if back and failures.size:  # forward tangents of long trajectories, as these also limit the step
-        held = run_block(which[failures], request.rtol, _SOON, False)
-        if held is None:
-            return which
-        answers[failures], measures[failures] = held[0].answers, held[0].near
-        value[:, failures], first[:, failures] = held[1:]
+        again, value[:, failures], first[:, failures] = run_block(which[failures], request.rtol, _SOON, False)
+        answers[failures], measures[failures] = again.answers, again.near
     near, least = measures[:, 0], limit(request.rtol)
     far = (answers["outcome"] > 0) & (near >= NEAR)
     _keep(request, which, answered, far)
@@ -192,12 +184,10 @@ def _stretch(request: _Gradients, which: np.ndarray) -> np.ndarray:
         block = which[close & (decades == decade)]
         sharper = min(request.rtol, max(request.rtol * 10.0**-decade, SHARPEST))
         for backward in (True, False) if back else (False,):
-            again = run_block(block, sharper, _LONG, backward)
-            if again is not None:
-                _keep(request, block, again, again[0].answers["outcome"] > 0)
-                block = block[again[0].answers["status"] > LAST_ANSWER]
-            if not block.size:
-                break
+            if block.size:
+                closer = run_block(block, sharper, _LONG, backward)
+                _keep(request, block, closer, closer[0].answers["outcome"] > 0)
+                block = block[closer[0].answers["status"] > LAST_ANSWER]
     sticks = (answers["outcome"] == OUTCOMES.index(STICKS)) & (answers["status"] <= LAST_ANSWER)
     stuck = which[_alike_beside(request, which, answers, np.flatnonzero(sticks))]
     at_rest = np.where([name == "restitution" for name in request.of], 0.0, np.nan)[:, None]
@@ -211,11 +201,8 @@ def _stretch(request: _Gradients, which: np.ndarray) -> np.ndarray:
 def _without(request: _Gradients, which: np.ndarray, rtol: float, factor: float = 1.0) -> Carried:
     """The collisions without derivatives, by the same kernel."""
     block, oblique = request.subset(which), bool(request.angle[which[0]] > 0)
-    answered = run_tangent(
-        replace(block, speed=block.speed * factor), oblique, rtol, "rotation" in request.of, (), order_for(request.rtol)
-    )
-    assert answered is not None  # the kernel is available
-    return answered
+    faster, order = replace(block, speed=block.speed * factor), order_for(request.rtol)
+    return run_tangent(faster, oblique, rtol, "rotation" in request.of, (), order)
 
 
 def _keep(request: _Gradients, which: np.ndarray, answered: kernel.Along, mask: np.ndarray) -> None:

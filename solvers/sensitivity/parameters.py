@@ -95,13 +95,8 @@ def kind_of(scene: Scene, hold: str) -> Kind:
     """The kind (key of the parameter map) of a scene's collision."""
     entries = dict.fromkeys(name for name in (*parameters_of(scene), *_defaults(scene)) if name not in MEETING)
     own_rupture = scene.bridge.law if scene.bridge is not None and scene.bridge.rupture == "own" else None
-    return Kind(
-        (*entries, f"impact.{hold}", "impact.angle"),
-        hold,
-        scene.ways,
-        (scene.pair, own_rupture, scene.package),
-        formulas(scene),
-    )
+    names, choices = (*entries, f"impact.{hold}", "impact.angle"), (scene.pair, own_rupture, scene.package)
+    return Kind(names, hold, scene.ways, choices, formulas(scene))
 
 
 def references(scene: Scene, names: Sequence[str], speed: Any, angle: Any) -> np.ndarray:
@@ -133,9 +128,13 @@ class ParameterMap:
     slopes: Function
 
     def at(self, reference: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Groups and scales (n,), their derivatives in theta (n, parameters), and dp/dtheta (parameters,)."""
+        """Groups and scales (n,), their derivatives in theta (n, parameters), and dp/dtheta (parameters,).
+
+        Of references (names, impacts) at once (n, impacts), (n, impacts, parameters) and (impacts, parameters).
+        """
         numbers, slopes, units = (matrix.full() for matrix in (self.values(reference), *self.slopes(reference)))
-        return numbers.ravel(), slopes, units.ravel()
+        shape = *reference.shape[1:], units.shape[0]
+        return numbers.reshape(-1, *shape[:-1]), slopes.reshape(-1, *shape), units.T.reshape(shape)
 
 
 @own_cache(128)

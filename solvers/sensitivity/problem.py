@@ -12,8 +12,8 @@ from ..collision.by_kernel import sequence_of
 from ..engines.casadi.sequence import EventSequence
 from ..model import dimensionless
 from ..scene.scene import Scene
+from .boundary_distance import Near
 from .parameters import Kind, kind_of, references
-from .result import Near
 
 RECORDED = 1e-9  # tolerance of the record; landings on its events correct the remaining error
 NEAR = 1e-2  # at smaller distances to a boundary errors are amplified, so the tolerance is reduced with the distance

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import re
 import warnings
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from pathlib import Path as FilePath
 from typing import Any
 
@@ -14,18 +15,20 @@ from scipy.optimize import brentq
 from ...generated.automaton import OUTCOMES, STICK
 from ..changes.brackets import Brackets, enclose
 from ..collision.collide import collide
+from ..collision.text import name_of
 from ..engines.settings import check_rtol
 from ..errors import ComputationError, InputError, ModelWarning, WetDoubletError
+from ..formatting.tables import numbers_aligned
 from ..host.arguments import check_name
 from ..many.collide_many import collide_many
 from ..results import DEFINITIONS, DIFFERENTIATED, INTEGRATED, OF_IMPACT, REVERSALS
 from ..scene.fields import ANY, Field
 from ..scene.held import held_quantity
+from ..scene.origin import origin
 from ..scene.scene import Scene
 from ..scene.schema import MEETING, SPEEDS
 from .parameters import check_wrt
 from .sensitivities import sensitivities
-from .solutions import Jump, Question, Solution, Solutions
 
 TARGETS = tuple(
     name
@@ -40,7 +43,6 @@ _SEEN, _CHANGED = 1e-6, 1e-11  # widths to which roots and changes are enclosed,
 _SHARP = 1e-2  # tolerance of the search over the requested one: noise moves a root by less
 _SHARPEST = 1e-13
 _AGREES = 1e-6  # of the value, or of the largest at hand: how well a collision has to confirm a root
-_REACH = 10.0  # changes of a result over the last samples before a change of outcome, within which it may have a value
 _FLAT = 1e2  # tolerances within which a result is its target
 _SAME = 1e-9  # part of the range within which two roots are one: what errors of a collision move a root by
 _KINDS, _SIDES = len(REVERSALS) + 1, 3  # sides of the value: below, above, undefined
@@ -128,8 +130,53 @@ def _target(target: Mapping[str, Any]) -> tuple[str, float]:
     return name, value
 
 
-class Search(Question):
-    """The samples, brackets and roots of a question; places are parts of the range."""
+@dataclass(frozen=True)
+class Solution:
+    """One value of the entry, SI.
+
+    Attributes:
+        outcome: of the collision there.
+        gradient: derivatives of the value by parameter, and by the result's target; empty where there are none.
+        reason: why there are none.
+    """
+
+    value: float
+    outcome: str
+    gradient: Mapping[str, float] = field(default_factory=dict)
+    reason: str = ""
+
+
+@dataclass(frozen=True)
+class Jump:
+    """Value of the entry where the result jumps over its target; outcomes, with criteria, and results beside it."""
+
+    value: float
+    before: str
+    below: float
+    after: str
+    above: float
+
+    def __str__(self) -> str:
+        return f"{self.value:.10g}: {self.before} {self.below:.4g}, {self.after} {self.above:.4g}"
+
+
+@dataclass(frozen=True)
+class Search:
+    """Where, with `free` from `low` to `high`, has the result `of` this `value`? SI; places are parts of the range.
+
+    Attributes:
+        hold: what the impact keeps.
+        rtol: relative tolerance of the collisions.
+    """
+
+    scene: Scene
+    free: str
+    low: float
+    high: float
+    of: str
+    value: float
+    hold: str
+    rtol: float
 
     def at(self, place: Any) -> Any:
         """Values of the entry, SI."""
@@ -196,15 +243,12 @@ class Search(Question):
         flat = _runs(np.abs(result - self.value) <= _FLAT * self.rtol * size, label // _SIDES)
         for first, last in flat:
             label[first : last + 1] += 2 - label[first : last + 1] % _SIDES  # neither side
-        options: dict[str, Any] = {"at_once": 4 * _FINER, "unknown": -1}
-        labels, every = lambda _, at: self.sampled(at)[1], Brackets.between(np.zeros(place.size, int), place, label)
-        changes = enclose(labels, every, _SEEN, **options)
-        closed = enclose(
-            labels,
-            self._in_reach(changes, place, result, label),
+        closed = enclose(  # roots may lie between the last sample of a regime and its end
+            lambda _, at: self.sampled(at)[1],
+            Brackets.between(np.zeros(place.size, int), place, label),
             lambda brackets: np.where(brackets.before // _SIDES == brackets.after // _SIDES, _SEEN, _CHANGED),
-            **options,
-        )
+            at_once=4 * _FINER, unknown=-1,
+        )  # fmt: skip
         roots: list[float] = []
         jumps: list[Jump] = []
         alike = closed.before // _SIDES == closed.after // _SIDES
@@ -219,25 +263,13 @@ class Search(Question):
         if not defined.size:
             stuck = bool((label // _SIDES // _KINDS == OUTCOMES.index(STICK)).all())
             remarks.append("all stick" if stuck else f"no collision of this scene has {DEFINITIONS[self.of].label}")
-        if not roots and (changes.before // _SIDES != changes.after // _SIDES).any():
+        if not roots and not alike.all():
             remarks.append(f"beside a change of outcome nothing is resolved within {_CHANGED:g} of the range")
         return Solutions(
             self, [self._confirmed(root, size) for root in roots], jumps,
             [(float(self.at(place[j])), float(self.at(place[k]))) for j, k in flat],
             (float(defined.min()), float(defined.max())) if defined.size else None, remarks,
         )  # fmt: skip
-
-    def _in_reach(self, brackets: Brackets, place: np.ndarray, result: np.ndarray, label: np.ndarray) -> Brackets:
-        """The brackets that may hold the value: between their ends, or beyond one, as the result varies before it."""
-        ends = self.sampled(np.concatenate([brackets.low, brackets.high]))[0].reshape(2, -1)
-        near = brackets.before % _SIDES + brackets.after % _SIDES == 1
-        below = np.searchsorted(place, brackets.low, "right") - 2
-        above = np.searchsorted(place, brackets.high, "left") + 1
-        for end, at, regime in ((ends[0], below, brackets.before), (ends[1], above, brackets.after)):
-            at = np.clip(at, 0, place.size - 1)
-            far = np.abs(end - self.value) > _REACH * np.abs(end - result[at])
-            near |= ~np.isnan(end) & ~(far & (label[at] // _SIDES == regime // _SIDES))
-        return brackets.subset(near)
 
     def _samples(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Samples over the range, finer about extrema towards the value that do not reach it."""
@@ -301,6 +333,62 @@ class Search(Question):
         same = SPEEDS if self.free in SPEEDS else (self.free,)
         gradient = {name: -slope / by_free for name, slope in slopes.items() if name not in same and slope is not None}
         return Solution(root, collision.outcome, gradient | {self.of: 1 / by_free})
+
+
+class Solutions(list[float]):
+    """The values of the entry at which the result has its target, SI, ascending.
+
+    Attributes:
+        found: each with outcome and derivatives.
+        jumps: where the target is passed and not taken.
+        throughout: parts of the range in which the result has its target all along.
+        attained: least and greatest result of the samples of the range; None if it is not defined anywhere.
+        remarks: what was not seen, a sentence each.
+    """
+
+    def __init__(
+        self, asked: Search, roots: Sequence[Solution], jumps: Sequence[Jump],
+        throughout: Sequence[tuple[float, float]], attained: tuple[float, float] | None, remarks: Sequence[str],
+    ) -> None:  # fmt: skip
+        super().__init__(root.value for root in roots)
+        self.asked, self.found, self.jumps, self.throughout = asked, tuple(roots), tuple(jumps), tuple(throughout)
+        self.attained, self.remarks = attained, tuple(remarks)
+
+    def to_dict(self) -> dict[str, Any]:
+        """The JSON object of `wetdoublet solve --json`."""
+        asked = self.asked
+        return {
+            "solutions": list(self),
+            "outcomes": [root.outcome for root in self.found],
+            "gradients": [dict(root.gradient) for root in self.found],
+            "jumps": [vars(jump) for jump in self.jumps],
+            "throughout": self.throughout,
+            "attained": self.attained,
+            "free": asked.free,
+            "within": [asked.low, asked.high],
+            "of": {asked.of: asked.value},
+            "units": {asked.free: asked.scene.fields[asked.free].unit or "1", asked.of: DEFINITIONS[asked.of].unit},
+            **origin(asked.scene),
+        }
+
+    def __str__(self) -> str:
+        asked, result = self.asked, DEFINITIONS[self.asked.of]
+        unit, of_result = asked.scene.fields[asked.free].unit or "", result.unit.removeprefix("1")
+        span = f"{asked.free} from {asked.low:.6g} to {asked.high:.6g} {unit}".rstrip()
+        lines = [f"{name_of(asked.scene)}: {result.label} = {asked.value:.6g} {of_result}".rstrip() + f", {span}"]
+        lines += [f"  {root.value:.10g} {unit}".rstrip() + f"  {root.outcome}" for root in self.found]
+        lines += [f"  all along from {low:.6g} to {high:.6g} {unit}".rstrip() for low, high in self.throughout]
+        if len(lines) == 1:
+            others = self.attained and "; collisions there have {:.6g} to {:.6g}".format(*self.attained)
+            lines.append(f"  none: no {span} has it{others or ''}")
+        lines += [f"  jumped over at {jump}" for jump in self.jumps]
+        lines += [f"  no derivatives at {root.value:.6g}: {root.reason}" for root in self.found if root.reason]
+        lines += [f"  {text}" for text in self.remarks]
+        names = dict.fromkeys(name for root in self.found for name, slope in root.gradient.items() if slope)
+        rows = [[name, *(f"{root.gradient.get(name, float('nan')):.6g}" for root in self.found)] for name in names]
+        return "\n".join([*lines, *(["", f"d({asked.free})/dp, SI", *numbers_aligned(rows)] if rows else [])])
+
+    __repr__ = __str__  # what a notebook shows
 
 
 def _runs(at_value: np.ndarray, regime: np.ndarray) -> list[tuple[int, int]]:

@@ -10,7 +10,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -25,7 +25,7 @@ from ..model.key import ModelKey
 from ..model.model import Model, load
 from ..model.phases import Flow, extra_units
 from ..model.rebound import reset, rubs
-from ..results import DEFINITIONS
+from ..results import DEFINITIONS, SPENT
 from ..scene.groups import GAPS, contact_word
 
 STATE = "state."  # begins the name of a component of the last state, among results
@@ -165,13 +165,16 @@ def results(course: Course, p: MX, end: End, tolerance: Tolerance) -> dict[str, 
         before, after = energies.get("own_energy", (MX(0), MX(0)))
         named["energy.own_terms"] = after - before + named.pop("energy.own_work", MX(0))
     named["energy.dry_friction"] = named.get("energy.dry_friction", MX(0)) + end.lost[1]
+    spent = sum((named[name] for name in SPENT if name in named), named["energy.final"])
+    named["energy.residual"] = named["energy.initial"] - spent
     return named | {STATE + name: y[k] for k, name in enumerate(model.state)}
 
 
-def quadratures(model: Model, of: Iterable[str]) -> tuple[str, ...]:
+def quadratures(model: Model, of: tuple[str, ...]) -> tuple[str, ...]:
     """Names of the quadratures that results need: the rotation where it is no state, and terms of the ledger."""
     turns = model.has("turning_rate") and not model.strings
     has = {*model.names("energy_rates"), *(("rotation",) if turns else ())}
-    rows = (DEFINITIONS[name] for name in of if name in DEFINITIONS)
+    every = (*of, *SPENT) if "energy.residual" in of else of
+    rows = (DEFINITIONS[name] for name in every if name in DEFINITIONS)
     wanted = ["own_work" if row.term == "own_terms" else row.term for row in rows if row.integral]
     return tuple(name for name in wanted if name in has)

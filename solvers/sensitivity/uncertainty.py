@@ -18,12 +18,11 @@ from ..results import BY_DEFAULT, attributes
 from ..scene.fields import Field
 from ..scene.held import held_quantity, impact_value
 from ..scene.origin import provenance
-from ..scene.quantities import normal_speed
 from ..scene.scene import Scene
 from ..scene.schema import DEFAULTS, FIELDS, MEETING, SPEEDS
 from .gradients_many import gradients_many
-from .parameters import RELATIVE, check_wrt
-from .result import Sensitivities
+from .parameters import check_wrt
+from .sensitivities import Sensitivities
 
 if TYPE_CHECKING:
     import xarray
@@ -43,16 +42,15 @@ def deviations(scene: Scene, uncertainty: Mapping[str, Any]) -> dict[str, float]
     result = {}
     for name, text in uncertainty.items():
         accepted = f'{name} = "5 %", or a standard deviation with its unit, such as {scene.fields[name].example}'
-        if isinstance(text, str) and text.strip().endswith("%"):
-            try:
+        try:
+            if isinstance(text, str) and text.strip().endswith("%"):
                 value = float(text.strip()[:-1]) / 100 * value_of(scene, name)
-            except ValueError:
-                raise InputError("uncertainty", text, accepted, "is no percentage") from None
-        else:
-            try:
+            else:
                 value = scene.si_number(name, text, f"uncertainty of {name}")
-            except InputError as error:
-                raise InputError(error.field, text, accepted, error.problem) from None
+        except InputError as error:
+            raise InputError(error.field, text, accepted, error.problem) from None
+        except ValueError:
+            raise InputError("uncertainty", text, accepted, "is no percentage") from None
         if not 0 < value < np.inf:
             raise InputError("uncertainty", text, accepted, f"is no standard deviation of {name}")
         result[name] = value
@@ -144,8 +142,9 @@ def band(
     spreads = np.array([[*deviations(scene, uncertainty).values()] for scene in held])
     gradients = gradients_many(at[0], speed=speeds, angle=angles, wrt=tuple(uncertainty), of=[of], rtol=rtol, hold=hold)
     valid = gradients.outcome.values >= 0
-    samples_of = _sampled(held, speeds, angles, uncertainty, of, samples, rtol, hold)
+    samples_of = _sampled(held, uncertainty, of, samples, rtol, hold)
     low, high = np.nanquantile(samples_of, LEVELS, axis=1)
+    given = ", ".join(f"{name}: {text}" for name, text in uncertainty.items())
     return xr.Dataset(
         {
             of: (over, gradients.value.values[0], attributes(of)),
@@ -157,36 +156,24 @@ def band(
             "outcome": (over, np.where(valid, np.array(OUTCOMES)[gradients.outcome.values], "")),
         },
         {over: (over, where, {"units": FIELDS[over].unit or "1"})},
-        provenance(
-            loaded,
-            uncertainty=", ".join(f"{name}: {text}" for name, text in uncertainty.items()),
-            samples=samples,
-            hold=hold,
-        ),
+        provenance(loaded, uncertainty=given, samples=samples, hold=hold),
     )
 
 
 def _sampled(
-    held: Sequence[Scene], speeds: np.ndarray, angles: np.ndarray, uncertainty: Mapping[str, Any], of: str,
-    samples: int, rtol: float, hold: str,
-) -> np.ndarray:  # fmt: skip
+    held: Sequence[Scene], uncertainty: Mapping[str, Any], of: str, samples: int, rtol: float, hold: str
+) -> np.ndarray:
     """Results of the samples, (scenes, samples); a stick has restitution 0 and NaN for other results."""
-    normal = normal_deviates(samples, len(uncertainty))
-    rows = []
-    for scene, speed, angle in zip(held, speeds, angles, strict=True):
-        row = {"impact.speed": np.full(samples, speed), "impact.angle": np.full(samples, angle)}
-        row |= (varied := drawn(scene, uncertainty, normal))
-        relative = scene.impact.relative_speed
-        if "impact.stokes" in varied:
-            row["impact.speed"] = varied["impact.stokes"] / scene.stokes_per_speed
-        if RELATIVE in varied or (relative is not None and not {*SPEEDS} & {*varied}):
-            row["impact.speed"] = normal_speed(varied.get(RELATIVE, relative), row["impact.angle"])
-        rows.append(row)
+    normal, rows = normal_deviates(samples, len(uncertainty)), []
+    for scene in held:
+        row = drawn(scene, uncertainty, normal)
+        scaled = np.full(samples, impact_value(scene, hold))
+        for name in [name for name in SPEEDS if name in row]:  # scales what is held
+            scaled *= row.pop(name) / value_of(scene, name)
+        rows.append({"impact.angle": np.full(samples, scene.angle), **row, f"impact.{hold}": scaled})
     columns = {name: np.concatenate([row[name] for row in rows]) for name in rows[0]}
-    meeting: dict[str, Any] = {"speed": columns["impact.speed"], "angle": columns["impact.angle"]}
-    if hold == "stokes":
-        meeting["stokes"] = meeting.pop("speed") * held[0].stokes_per_speed
-    vary = {name: held[0].as_given(name, column) for name, column in columns.items() if name not in MEETING}
+    meeting: dict[str, Any] = {name.partition(".")[2]: columns.pop(name) for name in MEETING if name in columns}
+    vary = {name: held[0].as_given(name, column) for name, column in columns.items()}
     names = ("outcome", "restitution", *(() if of == "restitution" else (of,)))
     collisions = collide_many(held[0], **meeting, vary=vary, rtol=rtol, of=names)
     return np.asarray(collisions[of].values, dtype=float).reshape(len(held), samples)

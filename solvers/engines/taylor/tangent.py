@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ....generated.automaton import LOOSEST
+from ...errors import ComputationError
 from ...results import DEFINITIONS
 from ...scene.groups import si_values
 from ...scene.scene import Scene
@@ -76,8 +77,8 @@ def run_tangent(
     backward: bool = False,
     fold: bool = True,
     nearest: float = 0.0,
-) -> Carried | None:
-    """Derivatives of impacts that are all oblique, or all head-on; None if no kernel is available.
+) -> Carried:
+    """Derivatives of impacts that are all oblique, or all head-on; ComputationError if no kernel is available.
 
     Arguments:
         moved: quantities to differentiate by; None: all.
@@ -90,9 +91,8 @@ def run_tangent(
     order = order or (order_backward if backward else order_for)(min(rtol, LOOSEST))
     scene = impacts.scene
     wanted = variant_of(scene, oblique, order, rotation, backward, fold, impacts.small)
-    library = kernel(wanted) if kernel_supports(scene, (oblique,), gradients=True) else None
-    if library is None:
-        return None
+    check_derivatives(scene, oblique)
+    library = kernel(wanted)
     if backward:
         budget, rtol = min(budget, MOST_STEPS), min(rtol, LOOSEST) / STRICTER
     quantities, groups = names(library, "quantity_names"), names(library, "group_names")
@@ -111,6 +111,15 @@ def run_tangent(
         call.run()
     measures = near.view("f8").reshape(count, -1)
     return Carried(answers, slopes, measures, quantities)
+
+
+def check_derivatives(scene: Scene, oblique: bool) -> None:
+    """Raise ComputationError unless the kernel differentiates the scene's collisions on this machine."""
+    if not kernel_supports(scene, (oblique,), gradients=True):
+        raise ComputationError(
+            "derivatives by the compiled kernel are needed, which this scene or machine has not",
+            advice="install a C compiler, or leave out declared events and laws that have no derivative",
+        )
 
 
 def variant_of(

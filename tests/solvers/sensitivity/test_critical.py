@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from wetdoublet.solvers import InputError, Scene, collide, critical
-from wetdoublet.solvers.sensitivity.critical_speeds import Critical, CriticalSpeed
+from wetdoublet.solvers.sensitivity.critical import Critical, CriticalSpeed
 from wetdoublet.solvers.sensitivity.materials import materials_of
 from wetdoublet.solvers.sensitivity.plots import draw_critical
 
