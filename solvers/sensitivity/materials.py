@@ -52,7 +52,7 @@ def materials_of(
         scene = Scene.load(source, model)
         return [Material(scene.name, scene.with_entries(changes) if changes else scene)]
     package = None if model is None else open_package(model, "model")
-    known = fields(package)
+    declared = fields(package)
     columns, lines = columns_of(source, "materials", _TABLE)
     columns = [replace(column, name=_OF_IMPACT.get(column.name, column.name)) for column in columns]
     table = file_label(source, "materials")
@@ -60,17 +60,17 @@ def materials_of(
         raise InputError(table, None, "at least one row", "has no rows")
     for column in columns:
         name = column.name.removesuffix(_SD)
-        if name not in known and ("." in name or name in _BARE or column.unit):
-            meant = f", did you mean {_BARE[name]}?" if name in _BARE else did_you_mean(name, [*known, *_BARE])
+        if name not in declared and ("." in name or name in _BARE or column.unit):
+            meant = f", did you mean {_BARE[name]}?" if name in _BARE else did_you_mean(name, [*declared, *_BARE])
             accepted = "entries of a scene by dotted name, and names of the rows without unit"
             raise InputError(f"{table}, header", column.name, accepted, f"is unknown{meant}")
-        if name in known and known[name].unit and column.unit is None and isinstance(source, (str, Path)):
-            accepted = f"the unit in brackets, such as {name} [{known[name].unit}]"
+        if name in declared and declared[name].unit and column.unit is None and isinstance(source, (str, Path)):
+            accepted = f"the unit in brackets, such as {name} [{declared[name].unit}]"
             raise InputError(f"{table}, header", column.name, accepted, "has no unit")
     rows = []
     for k, line in enumerate(lines):
         cells = {column.name: _cell(column.unit, column.cells[k]) for column in columns}
-        entries = {name: value for name, value in cells.items() if name in known and value is not None}
+        entries = {name: value for name, value in cells.items() if name in declared and value is not None}
         spread = {name.removesuffix(_SD): value for name, value in cells.items() if name.endswith(_SD) and value}
         names = [str(value) for name, value in cells.items() if "." not in name and name != "scene" and value]
         label = ", ".join(names) or row_name(k + 1, line)
@@ -79,7 +79,7 @@ def materials_of(
         except InputError as error:
             where = f"{table}, {label}{f' (line {line})' * bool(names)}, {error.field}"
             raise InputError(where, error.value, error.accepted, error.problem) from None
-        empty = ", ".join(name for name, value in cells.items() if name in known and value is None)
+        empty = ", ".join(name for name, value in cells.items() if name in declared and value is None)
         remark = f"empty in the table and left as in {cells.get('scene') or 'a scene without it'}: {empty}"
         rows.append(Material(label, scene, spread, remark if empty else ""))
     return rows
