@@ -111,8 +111,8 @@ def command(public: str = "", **required: str) -> Callable[[Callable[..., None]]
     parameter has another name. Of an option that several commands have, the flag alone says the rest; a line without
     help has that of the public function's docstring, with the default of its signature. What stands for the value says
     how it is read, unless the parameter's annotation does; `str` is the text as it is typed. An option whose help ends
-    in "repeatable." is. What is absent is None; the function's `**` has those that are present and no parameter of its
-    own. An InputError about a parameter, of whatever function, is reported under its option.
+    in "repeatable." may be given several times. What is absent is None; the function's `**` has those that are present
+    and no parameter of its own. An InputError about a parameter, of whatever function, is reported under its option.
 
     Arguments:
         public: the file below solvers/ and its function that the command is of, `collision.collide:collide`.
