@@ -94,19 +94,18 @@ class Unlocked:
             print(name)
 
 sys.meta_path.insert(0, Unlocked())
-path = Path(sys.argv[1])
+Scene.load("granulation", model=Path(sys.argv[1]))
+next(findings({}))
 """
 
 
-@pytest.mark.parametrize(
-    "asked", ["Scene.load('granulation', model=path)", pytest.param("next(findings({}))", marks=pytest.mark.slow)]
-)
-def test_the_derivation_is_imported_by_one_thread_at_a_time(asked: str, tmp_path: Path):
+@pytest.mark.slow
+def test_the_derivation_is_imported_by_one_thread_at_a_time(tmp_path: Path):
     """Two that import its modules from different sides may each find one of the other's half made: an ImportError."""
     (tmp_path / "mine.py").write_text(
         "from wetdoublet.derive.user import *\nlaw('bridge', 'mine', force=2*pi*a*sigma)\n"
     )
-    command = [sys.executable, "-c", _IMPORTS + asked, str(tmp_path / "mine.py")]
+    command = [sys.executable, "-c", _IMPORTS, str(tmp_path / "mine.py")]
     environment = os.environ | {"WETDOUBLET_CACHE": str(tmp_path / "cache")}
     done = subprocess.run(command, capture_output=True, text=True, check=False, env=environment)
     assert (done.returncode, done.stdout, done.stderr) == (0, "", "")

@@ -34,8 +34,10 @@ CASES = {
         TORQUE + SPRING + BETWEEN + SPIN, "8e-10*4*a**2*xi**2*x/x0 - 5e-9*beta**2/2",
         {"spin": "3e-6*x0/v0*(omega - xi)", "beta": "1e-10 + 3e-6*x0/v0*(xi - omega)"},
     ),
-    "angle": (PULL + "energy(pull*r*cos(beta + pi/3))", "-2e-6*(4*a + x)*cos(beta + pi/3)", {}),
-    "inertia": (ADDED + "energy(added*u**2/2*(1 + beta**2))", "4e-10*u**2*(1 + beta**2)", {}),
+    "angle": (
+        PULL + "energy(pull*r*cos(beta + pi/3))\n" + ADDED + "energy(added*u**2/2*(1 + beta**2))",
+        "-2e-6*(4*a + x)*cos(beta + pi/3) + 4e-10*u**2*(1 + beta**2)", {},
+    ),
 }  # fmt: skip
 FREE = """
 [particles]
@@ -104,7 +106,7 @@ def reference(given: Scene, lagrangian: str, forces: dict[str, str]) -> np.ndarr
     return np.array([last[1], *last[3:], found.t_events[0][0] * time])
 
 
-SLOW = ("angle", "inertia", "rotation")  # much sympy
+SLOW = ("angle", "rotation")  # much sympy
 
 
 @pytest.mark.parametrize("case", [pytest.param(name, marks=[pytest.mark.slow] * (name in SLOW)) for name in CASES])
@@ -167,23 +169,6 @@ def test_a_law_is_exported_with_terms_on_the_gap_only(tmp_path: Path):
 
 
 @pytest.mark.slow
-@pytest.mark.skipif("gcc" not in FOUND, reason="needs gcc and g++")
-def test_a_term_may_give_energy_in_space(tmp_path: Path):
-    """A drag of the wrong sign, with which no energy holds a stick, by each engine and the exported law; e_n > 1."""
-    wrong = 'gain = quantity("gain", unit="N s/m", default="6e-3 N s/m")\nforce_on("gap", gain*u*x/x0)\n'
-    own = scene(tmp_path, wrong, FREE.replace("0.5 Pa s", "2 Pa s"))
-    speed, angle = own.speed_of(0.1), 0.1
-    pair = [1.0, 0.0, 0.0], [[speed, speed * math.tan(angle), 0.0], [0.0] * 3], [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0]]
-    law = Law(own, law_alone(own, tmp_path))
-    exported = law.collide_pairs(law.pairs(pair[0], np.array([pair[1]]), np.array([pair[2]])))
-    values = [float(collide_pair(own, *pair, engine=engine).restitution) for engine in ("taylor", "rosenbrock")]
-    assert exported["status"].tolist() == [0]
-    assert f"#define {law.name.upper()}_FORCES 0" in law.header  # the response along a held line has no terms
-    assert values[0] > 1
-    assert [values[1], exported["restitution"].item()] == pytest.approx([values[0]] * 2, rel=1e-8)
-
-
-@pytest.mark.slow
 def test_friction_presses_with_the_added_mass(tmp_path: Path):
     """A rebound that slides gives each sphere mu_f (1 + e) (m + M) u r/2 over its inertia, in a film that does nothing.
 
@@ -204,9 +189,10 @@ def test_friction_presses_with_the_added_mass(tmp_path: Path):
 @pytest.mark.slow  # sympy
 def test_friction_at_rest_is_of_the_force_whatever_mass_moves_along(tmp_path: Path):
     """The reaction of a contact at rest is the force on the gap, of which an added mass is no part."""
+    own = scene(tmp_path, PULL + "energy(pull*x)\n" + MASS).with_entries({"particles.friction": 0.2})
     friction = []
-    for added in ("", MASS):
-        built = equations(scene(tmp_path, PULL + "energy(pull*x)\n" + added).with_entries({"particles.friction": 0.2}))
+    for added in ("0 kg", "8e-10 kg"):
+        built = equations(own.with_entries({"custom.added_mass": added}))
         groups = list(built.groups.values())
         state = built.functions["start"](groups).full().ravel()
         state[:2] = 0.2 / 8, 0.0
@@ -369,7 +355,7 @@ def test_of_many_impacts_those_with_a_criterion_outside_the_film_fail(tmp_path: 
 
 @pytest.mark.slow
 @pytest.mark.filterwarnings("ignore::wetdoublet.solvers.ModelWarning")
-@pytest.mark.parametrize(("number", "verdict"), [(0, "right"), (1, "right"), (5, "refused"), (13, "right")])
+@pytest.mark.parametrize(("number", "verdict"), [(0, "right"), (1, "right"), (5, "refused")])
 def test_models_drawn_at_random(number: int, verdict: str, tmp_path: Path):
     """Terms, criteria, events and laws: refused with a sentence, or right by three engines, with the derivatives."""
     found, how = judged(number, tmp_path)
@@ -396,19 +382,29 @@ def test_an_event_without_a_jump_creates_nothing_where_the_energy_is_negative(tm
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("engine", ["taylor", "rosenbrock"])
 @pytest.mark.parametrize("push", [-1, 1])
-def test_a_force_that_may_give_energy_acts_in_space(engine: str, push: int, tmp_path: Path):
-    """A constant force is a potential by another name: the same collision, or stick at rest."""
+def test_a_force_that_may_give_energy_acts_in_space(push: int, tmp_path: Path):
+    """A constant force is a potential by another name: the same collision by each engine, or stick at rest.
+
+    So it is by the exported law, whose forces for time steps have no terms.
+    """
     text = FREE.replace("stokes = 0.6", f"stokes = {0.6 if push > 0 else 0.02}").replace("60 deg", "20 deg")
-    pull = PULL.replace("2e-6", "1e-4") + MASS
-    spin, found = np.random.default_rng(3).normal(size=(2, 3)) * 20, []
-    for body in (f'force_on("gap", {push}*pull)\n', f"energy(-{push}*pull*x)\n"):
-        given = scene(tmp_path, pull + body, text)
-        speed = given.need_impact()[0]
-        found.append(collide_pair(given, [1, 0, 0], [[speed, 0.2 * speed, 0], [0] * 3], spin, engine=engine))
-    one, other = found
-    assert int(one.outcome) == int(other.outcome) == (1 if push > 0 else 0)
-    assert one.velocities.values == pytest.approx(other.velocities.values, rel=1e-7, abs=1e-9 * speed)
+    pull = 'pull = quantity("pull", unit="N", default="1e-4 N", bounds="> -1")\n' + MASS
+    force, energy = (
+        scene(tmp_path, pull + body, text).with_entries({"custom.pull": push * 1e-4})
+        for body in ('force_on("gap", pull)\n', "energy(-pull*x)\n")
+    )
+    speed, spin = force.need_impact()[0], np.random.default_rng(3).normal(size=(2, 3)) * 20
+    pair = [1.0, 0.0, 0.0], [[speed, 0.2 * speed, 0.0], [0.0] * 3], spin
+    given = ((force, "taylor"), (energy, "taylor"), (force, "rosenbrock"), (energy, "rosenbrock"))
+    found = [collide_pair(each, *pair, engine=engine) for each, engine in given]
+    assert [int(each.outcome) for each in found] == [1 if push > 0 else 0] * 4
+    for each in found[1:]:
+        assert each.velocities.values == pytest.approx(found[0].velocities.values, rel=1e-7, abs=1e-9 * speed)
     if push < 0:
-        assert bool(one.certified)
+        assert all(bool(each.certified) for each in found[::2])
+    elif "gcc" in FOUND:
+        law = Law(force, law_alone(force, tmp_path))
+        exported = law.collide_pairs(law.pairs(pair[0], np.array([pair[1]]), np.array([spin])))
+        assert f"#define {law.name.upper()}_FORCES 0" in law.header
+        assert exported["restitution"].item() == pytest.approx(float(found[0].restitution), rel=1e-8)

@@ -124,10 +124,9 @@ MUTANTS = {  # file, text, what is put there, the function that proves it, and t
 }  # fmt: skip
 
 
+@pytest.mark.slow
 @of_these_versions
-@pytest.mark.parametrize(
-    "name", [next(iter(MUTANTS)), *(pytest.param(k, marks=pytest.mark.slow) for k in [*MUTANTS][1:])]
-)
+@pytest.mark.parametrize("name", MUTANTS)
 def test_a_changed_term_is_proved_anew_and_fails(name: str, tmp_path: Path) -> None:
     """The package's verdict on the law as it was is not taken for it."""
     path, old, new, function, failing = MUTANTS[name]
