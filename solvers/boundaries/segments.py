@@ -31,13 +31,16 @@ class _Segments:
     def narrowed(self, changes: Brackets) -> Brackets:
         """The changes enclosed to `LOCATED`; those between a known and an unknown label stay as they are.
 
-        Labels of ends are never computed again: a collision that takes about all steps may be decided in one batch and
-        not in another.
+        Where labels between are unknown over more than rounding, they change to -1 and back. Labels of ends are never
+        computed again: a collision that takes about all steps may be decided in one batch and not in another.
         """
         certain = np.minimum(changes.before, changes.after) >= 0
         options = {"at_once": _SAMPLES * int(certain.sum()), "unknown": -1}
         narrow = enclose(lambda *on: self.labels(self.at(*on)), changes.subset(certain), LOCATED, **options)
-        return Brackets.joined([changes.subset(~certain), narrow])
+        dark = 2 * narrow.error > _DOUBT
+        edges, unknown = narrow.subset(dark), np.full(int(dark.sum()), -1)
+        ends = replace(edges, high=edges.low, after=unknown), replace(edges, low=edges.high, before=unknown)
+        return Brackets.joined([changes.subset(~certain), narrow.subset(~dark), *ends])
 
 
 def changes_on(
@@ -52,13 +55,6 @@ def changes_on(
     length, line = np.linalg.norm(high - low, axis=1), np.arange(len(low))
     segments = _Segments(labels, low, (high - low) / length[:, None])
     changes = segments.narrowed(Brackets(line, np.zeros(line.size), length, *np.array(ends).T))
-    dark = (2 * changes.error > _DOUBT) & (np.minimum(changes.before, changes.after) >= 0)
-    edges = changes.subset(dark)
-    unknown = np.full(edges.size, -1)
-    changes = Brackets.joined([
-        changes.subset(~dark), replace(edges, high=edges.low, after=unknown),
-        replace(edges, low=edges.high, before=unknown),
-    ])  # fmt: skip
     result: list[list[tuple[list[float], int, int]]] = [[] for _ in line]
     columns = (changes.line, segments.at(changes.line, changes.place), changes.before, changes.after)
     for k, place, *pair in zip(*(column.tolist() for column in columns), strict=True):

@@ -174,7 +174,7 @@ def quadratures(model: Model, of: tuple[str, ...]) -> tuple[str, ...]:
     """Names of the quadratures that results need: the rotation where it is no state, and terms of the ledger."""
     turns = model.has("turning_rate") and not model.strings
     has = {*model.names("energy_rates"), *(("rotation",) if turns else ())}
-    every = (*of, *SPENT) if "energy.residual" in of else of
+    every = dict.fromkeys((*of, *SPENT) if "energy.residual" in of else of)
     rows = (DEFINITIONS[name] for name in every if name in DEFINITIONS)
     wanted = ["own_work" if row.term == "own_terms" else row.term for row in rows if row.integral]
     return tuple(name for name in wanted if name in has)
