@@ -35,8 +35,9 @@ class _Segments:
         computed again: a collision that takes about all steps may be decided in one batch and not in another.
         """
         certain = np.minimum(changes.before, changes.after) >= 0
-        options = {"at_once": _SAMPLES * int(certain.sum()), "unknown": -1}
-        narrow = enclose(lambda *on: self.labels(self.at(*on)), changes.subset(certain), LOCATED, **options)
+        count = _SAMPLES * int(certain.sum())
+        some = changes.subset(certain)
+        narrow = enclose(lambda *on: self.labels(self.at(*on)), some, LOCATED, at_once=count, unknown=-1)
         dark = 2 * narrow.error > _DOUBT
         edges, unknown = narrow.subset(dark), np.full(int(dark.sum()), -1)
         ends = replace(edges, high=edges.low, after=unknown), replace(edges, low=edges.high, before=unknown)
@@ -87,7 +88,7 @@ def crossings(
         matches = np.stack([changes.before == low[changes.line], changes.after == high[changes.line]])
         exact = matches.all(axis=0)
         order = np.lexsort((np.abs(changes.place), ~exact, changes.line))
-        order = order[(matches.any(axis=0) if third else exact)[order]]
+        order = order[np.asarray(matches.any(axis=0) if third else exact)[order]]
         return changes.subset(order[np.unique(changes.line[order], return_index=True)[1]])
 
     mask = label >= 0
