@@ -8,11 +8,12 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
-from casadi import SX, Function, densify, jacobian, substitute, vertcat
+from casadi import SX, Function, densify, jacobian, substitute, vec, vertcat
 
 from ...generated import scaling
 from ..errors import InputError
 from ..host.arguments import check_names
+from ..host.casadi_calls import Buffered
 from ..host.thread_caches import own_cache
 from ..scene.groups import GAPS, Formula, formulas
 from ..scene.quantities import Ways, initial_gap, normal_speed, quantities
@@ -121,20 +122,24 @@ class ParameterMap:
 
     Arguments:
         values: (ref,) -> groups, then the scales of length, time, rate and energy.
-        slopes: (ref,) -> their derivatives in theta, and dp/dtheta.
+        whole: (ref,) -> these, their derivatives in theta parameter by parameter, and dp/dtheta, as one column.
     """
 
     values: Function
-    slopes: Function
+    whole: Function
 
     def at(self, reference: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Groups and scales (n,), their derivatives in theta (n, parameters), and dp/dtheta (parameters,).
 
         Of references (names, impacts) at once (n, impacts), (n, impacts, parameters) and (impacts, parameters).
         """
-        numbers, slopes, units = (matrix.full() for matrix in (self.values(reference), *self.slopes(reference)))
-        shape = *reference.shape[1:], units.shape[0]
-        return numbers.reshape(-1, *shape[:-1]), slopes.reshape(-1, *shape), units.T.reshape(shape)
+        impacts, size = reference.shape[1:], self.values.nnz_out(0)
+        whole = Buffered(self.whole, (0,))
+        columns = np.array([whole(values) for values in np.atleast_2d(reference.T)]).reshape(*impacts, -1)
+        parameters = (self.whole.nnz_out(0) + 1) // (size + 1) - 1
+        numbers, slopes, units = np.split(columns, (size, size * (1 + parameters)), axis=-1)
+        slopes = slopes.reshape(*impacts, parameters, size)
+        return np.moveaxis(numbers, -1, 0), np.moveaxis(slopes, -1, 0), units
 
 
 @own_cache(128)
@@ -165,11 +170,12 @@ def parameter_map(kind: Kind, wrt: tuple[str, ...], groups: tuple[str, ...]) -> 
     scales = [length, length / speed, numbers["rate_scale"], known_values["reduced_mass"] * speed**2]
     column = densify(vertcat(*(SX(numbers[name]) for name in groups), *scales))
 
-    def function(name: str, *outputs: SX) -> Function:
-        here = substitute(list(outputs), [theta], [SX.zeros(len(wrt))])
-        return Function(name, [reference], [densify(output) for output in here])
+    def function(name: str, output: SX) -> Function:
+        (here,) = substitute([output], [theta], [SX.zeros(len(wrt))])
+        return Function(name, [reference], [densify(here)])
 
-    return ParameterMap(function("values", column), function("slopes", jacobian(column, theta), vertcat(*units)))
+    whole = vertcat(column, vec(densify(jacobian(column, theta))), *units)
+    return ParameterMap(function("values", column), function("whole", whole))
 
 
 def _impact(base: Mapping[str, SX], ways: Ways) -> dict[str, SX]:
