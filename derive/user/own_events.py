@@ -9,6 +9,7 @@ same file may use as a factor. As a state it needs no further machinery in deriv
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cache, cached_property
 
 import sympy as sp
 
@@ -134,7 +135,7 @@ class OwnEvent:
         """The guard or the jump speaks of a rotation, which there is none of beside a wall."""
         return bool({*self.symbols, *(target for target, _ in self.jump)} & {*STILL, q.omega0})
 
-    @property
+    @cached_property
     def turns(self) -> bool:
         """Its guard varies with a rotation only, so that nothing happens head-on."""
         return not sp.simplify(self.guard.xreplace(STILL)).free_symbols & {q.x, q.u, q.t}
@@ -144,7 +145,7 @@ class OwnEvent:
         """The jump changes the rotation, so that the spin cannot be eliminated by the angular momentum."""
         return any(target in (q.omega, q.xi) for target, _ in self.jump)
 
-    @property
+    @cached_property
     def takes(self) -> bool:
         """True if its jump is shown to never add kinetic energy."""
         after = {target: value * (q.v0 if target == q.u else q.rate_scale) for target, value in self.jump}
@@ -260,9 +261,13 @@ def together(events: Sequence[OwnEvent], structure: Structure) -> dict[str, OwnE
     return {
         event.name: first
         for event, first in pairs
-        if event.proposed.where == first.proposed.where
-        and sp.simplify(guards[event.name] / guards[first.name]).is_positive
+        if event.proposed.where == first.proposed.where and _is_positive(guards[event.name] / guards[first.name])
     }
+
+
+@cache  # guards are the same in most structures
+def _is_positive(expression: sp.Expr) -> bool:
+    return bool(sp.simplify(expression).is_positive)
 
 
 def _in_order(forms: Mapping[str, Form], waits: Mapping[str, OwnEvent]) -> dict[str, sp.Expr]:
