@@ -9,11 +9,13 @@ A law fills a slot of the library's (`film`, `shear`, `arm`, `glass`, `bridge`, 
 as they are in SI, or dimensionless in the slot's own arguments; `declared` reads such a file.
 """
 
+import math
 import re
 from collections.abc import Collection, Iterator, Mapping
 from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass, field
+from fractions import Fraction
 
 import sympy as sp
 
@@ -277,7 +279,14 @@ def read_expression(label: str, value: object) -> sp.Expr:
         raise ModelFileError(label, value, "a sympy expression") from None
     if not isinstance(result, sp.Expr) or isinstance(value, str):
         raise ModelFileError(label, value, "a sympy expression")
-    return result.xreplace({number: sp.Rational(str(float(number))) for number in result.atoms(sp.Float)})
+    return result.xreplace({number: _exact(number) for number in result.atoms(sp.Float)})
+
+
+def _exact(number: sp.Float) -> sp.Rational:
+    """The decimal or fraction that was meant, where rounding explains the rest: 1/3, and 0.6 for 1.5*0.4."""
+    value = float(number)
+    near = Fraction(value).limit_denominator(1000)
+    return sp.Rational(near) if abs(float(near) - value) <= 2 * math.ulp(value) else sp.Rational(str(value))
 
 
 def latex_names(model: Declarations, groups: Mapping[str, str]) -> dict[str, str]:

@@ -52,12 +52,12 @@ def freed(expression: sp.Expr) -> sp.Expr:
 
     def front(node: sp.Basic) -> sp.Basic:
         marks = sp.symbols(f"part:{len(node.args)}", cls=sp.Dummy, positive=True)
-        whole = as_product(sp.Add(*(mark * term for mark, term in zip(marks, node.args, strict=True))))
-        factors = [factor for factor in sp.Mul.make_args(whole) if factor.is_positive and not factor.has(*marks)]
+        parts = _factors(sp.Add(*(mark * term for mark, term in zip(marks, node.args, strict=True))))
+        factors = [factor for factor in parts if factor.is_positive and not factor.has(*marks)]
         return sp.Mul(*factors) * node.func(*(sp.expand(term / sp.Mul(*factors)) for term in node.args))
 
     def compared(node: Relational) -> sp.Basic:
-        factors = sp.Mul.make_args(as_product(node.lhs - node.rhs))
+        factors = _factors(node.lhs - node.rhs)
         return node.func(sp.Mul(*(-1 if term.is_negative else term for term in factors if not term.is_positive)), 0)
 
     def powered(node: sp.Pow) -> sp.Basic:
@@ -68,6 +68,17 @@ def freed(expression: sp.Expr) -> sp.Expr:
     result = expression.replace(lambda node: isinstance(node, sp.Pow) and not node.exp.is_Integer, powered)
     result = result.replace(lambda node: isinstance(node, (sp.Abs, sp.Max, sp.Min)), front)  # the inner ones first
     return result.xreplace({node: compared(node) for node in result.atoms(Relational)})
+
+
+def _factors(expression: sp.Expr) -> tuple[sp.Expr, ...]:
+    """The factors of an expression, in which exponentials count as symbols.
+
+    To sympy s exp(-z) - r is (s - r exp(z)) exp(-z), which overflows.
+    """
+    exponentials = list(sp.ordered(expression.atoms(sp.exp)))
+    names = [sp.Dummy(f"exponential_{k}", positive=True) for k in range(len(exponentials))]
+    product = as_product(expression.xreplace(dict(zip(exponentials, names, strict=True))))
+    return sp.Mul.make_args(product.xreplace(dict(zip(names, exponentials, strict=True))))
 
 
 def guarded(expression: sp.Expr, moving: Collection[sp.Symbol]) -> list[sp.Expr]:

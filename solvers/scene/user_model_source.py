@@ -122,11 +122,12 @@ def _depends_on_others(content: bytes) -> bool:
 
 @dataclass(frozen=True)
 class Derived:
-    """A derived model file: the report as text, its files (none if a check fails), and the failed checks."""
+    """A derived model file: the report, its files (none if a check fails), the failed checks and the first's figure."""
 
     report: str
     files: Mapping[str, str]
     failed: str
+    reason: str = ""
 
 
 def derived_package(path: Path, folder: Path | None) -> Derived:
@@ -150,9 +151,10 @@ def derived_package(path: Path, folder: Path | None) -> Derived:
     width = max(len(check.name) for check in checks)
     marks = {True: "ok  ", False: "FAIL", None: "note"}
     lines = [f"{marks[check.ok]} {check.name:<{width}}  {check.figure}" for check in checks]
-    failing = [check.name for check in checks if check.ok is False]
+    failing = [check for check in checks if check.ok is False]
     if model is None or failing:
-        return Derived("\n".join(lines), {}, f"fails {', '.join(failing)}; nothing is emitted")
+        failed = f"fails {', '.join(check.name for check in failing)}; nothing is emitted"
+        return Derived("\n".join(lines), {}, failed, failing[0].figure)
     source, words = path.read_text(encoding="utf-8"), in_words(model)
     files = package(model, source, library_digest(), conserved(model), words, origin_of(path, folder))
     emitted = Package(files["manifest.json"], path, files)
@@ -179,7 +181,7 @@ def files_of(path: Path) -> Mapping[str, str]:
     """What a model file is derived to (imports sympy); CheckFailed if one of its checks fails."""
     package = derived_package(path, None)
     if not package.files:
-        raise CheckFailed(f"{path}: {package.failed}")
+        raise CheckFailed(f"{path}: {package.failed}: {package.reason}")
     return package.files
 
 

@@ -46,6 +46,24 @@ def test_on_either_side_the_law_is_the_written_one(factor: str):
             assert float(other.subs(at).evalf(30)) == pytest.approx(float(expected), rel=1e-7, abs=1e-9), at
 
 
+@pytest.mark.parametrize(
+    "kinked", ["Max(strong*exp(-x/debye), weak)", "weak*Piecewise((1, exp(-x/debye) < 0.5), (2, True))"]
+)
+def test_what_has_decayed_stays_a_number(kinked: str):
+    """Far beyond the range of an attraction that decays fast the other one is left, though exp(x/debye) overflows."""
+    units = {"debye": "m", "strong": "N", "weak": "N"}
+    lines = [f'{name} = quantity("{name}", unit="{unit}")' for name, unit in units.items() if name in kinked]
+    law = read(Path("mine.py"), "\n".join([HEAD, *lines, f'law("bridge", "mine", force={kinked})'])).laws[0]["force"]
+    statements = list(law.definitions)
+    compiled = sp.lambdify(law.arguments, law.result, modules=["math"], cse=lambda result: (statements, result))
+
+    def at(gap: float) -> float:
+        values = {"debye": 1e-5, "strong": 5.0, "weak": 2.0, "gap": gap}
+        return float(compiled(*(values.get(symbol.name.split("_")[0], 0.1) for symbol in law.arguments)))
+
+    assert at(0.3) == at(0.1) > 0
+
+
 def test_guards_are_what_vanishes():
     """A kink in the velocity has the velocity as its guard, whatever positive factor it is written with."""
     forms = (

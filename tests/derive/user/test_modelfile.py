@@ -55,6 +55,21 @@ def test_written_the_same_it_is_the_same():
 
 
 @pytest.mark.parametrize(
+    ("python", "exact"),
+    [
+        ("(V*R**3)**(1/3)", "V**Rational(1, 3)*R"),
+        ("(R**1.5*V)**0.4*R**0.4", "R*V**Rational(2, 5)"),
+        ("R*(0.1 + 0.2)", "R*Rational(3, 10)"),
+    ],
+)
+def test_arithmetic_of_decimals_is_exact(python: str, exact: str):
+    """A fraction by Python's division, and decimals that Python multiplied or added, are what was meant."""
+    first, second = (model(f'law("bridge", "mine", force=sigma*R, rupture_distance={one})') for one in (python, exact))
+    found, expected = (each.laws[0]["rupture_distance"].result for each in (first, second))
+    assert sp.simplify(found - expected) == 0
+
+
+@pytest.mark.parametrize(
     "spellings",
     [
         ("Piecewise((1, u>=0), (2, True))", "Piecewise((1, u/v0 >= 0), (2, True))", "Piecewise((2, m*u<0), (1, True))"),
