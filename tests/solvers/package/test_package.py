@@ -6,12 +6,8 @@ import ast
 import json
 import os
 import pkgutil
-import shutil
 import subprocess
 import sys
-import tomllib
-import venv
-from importlib.machinery import PathFinder
 from importlib.metadata import version
 from pathlib import Path
 
@@ -132,20 +128,3 @@ def test_every_folder_is_packaged() -> None:
     }
     expected = {f"wetdoublet.{folder.replace('/', '.')}" for folder in folders - {"solvers/package"}} | {"wetdoublet"}
     assert set(done.stdout.split()) == expected
-
-
-@pytest.fixture
-def interpreter(tmp_path: Path) -> Path:
-    """An interpreter beside whose packages lies wetdoublet in a folder, as `pip install .` lays it out.
-
-    This interpreter, unless its installation is an editable one through an import hook, which no type checker follows.
-    """
-    if PathFinder.find_spec("wetdoublet") is not None:
-        return Path(sys.executable)
-    venv.create(tmp_path / "venv", with_pip=False)
-    (site,) = (tmp_path / "venv" / "lib").glob("python*/site-packages")
-    (site / "others.pth").write_text("\n".join(path for path in sys.path if path.endswith("site-packages")))
-    mapped = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["tool"]["setuptools"]["package-dir"]
-    for package, folder in mapped.items():
-        shutil.copytree(ROOT / folder, site / package.replace(".", "/"))
-    return tmp_path / "venv" / "bin" / "python"
