@@ -15,14 +15,19 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from .averages.averages import collision_averages
     from .boundaries.boundary import atlas, boundary
+    from .boundaries.proved_boundary import ProvedBoundary, prove_boundary
+    from .boundaries.proved_map import ProvedMap, prove_map
     from .boundaries.result import Atlas, Boundaries
     from .collision.collide import collide
     from .collision.result import Collision
+    from .collision.space.collide_pair import collide_pair
     from .engines.interval.prove import Proof, prove
     from .engines.kernels import compile_kernels
     from .errors import CheckFailed, ComputationError, InputError, ModelWarning, WetDoubletError
     from .explorer.page_of_scene import Explorer, explore
     from .export.hybrid import Equations, equations
+    from .fitting.design import design
+    from .fitting.design_result import Design
     from .fitting.examine import check_data
     from .fitting.fit import fit, log_likelihood
     from .fitting.flow_curve import flow_curve
@@ -31,10 +36,6 @@ if TYPE_CHECKING:
     from .host.pictures import plot
     from .many.collide_many import collide_many
     from .many.regime_map import regime_map
-    from .planning.design import design
-    from .planning.result import Design
-    from .proofs.proved_boundary import ProvedBoundary, prove_boundary
-    from .proofs.proved_map import ProvedMap, prove_map
     from .scene.scene import Scene
     from .sensitivity.boundaries import BoundarySensitivities, boundary_sensitivities
     from .sensitivity.critical import Critical, critical
@@ -43,7 +44,6 @@ if TYPE_CHECKING:
     from .sensitivity.sensitivities import Sensitivities, sensitivities
     from .sensitivity.solve import solve
     from .sensitivity.uncertainty import band
-    from .space.collide_pair import collide_pair
 
 # Where each name is stands in the imports above, which are for type checkers alone: they are read here as text.
 _IMPORTS = re.findall(r"^    from \.(\S+) import (.+)$", Path(__file__).read_text(encoding="utf-8"), re.MULTILINE)

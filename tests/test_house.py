@@ -23,9 +23,9 @@ ORDER = (
     "derive.checks",
     "generated", "solvers.errors", "solvers.host", "solvers.results", "solvers.formatting", "solvers.scene",
     "solvers.model", "solvers.engines", "solvers.collision", "solvers.many",
-    "solvers.proofs", "solvers.space", "solvers.changes", "solvers.boundaries", "solvers.sensitivity",
-    "solvers.averages", "solvers.fitting", "solvers.planning", "solvers.verify", "solvers.export",
-    "solvers.explorer", "solvers.paper", "solvers.bindings", "solvers.commands", "solvers",
+    "solvers.boundaries", "solvers.collision.space", "solvers.boundaries", "solvers.boundaries", "solvers.sensitivity",
+    "solvers.averages", "solvers.fitting", "solvers.fitting", "solvers.verify", "solvers.export",
+    "solvers.explorer", "solvers.verify.paper", "solvers.export", "solvers.commands", "solvers",
     "solvers.package", "solvers.__main__",
 )  # fmt: skip
 

@@ -12,8 +12,8 @@ from functools import cache
 
 import numpy as np
 
-from ..changes.brackets import Changes, locate
-from ..changes.experiment import STEEPEST, UNDECIDED, Experiment
+from ..boundaries.brackets import Changes, locate
+from ..boundaries.experiment import STEEPEST, UNDECIDED, Experiment
 from .sizes import collide, labels, outcome_of
 
 RIGHT_ANGLE = np.pi / 2

@@ -8,8 +8,8 @@ from itertools import pairwise
 
 import numpy as np
 
-from ..changes.brackets import locate
-from ..changes.experiment import Experiment
+from ..boundaries.brackets import locate
+from ..boundaries.experiment import Experiment
 from .geometry import integrals, over_angles, segments
 from .speeds import Speeds
 

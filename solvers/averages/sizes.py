@@ -7,13 +7,13 @@ from typing import Any
 import numpy as np
 
 from ...generated.automaton import BOUNCE, LAST_ANSWER, OUTCOMES
-from ..changes.experiment import STEEPEST, UNDECIDED, Experiment, Rows
+from ..boundaries.experiment import STEEPEST, UNDECIDED, Experiment, Rows
+from ..collision.space.pairs import Bodies
 from ..engines.settings import FEW, KERNEL_STEPS
 from ..host.workers import usable_cores
 from ..many.by_kernel import rates_of
 from ..scene.scene import Scene
 from ..scene.schema import MEETING
-from ..space.pairs import Bodies
 
 FIXED, PROPORTIONAL = FILMS = ("fixed", "proportional")
 BOUNCES = OUTCOMES.index(BOUNCE)

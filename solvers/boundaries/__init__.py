@@ -1,1 +1,1 @@
-"""Boundaries, where the outcome changes: on lines, as curves and as atlases."""
+"""Where an outcome changes: brackets on lines, slopes, curves and atlases; and outcomes that are proved around them."""

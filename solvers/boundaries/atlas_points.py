@@ -5,8 +5,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..changes.brackets import Brackets, enclose
 from .arcs import Arc
+from .brackets import Brackets, enclose
 from .cells import Meeting
 from .changes import FREE, GRAZE, REVERSED
 from .plane import Plane

@@ -9,12 +9,12 @@ from typing import Any
 import numpy as np
 
 from ...generated.automaton import CRITERIA, OUTCOMES, STICK
-from ..changes.brackets import Brackets, enclose
 from ..engines.settings import KERNEL_STEPS
 from ..errors import ComputationError
 from ..model.dimensionless import nondimensionalise
 from ..scene.groups import GAPS
 from ..scene.origin import Recorded
+from .brackets import Brackets, enclose
 from .samples import SAMPLE_BUDGET, answers
 from .scene_sampler import SceneSampler
 

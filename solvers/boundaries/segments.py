@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..changes.brackets import Brackets, enclose
+from .brackets import Brackets, enclose
 
 Labels = Callable[[np.ndarray], np.ndarray]
 """Points (n x 2) of the unit square -> whole numbers, -1 where the label is not known."""

@@ -60,7 +60,7 @@ def reproduce(item: str | None, out: Path | None) -> None:
         [all|table1|fig1|fig3|fig4a|fig4b|factors] (item):
         --out DIR: Write there [paper, in the current folder]; it may hold other files.
     """
-    from ..paper.reproduce import PARTS, reproduce
+    from ..verify.paper.reproduce import PARTS, reproduce
 
     chosen = "all" if item is None else check_name(item, ("all", *PARTS), "PART")
     with Bar("parts", "a single PART takes less") as progress:

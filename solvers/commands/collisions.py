@@ -155,7 +155,7 @@ def prove(
         for name in (name for name, values in edges.items() if len(values) == 1):
             raise InputError(texts.flag(name), impact[name], "at least two rising edges of cells, as LO:HI:N")
 
-        from ..proofs.proved_map import prove_map
+        from ..boundaries.proved_map import prove_map
 
         with Bar("cells", "fewer cells or a smaller --depth take less") as progress:
             output.show(prove_map(request.scene(), **edges, **passed(depth=depth), progress=progress))
@@ -168,7 +168,7 @@ def prove(
         stokes: Any = texts.span(FIELDS["impact.stokes"], impact["stokes"], "--stokes")
         angle = texts.with_degrees(FIELDS["impact.angle"], impact["angle"])
 
-        from ..proofs.proved_boundary import prove_boundary
+        from ..boundaries.proved_boundary import prove_boundary
 
         output.show(prove_boundary(request.scene(), angle=angle, stokes=stokes))
         return

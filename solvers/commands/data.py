@@ -185,7 +185,7 @@ _Degrees = Annotated[str | None, partial(texts.with_degrees, FIELDS["impact.angl
 
 
 @command(
-    "planning.design:design", free=_ENTRIES, over="the impacts that can be made, as --over stokes=0.02:0.5,angle=0:80"
+    "fitting.design:design", free=_ENTRIES, over="the impacts that can be made, as --over stokes=0.02:0.5,angle=0:80"
 )
 def design(free: list[str], over: _Window, angle_sd: _Degrees, request: Entries, output: Shown, **chosen: Any) -> None:
     """Where the next impacts should be: those from which `fit` will learn most about entries of SCENE.
@@ -208,7 +208,7 @@ def design(free: list[str], over: _Window, angle_sd: _Degrees, request: Entries,
         --restitution-sd S
         --rtol
     """
-    from ..planning.design import design
+    from ..fitting.design import design
 
     with Bar("impacts", "a smaller window or fewer impacts take less", factor=3.0) as progress:
         plan = design(request.scene(whole=False), free, over, progress=progress, **passed(angle_sd=angle_sd), **chosen)

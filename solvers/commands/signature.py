@@ -66,7 +66,7 @@ class Option:
 _CHOICES = {
     "source": "scene.scenefile:PRESETS", "engine": "engines.settings:ENGINES", "hold": "scene.held:HOLDS",
     "method": "sensitivity.sensitivities:METHODS", "films": "averages.sizes:FILMS", "to": "commands.scenes:KINDS",
-    "item": "paper.reproduce:PARTS", "of": "results:DIFFERENTIATED",
+    "item": "verify.paper.reproduce:PARTS", "of": "results:DIFFERENTIATED",
 }  # fmt: skip
 """Where the values are among which a parameter has the choice; read when a shell completes a line."""
 

@@ -1,1 +1,1 @@
-"""Equations and functions for use elsewhere, and differences between models."""
+"""Equations, functions and the collision law for use elsewhere, differences between models; jax and torch."""

@@ -1,1 +1,1 @@
-"""Entries of a scene from measured impacts: likelihood, estimates, intervals, and what the data cannot tell."""
+"""Entries of a scene from measured impacts: likelihood, intervals, what is not known, and where to measure next."""

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..changes.experiment import Experiment, Results
+from ..boundaries.experiment import Experiment, Results
 from .measurements import Measurements
 from .scatter import REACH, ScatterLines, in_deviations, nearest_normals
 

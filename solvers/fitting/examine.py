@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 
 from ...generated.automaton import OUTCOMES, STICK
+from ..boundaries.experiment import STEEPEST, Experiment, free_names
 from ..boundaries.window import stokes_range
-from ..changes.experiment import STEEPEST, Experiment, free_names
 from ..errors import InputError, several
 from ..formatting.tables import aligned
 from ..scene.held import NAMES

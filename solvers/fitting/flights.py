@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from ..changes.experiment import LENGTHS, STEEPEST, Experiment, Results, Rows
+from ..boundaries.experiment import LENGTHS, STEEPEST, Experiment, Results, Rows
 from ..engines.settings import KERNEL_STEPS
 from ..engines.taylor.call import Impacts
 from ..errors import InputError

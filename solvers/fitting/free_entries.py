@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..changes.experiment import Rows, free_names
+from ..boundaries.experiment import Rows, free_names
 from ..errors import InputError
 from ..host.arguments import check_mapping, check_names
 from ..scene import units

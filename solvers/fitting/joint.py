@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from ..changes.experiment import free_names
+from ..boundaries.experiment import free_names
 from ..errors import InputError
 from ..host.arguments import check_mapping, check_names
 from ..scene.scene import Scene

@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..changes.experiment import Experiment
+from ..boundaries.experiment import Experiment
 from ..engines.settings import RTOL
 from ..errors import InputError, several
 from ..scene.scene import Scene

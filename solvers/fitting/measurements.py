@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from ...generated.automaton import OUTCOMES, STICK
-from ..changes.experiment import Rows
+from ..boundaries.experiment import Rows
 from ..engines.taylor.tangent import check_derivatives
 from ..results import DEFINITIONS
 from ..scene.scene import Scene

@@ -10,9 +10,9 @@ from dataclasses import replace
 import numpy as np
 from scipy.special import log_ndtr, ndtri
 
-from ..changes.brackets import Changes, locate
-from ..changes.experiment import Experiment
-from ..changes.slopes import Lines, outcomes_along, slopes
+from ..boundaries.brackets import Changes, locate
+from ..boundaries.experiment import Experiment
+from ..boundaries.slopes import Lines, outcomes_along, slopes
 from .measurements import Measurements
 from .scatter import AT_ONCE, REACH, Resolution, ScatterLines
 

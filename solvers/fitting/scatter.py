@@ -14,9 +14,9 @@ from functools import lru_cache
 import numpy as np
 from scipy.special import ndtr
 
-from ..changes.brackets import Brackets, Changes, locate
-from ..changes.experiment import Experiment, Results
-from ..changes.slopes import Lines, normals, outcomes_along, slopes
+from ..boundaries.brackets import Brackets, Changes, locate
+from ..boundaries.experiment import Experiment, Results
+from ..boundaries.slopes import Lines, normals, outcomes_along, slopes
 from ..engines.settings import KERNEL_STEPS
 from .interpolation import SegmentMap, extension, segment_map
 from .measurements import Measurements

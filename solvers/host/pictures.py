@@ -22,7 +22,7 @@ _HOMES = {  # a variable that only one kind of result has -> what draws it
     "engine": "sensitivity.plots.draw_gradients",
     "outcome": "many.plot_map.draw",
 }
-_RESULTS = {"Design": "planning.plot.draw", "Fit": "fitting.plot.draw"}  # results that are no Dataset, by class
+_RESULTS = {"Design": "fitting.plot_design.draw", "Fit": "fitting.plot.draw"}  # results that are no Dataset, by class
 _ROOT = __package__.rpartition(".")[0]
 
 

@@ -1,3 +1,3 @@
-"""`wetdoublet.jax`: see `solvers/bindings/jax.py`."""
+"""`wetdoublet.jax`: see `solvers/export/jax.py`."""
 
-from wetdoublet.solvers.bindings.jax import *  # noqa: F403 # its `__all__`
+from wetdoublet.solvers.export.jax import *  # noqa: F403 # its `__all__`

@@ -1,3 +1,3 @@
-"""`wetdoublet.torch`: see `solvers/bindings/torch.py`."""
+"""`wetdoublet.torch`: see `solvers/export/torch.py`."""
 
-from wetdoublet.solvers.bindings.torch import *  # noqa: F403 # its `__all__`
+from wetdoublet.solvers.export.torch import *  # noqa: F403 # its `__all__`

@@ -12,11 +12,11 @@ import numpy as np
 
 from ...generated.automaton import OUTCOMES
 from ..boundaries.boundary import boundary
+from ..boundaries.brackets import Brackets, enclose
 from ..boundaries.changes import Change
+from ..boundaries.experiment import Experiment, Rows
 from ..boundaries.result import Boundaries
-from ..changes.brackets import Brackets, enclose
-from ..changes.experiment import Experiment, Rows
-from ..changes.slopes import Lines, normals, outcomes_along, places_again, slopes
+from ..boundaries.slopes import Lines, normals, outcomes_along, places_again, slopes
 from ..engines.settings import RTOL, check_rtol
 from ..errors import ComputationError, InputError
 from ..formatting.tables import numbers_aligned

@@ -14,7 +14,7 @@ from itertools import zip_longest
 import numpy as np
 
 from ...generated.automaton import CRITERIA, KINDS, LAST_ANSWER, EventKind
-from ..changes.brackets import Brackets, enclose
+from ..boundaries.brackets import Brackets, enclose
 from ..collision.by_kernel import words_of
 from ..engines.taylor.call import Impacts
 from ..engines.taylor.record import run_recorded

@@ -12,9 +12,9 @@ import numpy as np
 from ...generated import scaling
 from ...generated.automaton import BOUNCE, OUTCOMES, STICK
 from ..boundaries.boundary import boundary
+from ..boundaries.brackets import locate
 from ..boundaries.changes import Change
-from ..changes.brackets import locate
-from ..changes.experiment import Rows
+from ..boundaries.experiment import Rows
 from ..collision.collide import collide
 from ..engines.settings import RTOL, check_rtol
 from ..errors import ComputationError, InputError

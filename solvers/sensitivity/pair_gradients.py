@@ -19,8 +19,12 @@ from casadi import SX, Function, cross, densify, dot, jacobian, norm_2, vertcat,
 
 from ...generated import scaling
 from ...generated.automaton import OUTCOMES, STICK
-from ..changes.experiment import free_names
+from ..boundaries.experiment import free_names
 from ..collision.by_kernel import sequence_of, words_of
+from ..collision.space.by_replay import groups_of, own_axes, sequence_in_space
+from ..collision.space.collide_pair import NUMBERS, VECTORS, check_scene, refusals
+from ..collision.space.pairs import AXES, Pairs, without_spins
+from ..collision.space.pairs import checked as checked_pairs
 from ..engines.casadi.sequence import EventSequence
 from ..engines.settings import check_rtol
 from ..engines.taylor.record import recorded_in_space
@@ -35,10 +39,6 @@ from ..model.validity import warn
 from ..results import FAILED, outcome_attributes
 from ..scene.origin import provenance
 from ..scene.scene import Scene
-from ..space.by_replay import groups_of, own_axes, sequence_in_space
-from ..space.collide_pair import NUMBERS, VECTORS, check_scene, refusals
-from ..space.pairs import AXES, Pairs, without_spins
-from ..space.pairs import checked as checked_pairs
 from .boundary_distance import FINE, Course, Courses, checked, course, courses_of
 from .by_casadi import Replayable
 from .parameters import Kind, kind_of, parameter_map, references

@@ -13,7 +13,7 @@ import numpy as np
 from scipy.optimize import brentq
 
 from ...generated.automaton import OUTCOMES, STICK
-from ..changes.brackets import Brackets, enclose
+from ..boundaries.brackets import Brackets, enclose
 from ..collision.collide import collide
 from ..collision.text import name_of
 from ..engines.settings import check_rtol

@@ -1,4 +1,4 @@
-"""`wetdoublet verify`: symbolic identities of the derivation, and numerical checks against bounds."""
+"""Checks: symbolic identities, numbers against bounds, engines against each other, and the paper against ours."""
 
 from .identities import symbolic
 from .report import Finding, Report

@@ -56,12 +56,13 @@ MUTANTS = {
         "generated/taylor/laws/film_finite.h", "(-2.0)", "(-2.001)", "test_reference.py::test_equals_the_reference",
     ),
     "an approach in the plane that is too fast": Mutant(
-        "solvers/space/by_kernel.py", "impacts = Impacts(scene, -pairs.opening,",
+        "solvers/collision/space/by_kernel.py", "impacts = Impacts(scene, -pairs.opening,",
         "impacts = Impacts(scene, -1.0001*pairs.opening,",
         "test_reference.py::test_a_plane_turned_in_space_is_the_plane",
     ),
     "an approach in space that is too fast": Mutant(
-        "solvers/space/pairs.py", "Impacts(self.scene, -self.opening,", "Impacts(self.scene, -1.0001*self.opening,",
+        "solvers/collision/space/pairs.py",
+        "Impacts(self.scene, -self.opening,", "Impacts(self.scene, -1.0001*self.opening,",
         "test_reference.py::test_equals_the_reference_in_space",
     ),
     "no range": Mutant(

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 from wetdoublet.solvers import Scene
-from wetdoublet.solvers.space.pairs import Bodies
+from wetdoublet.solvers.collision.space.pairs import Bodies
 
 from .exported_law import Law
 

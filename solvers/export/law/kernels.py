@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from ...collision.space.collide_pair import check_scene
 from ...engines.settings import KERNEL_STEPS, KERNEL_STEPS_IN_SPACE
 from ...engines.taylor.call import variant
 from ...engines.taylor.headers import headers
@@ -17,7 +18,6 @@ from ...host.thread_caches import once
 from ...model.key import ModelKey
 from ...model.model import load
 from ...scene.scene import Scene
-from ...space.collide_pair import check_scene
 
 HEAD_ON, PLANE, SPACE = "head_on", "plane", "space"
 BOOKED = "booked_"

@@ -7,9 +7,9 @@ from importlib.metadata import version
 from typing import Any
 
 from ....generated.automaton import CRITERIA, KINDS, OUTCOMES
+from ...collision.space.pairs import Bodies
 from ...engines.settings import KERNEL_STEPS, KERNEL_STEPS_IN_SPACE, RTOL, TOLERANCE
 from ...scene.scene import Scene
-from ...space.pairs import Bodies
 from ..equations import file_name
 from .c_file import digests, kernels_text
 from .kernels import BOOKED, HEAD_ON, PLANE, SPACE, Kernel, kernels, only_in_a_plane, rendered

@@ -8,6 +8,8 @@ from typing import Any
 import numpy as np
 
 from ....generated.automaton import LAST_ANSWER
+from ...collision.space.collide_pair import collide_pair
+from ...collision.space.pairs import Bodies
 from ...engines.settings import KERNEL_STEPS
 from ...engines.taylor.build import kernel
 from ...engines.taylor.call import Impacts, task
@@ -16,8 +18,6 @@ from ...errors import ComputationError
 from ...many.by_kernel import block_of
 from ...many.impacts import Block
 from ...scene.scene import Scene
-from ...space.collide_pair import collide_pair
-from ...space.pairs import Bodies
 from .kernels import HEAD_ON, IMPACT, Kernel
 
 RTOL = 1e-9

@@ -10,7 +10,7 @@ from wetdoublet.solvers import Scene, collide_many, collide_pair, collision_aver
 from wetdoublet.solvers.averages.dataset import table
 from wetdoublet.solvers.averages.sizes import PROPORTIONAL, scene_of_sizes
 from wetdoublet.solvers.averages.speeds import Speeds
-from wetdoublet.solvers.space.pairs import Bodies
+from wetdoublet.solvers.collision.space.pairs import Bodies
 
 from ...helpers.command import run
 

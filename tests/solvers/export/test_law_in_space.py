@@ -7,8 +7,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 from wetdoublet.solvers import Scene, collide_pair
+from wetdoublet.solvers.collision.space.pairs import Bodies
 from wetdoublet.solvers.export.law.texts import source
-from wetdoublet.solvers.space.pairs import Bodies
 
 from ...helpers.exported_law import FOUND, Law, law_alone
 from ...helpers.flags import QUICK

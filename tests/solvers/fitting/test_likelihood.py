@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from wetdoublet.generated.automaton import LAST_ANSWER
 from wetdoublet.solvers import Scene, collide_many, log_likelihood
-from wetdoublet.solvers.changes import experiment
+from wetdoublet.solvers.boundaries import experiment
 from wetdoublet.solvers.engines.taylor.call import Impacts, run_kernel
 from wetdoublet.solvers.fitting.likelihood import KNEE, Likelihood, limit
 from wetdoublet.solvers.fitting.measurements import Measurements

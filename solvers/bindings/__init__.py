@@ -1,1 +1,0 @@
-"""The collision law in other people's programs: jax and torch."""

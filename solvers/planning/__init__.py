@@ -1,1 +1,0 @@
-"""Where the next impacts should be to learn most about a scene's entries."""

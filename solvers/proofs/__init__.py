@@ -1,1 +1,0 @@
-"""Maps and boundaries of outcomes that are proved, for whole boxes of inputs."""
