@@ -100,8 +100,7 @@ def test_a_first_collision_loads_what_it_computes_with(tmp_path: Path) -> None:
     first, (casadi, then) = (
         loaded(*each, WETDOUBLET_CACHE=str(tmp_path)) for each in ([program], ["import casadi", program])
     )
-    engine = {"wetdoublet.solvers.engines.casadi.locate", "wetdoublet.solvers.certificates"}
-    assert not first[0] & (HEAVY | engine | {"h5py", "click", "tqdm", "argparse"})
+    assert not first[0] & (HEAVY | {"h5py", "click", "tqdm", "argparse"})
     assert {name.split(".")[0] for name in then - casadi} == {"wetdoublet"}
 
 
