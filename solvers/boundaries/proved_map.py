@@ -190,7 +190,7 @@ def prove_map(
         expected, spread = guide.expected(cell), ""
         if expected is not None or not levels:
             stokes = cell.stokes(per_speed)
-            ranges = inputs.ranges | {"stokes": stokes, "angle": cell.angle}  # type: ignore[operator]
+            ranges = {**inputs.ranges, "stokes": stokes, "angle": cell.angle}
             narrow = stokes[1] < stokes[0] * _BOUNDED
             settings = BOX._replace(funnels=1) if narrow or expected == _ROTATE else BOX
             if expected is not None and levels:

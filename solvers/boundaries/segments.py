@@ -1,4 +1,4 @@
-"""Changes of label along segments of the unit square, enclosed together (`changes.brackets`)."""
+"""Changes of label along segments of the unit square, enclosed together (`boundaries.brackets`)."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace

@@ -285,7 +285,7 @@ def _first(quantities: Mapping[str, SX], inputs: _Inputs, axes: SX, scale: SX) -
 def _of_spheres(
     model: Model, end: SX, groups: SX, quantities: Mapping[str, SX], inputs: _Inputs, axes: SX, scale: SX
 ) -> SX:
-    """Results of two spheres, as `space.ends.after` has them."""
+    """Results of two spheres, as `collision.space.ends.after` has them."""
     y, rate, speed = end[:-1], _rate(quantities, scale), quantities["speed"]
     values = dict(zip(model.names("outputs"), vertsplit(model.function("outputs")(y, groups)), strict=True))
 
@@ -311,7 +311,7 @@ def _of_spheres(
 
 
 def _beside_wall(model: Model, end: SX, groups: SX, quantities: Mapping[str, SX], inputs: _Inputs) -> SX:
-    """Results beside a wall, as `space.beside_wall` has them: one linear map of sliding and rolling."""
+    """Results beside a wall, as `collision.space.beside_wall` has them: one linear map of sliding and rolling."""
     y, speed, radius, normal = end[:-1], quantities["speed"], quantities["reduced_radius"], inputs.normal
     spinning = SX(groups)
     spinning[list(model.groups).index("initial_spin")] = 1
