@@ -1,4 +1,4 @@
-"""What long work writes on standard error: a bar and a forecast on a terminal, a line now and then elsewhere."""
+"""What long work writes on standard error: a bar on a terminal, a line now and then elsewhere."""
 
 from __future__ import annotations
 
@@ -13,8 +13,6 @@ from typing import Any, ClassVar, Self
 from ..host.remarks import say, underway
 
 _FIRST = 10.0  # s
-_WORTH = 2.0  # s that are left, from which a forecast is made
-_SAMPLE = 0.5  # s of work that a forecast is made from
 
 
 class Bar:
@@ -24,22 +22,13 @@ class Bar:
 
     Arguments:
         unit: name of the counted items, such as `collisions`.
-        cheaper: what the forecast names as the cheaper way.
-        factor: by which the forecast may be wrong, where the total is an estimate.
-        at_least: other work follows, which is not counted.
-        clock: seconds since any fixed time.
     """
 
     latest: ClassVar[Bar | None] = None
     """The bar that counts at present."""
 
-    def __init__(
-        self, unit: str, cheaper: str = "", *, factor: float = 1.0, at_least: bool = False,
-        clock: Callable[[], float] = time.monotonic,
-    ) -> None:  # fmt: skip
-        self.unit, self.cheaper, self.factor, self.at_least, self.clock = unit, cheaper, factor, at_least, clock
-        self._first: tuple[int, float] | None = None
-        self._forecast_written = False
+    def __init__(self, unit: str) -> None:
+        self.unit = unit
         self.done = 0
         self.total: int | None = 0
         self.shown: Any = None
@@ -47,19 +36,11 @@ class Bar:
     def __call__(self, done: int, total: int | None) -> None:
         Bar.latest = self
         self.done, self.total = done, total
-        if self._first is None or done <= self._first[0]:
-            self._first = done, self.clock()
         try:
             if not sys.stderr.isatty():
                 return
         except (ValueError, AttributeError):  # closed, or none
             return
-        line = None if self._forecast_written else self.forecast()
-        if line is not None:  # once, as soon as a sample of the work allows one
-            self._forecast_written = True
-            if self.shown is not None:
-                self.shown.clear()
-            say(line)
         from tqdm import tqdm
 
         if self.shown is None:  # starts at the first count, because work of an earlier run would distort the speed
@@ -71,24 +52,6 @@ class Bar:
         self.shown.total = total
         self.shown.update(done - self.shown.n)
 
-    def forecast(self) -> str | None:
-        """How long the rest takes; None where that cannot be told yet, or where it is less than 2 s."""
-        if self._first is None or self.total is None:
-            return None
-        before, began = self._first
-        counted, seconds = self.done - before, self.clock() - began
-        if seconds < _SAMPLE or counted <= 0:
-            return None
-        rest = seconds * (self.total - self.done) / counted
-        if rest < _WORTH:
-            return None
-        word, about, bounds = "at least" if self.at_least else "about", "", ""
-        if self.factor > 1:
-            about, bounds = "about ", f" ({duration(rest / self.factor)} to {duration(rest * self.factor)})"
-        sample = f"{counted} of {about}{self.total - before} {self.unit} in {seconds:.1f} s"
-        line = f"{word} {duration(rest)} more{bounds}: {sample}"
-        return line + (f"; {self.cheaper}" if self.cheaper else "")
-
     def __enter__(self) -> Bar:
         return self
 
@@ -98,16 +61,8 @@ class Bar:
             self.shown.close()
 
 
-def duration(seconds: float) -> str:
-    """Two digits of a duration, with its unit."""
-    for unit, size in (("h", 3600.0), ("min", 60.0)):
-        if seconds >= 2 * size:
-            return f"{float(f'{seconds / size:.2g}'):g} {unit}"
-    return f"{float(f'{seconds:.2g}'):g} s"
-
-
 class AtWork:
-    """A context that writes a line after 10 s, 20 s, 40 s, ... of work, with the forecast; none where a bar is seen.
+    """A context that writes a line after 10 s, 20 s, 40 s, ... of work, with its count; none where a bar is seen.
 
     Arguments:
         clock: seconds since any fixed time.
@@ -120,15 +75,13 @@ class AtWork:
 
     def look(self) -> float:
         """Write the line if it is due; returns the seconds until the next one is."""
-        passed = self.clock() - self._began
+        passed, bar = self.clock() - self._began, Bar.latest
         if passed >= self._next:
-            bar = Bar.latest
-            slow = "".join(f": {line}" for line in underway[:1])
-            if bar is None:
-                say(f"at work for {duration(passed)}{slow}")
-            elif bar.shown is None:
-                count = f"{bar.done} {'' if bar.total is None else f'of {bar.total} '}{bar.unit}"
-                say(f"at work for {duration(passed)}{slow or f': {bar.forecast() or count}'}")
+            what = underway[:1]
+            if bar is not None and not what:
+                what = [f"{bar.done} {'' if bar.total is None else f'of {bar.total} '}{bar.unit}"]
+            if bar is None or bar.shown is None:
+                say(": ".join([f"at work for {self._next:g} s", *what]))
             while self._next <= passed:
                 self._next *= 2
         return self._next - passed

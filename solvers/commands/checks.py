@@ -63,7 +63,7 @@ def reproduce(item: str | None, out: Path | None) -> None:
     from ..verify.paper.reproduce import PARTS, reproduce
 
     chosen = "all" if item is None else check_name(item, ("all", *PARTS), "PART")
-    with Bar("parts", "a single PART takes less") as progress:
+    with Bar("parts") as progress:
         written = reproduce(tuple(PARTS) if chosen == "all" else (chosen,), out or Path("paper"), progress=progress)
     click.echo("\n".join(map(str, written)))
 
@@ -110,7 +110,7 @@ def verify(
 
     findings: list[Finding] = []
     try:
-        with Bar("checks", "" if scene else "a SCENE takes less", factor=3.0) as bar:
+        with Bar("checks") as bar:
 
             def progress(finding: Finding) -> None:
                 findings.append(finding)

@@ -157,7 +157,7 @@ def prove(
 
         from ..boundaries.proved_map import prove_map
 
-        with Bar("cells", "fewer cells or a smaller --depth take less") as progress:
+        with Bar("cells") as progress:
             output.show(prove_map(request.scene(), **edges, **passed(depth=depth), progress=progress))
         return
     if boundary:
@@ -230,7 +230,7 @@ def averages(radii: _Radii, request: Entries, output: _Table, as_json: bool, **c
     from ..averages.dataset import table, to_csv
     from ..many.regime_map import write
 
-    with Bar("pairs", "a larger --tolerance or fewer --radii take less") as progress:
+    with Bar("pairs") as progress:
         data = collision_averages(scene, progress=progress, resume=output, **passed(radii=radii), **chosen)
     if as_json:
         click.echo(dataset_text(data))

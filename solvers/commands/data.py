@@ -138,7 +138,7 @@ def fit(
     tables = [data for _, data in measured]
     parted = [text.partition("=") for text in own]
     groups = {name: labels.split(",") if labels else labels for name, _, labels in parted}
-    with Bar("evaluations", "fewer free entries or rows take less", factor=3.0) as progress:
+    with Bar("evaluations") as progress:
         fitted = fit(scenes, tables, free, own=groups, progress=progress, **chosen)
     output.put(str(fitted), fitted.to_dict())
     if fitted.rows.contradicted and (output.as_json or output.file is not None):
@@ -146,7 +146,7 @@ def fit(
     if write is not None:
         fitted.write(write)
     if output.picture is not None:
-        with Bar("evaluations", "-o FILE.json keeps the estimates without their picture", factor=3.0) as progress:
+        with Bar("evaluations") as progress:
             fitted.plot(output.picture, progress=progress)
 
 
@@ -210,6 +210,6 @@ def design(free: list[str], over: _Window, angle_sd: _Degrees, request: Entries,
     """
     from ..fitting.design import design
 
-    with Bar("impacts", "a smaller window or fewer impacts take less", factor=3.0) as progress:
+    with Bar("impacts") as progress:
         plan = design(request.scene(whole=False), free, over, progress=progress, **passed(angle_sd=angle_sd), **chosen)
     output.show(plan)

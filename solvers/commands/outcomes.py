@@ -79,7 +79,7 @@ def map_(
     from ..results import FAILED
 
     file: dict[str, Any] = {"store" if stored else "resume": output}
-    with Bar("collisions", "fewer cells or a looser --rtol take less") as progress:
+    with Bar("collisions") as progress:
         data = regime_map(scene, **axes, vary=varied, **file, **chosen, progress=progress)
     if output is not None and not stored:
         write(data, output)
@@ -148,8 +148,7 @@ def boundary(
     shared = passed(rtol=rtol)
     if plane is not None:
         name, across = plane
-        cheaper = "lines alone, --angle LO:HI:N, take less" if name == _ANGLE.name else ""
-        with Bar("lines", cheaper, at_least=True) as progress:
+        with Bar("lines") as progress:
             curves = atlas(scene, over=name, span=across, progress=progress, **search, **shared)
         output.show(curves)
         if curves.unsettled:
@@ -163,7 +162,7 @@ def boundary(
         from ..sensitivity.boundaries import boundary_sensitivities, check_boundary_wrt
 
         names = check_boundary_wrt(scene, None if wrt == ["all"] else wrt)
-    with Bar("angles", "fewer angles take less", at_least=wrt is not None) as progress:
+    with Bar("angles") as progress:
         lines = boundary(scene, angle=angles, progress=lambda k: progress(k, len(angles)), **search, **shared)
     if wrt is None:
         output.show(lines)
@@ -219,7 +218,7 @@ def critical(angle: _Angles, wrt: Any, request: Entries, output: Shown, **chosen
     is_table = source.lower().endswith(".csv")
     materials = materials_of(source, request.entries, request.package) if is_table else request.scene()
     chosen |= passed(angle=angle, wrt="all" if wrt == ["all"] else wrt)
-    with Bar("materials", "fewer materials or angles take less") as progress:
+    with Bar("materials") as progress:
         result = critical(materials, progress=progress, **chosen)
     output.show(result)
     failed = [row for row in result.rows if row.failed]
