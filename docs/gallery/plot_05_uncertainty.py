@@ -10,8 +10,8 @@ import numpy as np
 from wetdoublet import band
 
 uncertain = {"liquid.viscosity": "5 %", "impact.angle": "1 deg"}
-data = band("granulation", uncertain, "impact.stokes", np.geomspace(0.015, 0.1, 30))
-stokes, e_n = data["impact.stokes"], data.restitution
+data = band("granulation", uncertain, "impact.stokes", np.geomspace(0.015, 0.1, 90))
+stokes, e_n = data["impact.stokes"], data.restitution.where(data.restitution > 0)  # no line across the jump
 
 figure, axes = plt.subplots(layout="constrained")
 axes.fill_between(stokes, data.low, data.high, color="#bcd3e6", label="95 % of a sample")

@@ -2,7 +2,7 @@
 Sweep to pandas and CSV
 =======================
 
-Restitution for a range of viscosities and impacts, as a table.
+Restitution for three surface tensions and a range of impacts, as a table.
 """
 
 import numpy as np
@@ -20,4 +20,5 @@ frame.to_csv("sweep.csv")
 print(frame.iloc[::12].round(3))
 
 axes = frame.plot(logx=True, xlabel="Stokes number", ylabel="normal restitution")
+axes.legend(title="surface tension (N/m)", frameon=False)
 axes.figure.savefig("sweep.png", dpi=120)
