@@ -172,6 +172,23 @@ def test_custom_needs_its_model(mine: Path, tmp_path: Path):
     assert Scene.load(file, model=mine).bridge.law == "yielding"
 
 
+def test_a_scene_file_is_judged_with_the_laws_of_its_model(tmp_path: Path):
+    """The library's law that the model's takes the place of need not have the rupture distance that is asked for."""
+    model, file = tmp_path / "short.py", tmp_path / "scene.toml"
+    model.write_text(
+        "from wetdoublet.derive.user import *\n"
+        "law('bridge', 'short', force=2*cos(phi)*(1 - h/sqrt(h**2 + 2*V/pi)), rupture_distance=V**Rational(1, 2))\n"
+    )
+    text = Scene.load("granulation").to_toml().replace('law = "mikami"', 'law = "lambert"\nrupture = "own"')
+    file.write_text(text)
+    scene = Scene.load(file, model=model)
+    assert scene.bridge.law == "short"
+    assert scene.rupture_gap == pytest.approx(math.sqrt(0.1) * 1e-4, rel=1e-12)
+    file.write_text(text.replace("lambert", "lambart"))
+    with pytest.raises(InputError, match=r'bridge.law: "lambart" is not known'):
+        Scene.load(file, model=model)
+
+
 def test_the_template_runs(tmp_path: Path):
     """`generate --template` prints a model that passes a check of each kind, is emitted and collides as it is."""
     file = tmp_path / "template.py"
