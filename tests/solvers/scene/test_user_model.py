@@ -29,6 +29,7 @@ from wetdoublet.solvers import (
 )
 from wetdoublet.solvers.host.compiler import compiler
 from wetdoublet.solvers.many.regime_map import scene_of
+from wetdoublet.solvers.sensitivity.materials import materials_of
 from wetdoublet.solvers.verify.conserved import conserved
 from wetdoublet.solvers.verify.identities import of_the_model
 from wetdoublet.solvers.verify.sample import Extent, collisions
@@ -184,6 +185,9 @@ def test_a_scene_file_is_judged_with_the_laws_of_its_model(tmp_path: Path):
     scene = Scene.load(file, model=model)
     assert scene.bridge.law == "short"
     assert scene.rupture_gap == pytest.approx(math.sqrt(0.1) * 1e-4, rel=1e-12)
+    [material] = materials_of({name: [value] for name, value in Scene.from_toml(text.replace("own", "common")).given}
+                              | {"bridge.rupture": ["own"]}, model=model)  # fmt: skip
+    assert material.scene == scene.with_entries({"name": ""})
     file.write_text(text.replace("lambert", "lambart"))
     with pytest.raises(InputError, match=r'bridge.law: "lambart" is not known'):
         Scene.load(file, model=model)
