@@ -59,6 +59,8 @@ _MORE = {
     "approach": ("1", "speed of approach, -u/v0: argument of a glass law"),
     "offset_squared": ("1", "squared offset of the pendulum over a^2: argument of a law of the strings"),
 }
+NO_GROUP = (quantities.rho, quantities.E, quantities.nu, quantities.x_b)
+"""Quantities of a scene that no term of the equations has; a model that needs one declares its own."""
 
 
 _LETTERS = {value.name: key for key, value in reversed(vars(quantities).items()) if isinstance(value, sp.Symbol)}
@@ -90,5 +92,6 @@ def dimension_as_written(expression: sp.Expr, of: Mapping[sp.Basic, Dimension]) 
 def listed(names: Mapping[str, object]) -> str:
     """A table of the symbols among the names of a model file: name, unit, meaning."""
     of = {quantity.symbol: (quantity.unit, quantity.meaning) for quantity in VOCABULARY.values()}
-    rows = {name: _MORE.get(name) or of.get(value) for name, value in names.items() if isinstance(value, sp.Expr)}
+    symbols = {name: value for name, value in names.items() if isinstance(value, sp.Expr) and value not in NO_GROUP}
+    rows = {name: _MORE.get(name) or of.get(value) for name, value in symbols.items()}
     return "\n".join(f"{name:<16}{row[0]:<8}{row[1]}" for name, row in sorted(rows.items()) if row)

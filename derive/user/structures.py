@@ -33,7 +33,7 @@ from . import own_events
 from .declarations import Criterion, Declarations, Declared, Proposed, unfolded
 from .kinks import freed, smooth
 from .laws import published
-from .names import as_written, dimension_as_written
+from .names import NO_GROUP, as_written, dimension_as_written
 from .own_events import OwnEvent
 
 _ALWAYS = (a, x0, mu, v0, m)  # quantities of every scene, in the order in which a scale is sought
@@ -308,7 +308,7 @@ def _function(name: str, proposed: Proposed, declared: Declarations, groups: Map
     used = set().union(*(e.free_symbols for e in (result, *(value for _, value in parts)))) - named
     motion = () if place.closed else MOTION.get(place.slot, ())
     more = set() if place.closed else {*motion, *marks, *GROUPS, *(group.symbol for group in groups.values())}
-    if wrong := sorted(s.name for s in used - {*place.arguments, *more}):
+    if wrong := sorted(str(as_written(s)) for s in used - {*place.arguments, *more}):
         possible = ", ".join(s.name for s in (*place.arguments, *motion)) + (" only" if place.closed else " and groups")
         what = name if place.closed else f"a {place.slot} law"
         raise ScalingError(f"{label}: depends on {', '.join(wrong)}; {what} may depend on {possible}")
@@ -345,6 +345,8 @@ def _settled(label: str, place: Place, expression: sp.Expr, groups: Mapping[str,
     expression = freed(expression)
     terms = sp.Add.make_args(expression)  # kept as written if no quantity remains to cancel
     by_term = sp.Add(*(sp.simplify(term) if dimensional(term) else term for term in terms))
+    if foreign := [str(as_written(s)) for s in NO_GROUP if s in by_term.free_symbols]:
+        raise ScalingError(f"{label}: {', '.join(foreign)} is not known to a law: declare a quantity for it")
     return cancelled(label, by_term, expression)
 
 

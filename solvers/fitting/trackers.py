@@ -54,6 +54,7 @@ _KINDS = {  # columns by which a table is known, of several kinds the first
     "an export of DLTdv, a row for each frame": {"pt1_cam1_x"},
 }
 _TRACKER, _XML = "an export of Tracker", "TrackMate's XML"
+_BEHIND = {"inch": ("m",), "inches": ("m",), "ns": ("s",), "min": ("s",)}  # units that may stand behind a name, too
 _UNITS = {"sec": "s", "seconds": "s", "msec": "ms", "micron": "um", "microns": "um"}  # as Fiji writes them
 _BODY = re.compile(r"([xy])_?(\d+)|(\w*?)_?([xy])")  # x1, x_1, pt1_cam1_x, mass_a_x
 _UNIT_BEHIND = re.compile(r"((?:(\w*?[xyz](?:_?\d+)?)|time|t))_([A-Za-z]+)", re.IGNORECASE)  # x1_mm, pos_x_px, time_ms
@@ -302,7 +303,7 @@ def _with_unit(column: Column) -> Column:
         return column
     unit = _UNITS.get(match[3].lower(), match[3])
     pixels = unit.lower() in ("px", "pixel", "pixels")
-    fits = pixels if match[2] and pixels else COMMON.get(unit, ("",))[0] == ("m" if match[2] else "s")
+    fits = pixels if match[2] and pixels else (COMMON | _BEHIND).get(unit, ("",))[0] == ("m" if match[2] else "s")
     return replace(column, name=match[1], unit=None if pixels else unit) if fits else column
 
 

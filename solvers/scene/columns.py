@@ -16,11 +16,13 @@ import numpy as np
 from ..errors import InputError
 from ..host import bounded
 from .schema import MEETING
-from .units import COMMON, spelling
+from .units import COMMON, is_number, spelling
 
 _LARGEST = 20_000_000  # bytes of a file
 _MOST_ROWS = 100_000
 _HEADER = re.compile(r"\s*([^\[\]()]+?)\s*(?:[\[(]\s*([^\[\]()]*?)\s*[\])])?\s*")
+_BLANKS = re.compile(r"\s+(?![\[(])(?![^\[(]*[\])])")  # between names, not before or in a unit
+_BETWEEN = re.compile(r"\s*[,;\t]\s*|\s+")
 _PLAIN = ("-", "–")  # in place of a unit, as spreadsheets write it
 _UNNAMED = re.compile(r"|unnamed(: ?\d+)?|index|level_0|row|#", re.IGNORECASE)
 DECIMAL_COMMA = re.compile(r"\s*[-+]?\d*,\d+(?:[eE][-+]?\d+)?\s*")
@@ -124,8 +126,8 @@ def text_of(source: str | Path, label: str, accepted: str = _IMPACTS) -> str:
 
 
 def columns_from_text(text: str, label: str, source: str, accepted: str = _IMPACTS) -> tuple[list[Column], list[int]]:
-    """The columns of a CSV file's text, separated by commas, semicolons or tabs, and the line of each row."""
-    data = [(k, line) for k, line in enumerate(text.splitlines(), 1) if line.strip(" \t,;") and line.lstrip()[0] != "#"]
+    """The columns of a CSV file's text, separated by commas, semicolons, tabs or blanks, and the line of each row."""
+    data = _tabbed(_named([(k, line) for k, line in enumerate(text.splitlines(), 1) if line.strip(" \t,;")]))
     if not data:
         raise InputError(label, str(source), accepted, "has no line with names of columns")
     first = data[0][1]
@@ -155,6 +157,28 @@ def columns_from_text(text: str, label: str, source: str, accepted: str = _IMPAC
         for column in columns:
             column.cells[:] = [c.replace(",", ".") if DECIMAL_COMMA.fullmatch(c) else c for c in column.cells]
     return columns, lines
+
+
+def _named(lines: list[tuple[int, str]]) -> list[tuple[int, str]]:
+    """Lines without comments; of a table that begins with numbers, the comment above that names them (numpy's)."""
+    first = next((k for k, (_, line) in enumerate(lines) if line.lstrip()[0] != "#"), len(lines))
+    data = [(number, line) for number, line in lines[first:] if line.lstrip()[0] != "#"]
+    cells = _BETWEEN.split(data[0][1].strip()) if data else []
+    if first == 0 or not data or not all(map(is_number, cells)):
+        return data
+    number, names = lines[first - 1][0], lines[first - 1][1].strip(" \t#")
+    between = next((mark for mark in ",;\t" if mark in names), None)
+    count = len(names.split(between) if between else _BLANKS.split(names))
+    return [(number, names), *data] if count == len(cells) else data
+
+
+def _tabbed(data: list[tuple[int, str]]) -> list[tuple[int, str]]:
+    """Lines with tabs in place of blanks, where only these separate cells and all lines have as many."""
+    names = _BLANKS.split(data[0][1].strip()) if data else []
+    rows = [(number, line.partition("#")[0].split()) for number, line in data[1:]]
+    if len(names) < 2 or any(mark in data[0][1] for mark in ',;\t"') or {len(row) for _, row in rows} != {len(names)}:
+        return data
+    return [(number, "\t".join(cells)) for number, cells in ((data[0][0], names), *rows)]
 
 
 def _row_of_units(row: list[str]) -> list[str | None]:

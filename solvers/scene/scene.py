@@ -105,8 +105,13 @@ class Scene(System, NotebookTable):
         text, origin = scenefile.read_text(source)
         if model is None:
             return _read(text, origin)
-        package = open_package(model, "model")
-        return cls.from_toml(text, origin, package).with_model(package)
+        package, tables = open_package(model, "model"), scenefile.parse(text, str(origin))
+        entries = scenefile.flatten(tables, package)
+        rules.check_entries(entries, package, from_file=True)
+        for name, law in package.chosen(entries).items():  # before laws and tables are judged together
+            table, _, key = name.partition(".")
+            tables.setdefault(table, {})[key] = law
+        return cls.from_dict(tables, from_file=True, comments=scenefile.remarks(text), package=package)
 
     @classmethod
     def from_toml(cls, text: str, origin: str = "scene", package: Package | None = None) -> Self:

@@ -195,7 +195,7 @@ class Bridge(Table):
     surface_tension: float = entry("a surface tension", '"0.025 N/m"', unit="N/m", required=True)
     r"""Surface tension $\sigma$."""
     volume: float = entry("a number V/R^3", "0.1", required=True, or_unit="m^3", words=(FROM_COATING,))
-    """Volume of the bridge over $R^3$, $R = 2a$; or with its unit, `"5e-5 mm^3"`; or `"from coating"`."""
+    """Volume of the bridge over $R^3$, $2/R = 1/R_1 + 1/R_2$; or with its unit, `"5e-5 mm^3"`; or `"from coating"`."""
     coating_fraction: float | None = entry("the part of the coating", "0.067", PART, gives="")
     """With `"from coating"`: the part of either coating that flows into the bridge."""
     contact_angle: float = entry("an angle", '"0 deg"', WETTING_ANGLE, unit="rad", default=0.0)

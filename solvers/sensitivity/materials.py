@@ -7,6 +7,7 @@ from typing import Any
 
 from ..errors import InputError, did_you_mean
 from ..scene.columns import columns_of, file_label, row_name
+from ..scene.entry_rules import check_entries
 from ..scene.scene import Scene
 from ..scene.schema import FIELDS, MEETING
 from ..scene.user_model import Package, fields
@@ -88,12 +89,14 @@ def materials_of(
 def _scene(base: Any, entries: Mapping[str, Any], package: Package | None) -> Scene:
     if base:
         return Scene.load(str(base), package).with_entries(entries)
+    if package is not None:
+        check_entries(entries, package)
+        entries = {**entries, **package.chosen(entries)}
     tables: dict[str, dict[str, Any]] = {}
     for name, value in entries.items():
         table, _, key = name.partition(".")
         tables.setdefault(table, {})[key] = value
-    scene = Scene.from_dict(tables, package=package)
-    return scene if package is None else scene.with_model(package)
+    return Scene.from_dict(tables, package=package)
 
 
 def _cell(unit: str | None, cell: Any) -> Any:

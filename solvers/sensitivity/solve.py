@@ -190,9 +190,7 @@ class Search:
         if self.free in MEETING:
             options[self.free.partition(".")[2]] = values
         else:
-            measured = self.scene.fields[self.free].or_unit  # a volume is given with its unit
-            given = [self.scene.as_given(self.free, value) for value in values.tolist()] if measured else values
-            options |= {"vary": {self.free: given}, "hold": self.hold}
+            options |= {"vary": {self.free: self.scene.as_given(self.free, values)}, "hold": self.hold}
         return collide_many(self.scene, **options)
 
     def _failed(self, place: np.ndarray) -> str:

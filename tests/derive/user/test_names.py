@@ -3,11 +3,12 @@
 import keyword
 
 import pytest
+from wetdoublet.derive import user
 from wetdoublet.derive.user.declarations import ModelFileError, collecting, quantity
 from wetdoublet.derive.user.laws import law
-from wetdoublet.derive.user.motion import event
-from wetdoublet.derive.user.names import taken
-from wetdoublet.derive.vocabulary.quantities import sigma, x
+from wetdoublet.derive.user.motion import event, force_on
+from wetdoublet.derive.user.names import listed, taken
+from wetdoublet.derive.vocabulary.quantities import sigma, x, x0
 
 HEAD = "from wetdoublet.derive.user import *\n"
 WORDS = sorted(word for word in taken() if word.islower())
@@ -43,3 +44,17 @@ def test_a_law_may_bear_any_word():
         with collecting() as declared:
             law("bridge", word, force=sigma * x)
         assert ("bridge", word) in declared.laws
+
+
+def test_a_name_that_is_listed_may_be_used():
+    """In a term, but for arguments of laws and the time; `rho`, `E`, `nu`, `x_b` are in no equation."""
+    rows = {line[:16].strip(): line[16:24].strip() for line in listed(vars(user)).splitlines()}
+    of_laws = {"approach", "distance", "gap", "h", "normal_velocity", "offset_squared", "opening", "t"}
+    assert {"x", "sigma", "V", "phi", "mu", "p_gt", *of_laws} < rows.keys()
+    for name in rows.keys() - of_laws:
+        with collecting():
+            force_on("gap", sigma * x0 * vars(user)[name] / quantity("unit_of_it", unit=rows[name]))
+    for name in ("rho", "E", "nu", "x_b"):
+        with collecting(), pytest.raises(ModelFileError, match="is not known to a term"):
+            force_on("gap", sigma * x0 * vars(user)[name])
+        assert name not in rows

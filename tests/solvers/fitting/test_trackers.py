@@ -1,5 +1,6 @@
 """The same film as each tracker writes it gives the same impact, and one sentence says what it was taken for."""
 
+import io
 import itertools
 import math
 from collections.abc import Callable
@@ -129,6 +130,19 @@ def napari_points(film: Film, names: dict[str, str]) -> str:
     return long_table(film).assign(z=7)[list(names)].rename(columns=names).to_csv(index_label="index")
 
 
+def saved(film: Film, between: str) -> str:
+    """As numpy.savetxt writes a table with a header."""
+    table = long_table(film)
+    np.savetxt(text := io.StringIO(), table, header=between.join(table), delimiter=between)
+    return text.getvalue()
+
+
+def beside(film: Film, unit: str, size: float, clock: tuple[str, float] = ("frame", 1.0), **csv: object) -> str:
+    """Two paths side by side, in another unit."""
+    table = {clock[0]: film["frame"] * clock[1]} | {f"{place}{unit}": film[place] * size for place in PLACES}
+    return pd.DataFrame(table).to_csv(index=False, **csv)
+
+
 DLTDV = ("pt1_cam1_X", "pt1_cam1_Y", "pt2_cam1_X", "pt2_cam1_Y")
 SPELT: dict[str, tuple[str, Callable[[Film], str]]] = {
     "trackpy": ("trackpy", lambda film: long(film, {}, {"mass": 9.5, "ep": 0.1}, index=True)),
@@ -153,6 +167,12 @@ SPELT: dict[str, tuple[str, Callable[[Film], str]]] = {
     ),
     "dltdv": ("DLTdv", lambda film: wide(film, DLTDV)),
     "imagej": ("ImageJ's Results", imagej),
+    "blanks": ("trackpy", lambda film: long(film, {}, {}, sep=" ")),
+    "numpy": ("trackpy", lambda film: saved(film, " ")),
+    "numpy,": ("trackpy", lambda film: saved(film, ",")),
+    "inches": ("side by side", lambda film: beside(film, "_inch", PIXEL / 0.0254)),
+    "nanoseconds": ("side by side", lambda film: beside(film, "", 1.0, ("time_ns", 1e9 / RATE))),
+    "units in blanks": ("side by side", lambda film: beside(film, " [mm]", 1e3 * PIXEL, sep=" ").replace('"', "")),
 }  # fmt: skip
 
 

@@ -29,6 +29,7 @@ from wetdoublet.solvers import (
 )
 from wetdoublet.solvers.host.compiler import compiler
 from wetdoublet.solvers.many.regime_map import scene_of
+from wetdoublet.solvers.sensitivity.materials import materials_of
 from wetdoublet.solvers.verify.conserved import conserved
 from wetdoublet.solvers.verify.identities import of_the_model
 from wetdoublet.solvers.verify.sample import Extent, collisions
@@ -170,6 +171,26 @@ def test_custom_needs_its_model(mine: Path, tmp_path: Path):
     with pytest.raises(InputError, match=r"custom.yield_stress: .* no model is given; accepted: .*--model DIR"):
         Scene.load(file)
     assert Scene.load(file, model=mine).bridge.law == "yielding"
+
+
+def test_a_scene_file_is_judged_with_the_laws_of_its_model(tmp_path: Path):
+    """The library's law that the model's takes the place of need not have the rupture distance that is asked for."""
+    model, file = tmp_path / "short.py", tmp_path / "scene.toml"
+    model.write_text(
+        "from wetdoublet.derive.user import *\n"
+        "law('bridge', 'short', force=2*cos(phi)*(1 - h/sqrt(h**2 + 2*V/pi)), rupture_distance=V**Rational(1, 2))\n"
+    )
+    text = Scene.load("granulation").to_toml().replace('law = "mikami"', 'law = "lambert"\nrupture = "own"')
+    file.write_text(text)
+    scene = Scene.load(file, model=model)
+    assert scene.bridge.law == "short"
+    assert scene.rupture_gap == pytest.approx(math.sqrt(0.1) * 1e-4, rel=1e-12)
+    [material] = materials_of({name: [value] for name, value in Scene.from_toml(text.replace("own", "common")).given}
+                              | {"bridge.rupture": ["own"]}, model=model)  # fmt: skip
+    assert material.scene == scene.with_entries({"name": ""})
+    file.write_text(text.replace("lambert", "lambart"))
+    with pytest.raises(InputError, match=r'bridge.law: "lambart" is not known'):
+        Scene.load(file, model=model)
 
 
 def test_the_template_runs(tmp_path: Path):

@@ -48,6 +48,15 @@ def test_all_roots_are_found_on_both_sides_of_an_extremum():
     assert none.attained[1] == pytest.approx(top, rel=1e-6)
 
 
+def test_a_volume_is_sought_as_the_scene_gives_it():
+    """In m^3 where it is given so: of spheres of 100 um that is V/R^3 times 1e-12 m^3."""
+    ratio = Scene.load("granulation").with_impact(stokes=0.05)
+    volume = ratio.with_entries({"bridge.volume": "1e-4 mm^3"})
+    (expected,) = solve(ratio, free="bridge.volume", within=(0.05, 0.3), restitution=0.65)
+    found = solve(volume, free="bridge.volume", within=("5e-5 mm^3", "3e-4 mm^3"), restitution=0.65)
+    assert found == pytest.approx([expected * 1e-12], rel=1e-9)
+
+
 def test_a_jump_over_the_value_is_no_root():
     """Where the glass criterion is grazed e_n jumps from 0.5017 to 1.004: 0.8 is jumped over, there and only there."""
     scene = Scene.load("granulation").with_impact(stokes=0.03, angle="60 deg")

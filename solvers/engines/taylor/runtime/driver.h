@@ -258,10 +258,11 @@ static mask take_step(expansion *e, lanes *l, vec h, mask creeps, vec gap)
     return l->alive & NOT(finite);
 }
 
-/* Hands over what is lost or has no budget left, and parks what creeps for long for implicit.h. */
-static void leave_to_others(queue *q, lanes *l, fixed *f, mask lost, mask falls)
+/* Hands over what is lost or has no budget left, and parks what creeps for long for implicit.h. A collision that has
+ * just come into a lane is not in `stepped`: what a step alone may still decide must not depend on the other lanes. */
+static void leave_to_others(queue *q, lanes *l, fixed *f, mask lost, mask falls, mask stepped)
 {
-    mask spent = l->alive & (lost | (l->steps > q->budget));
+    mask spent = l->alive & (lost | (stepped & (l->steps > q->budget)));
     unsigned others = bits(l->alive & NOT(falls) & NOT(spent) & (l->crept > splat_mask(PATIENCE)));
 #if BACKWARD
     spent |= only_if_full(q, l->alive);
@@ -340,10 +341,11 @@ static void run(queue *q)
 #endif
         keep_step(q, &e, &l, &f, h, creeps, falls, first.event);
         mask lost = take_step(&e, &l, h, creeps, bits(falls) ? sum_at(e.s.gap, h) : first.gap);
+        mask index = l.index;
         act_on(q, &l, &f, falls & NOT(lost), first.event);
 #if JUMPS
         park_for_jump(q, &l, &f, falls & NOT(lost) & (first.event == splat_mask(AT_TURNING)) & l.alive & NOT(l.closing));
 #endif
-        leave_to_others(q, &l, &f, lost, falls);
+        leave_to_others(q, &l, &f, lost, falls, l.index == index);
     }
 }

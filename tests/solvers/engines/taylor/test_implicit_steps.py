@@ -64,6 +64,19 @@ def test_collisions_that_creep_to_no_avail_keep_to_their_budget():
     assert found["steps"][0] < 1500 + 4100
 
 
+def test_a_spent_budget_ends_a_collision_as_if_it_were_alone():
+    """What waits for a lane takes its last step in any case, bit for bit, whichever neighbour makes room for it."""
+    scene = Scene.load("granulation-dry-bridge")
+    random = np.random.default_rng(3)
+    speed, angle = scene.speed_of(0.02 * np.exp(random.normal(0, 2, 64))), 10 ** random.uniform(-7, 0, 64)
+    impacts = engine.Impacts(scene, speed, angle)
+    together = engine.run_kernel(impacts, 1e-9, budget=1000)
+    assert {Status.NO_BUDGET, Status.DECIDED} <= {*together["status"]}
+    for k in range(64):
+        alone = engine.run_kernel(impacts.subset(slice(k, k + 1)), 1e-9, budget=1000)
+        assert alone.tobytes() == together[k : k + 1].tobytes()
+
+
 def test_a_separation_that_rounding_decides_is_none():
     """Spins cancel the orbital angular momentum but for 1e-6 of it, without a film edge: the speed of separation falls
     as that part squared, to the rounding of the momenta. What the kernel says then is a status, and no outcome.
