@@ -37,7 +37,7 @@ _SLOW = re.compile(r"^pytestmark = .*\bmark\.slow\b", re.MULTILINE)
 _SOME_SLOW = re.compile(r"\bmark\.slow\b|^from \.scenes import .*\bparts\b", re.MULTILINE)  # `parts` has marks
 _LONGEST = (
     "harness/test_mutants.py", "test_recipes.py", "explorer/test_bundle.py", "explorer/test_in_browser.py",
-    "explorer/test_numbers_of_page.py", "checks/test_mutants.py", "paper/test_paper.py", "fitting/test_fit.py",
+    "explorer/test_numbers_of_page.py", "checks/test_mutants.py", "verify/test_paper.py", "fitting/test_fit.py",
 )  # fmt: skip
 _IMPORTED = ("hypothesis", "pandas", "pint", "scipy.optimize", "sympy.physics.units", "xarray", "matplotlib.figure")
 

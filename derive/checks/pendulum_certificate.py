@@ -296,10 +296,12 @@ def braking_is_the_films() -> tuple[Check, ...]:
 
 @check("approach: closing speed", "dw/dy <= P/w - g/St, and the bound of w rises as fast")
 def closing_speed() -> Evidence:
-    """dw/dy = (S_n - C)/w - g/St with C >= 0, and both comparison functions rise at least as fast.
+    """Two upper bounds of the closing speed w over the depth y = x0 - x, at a pull of at most P, rise as fast as w.
 
-    Where a bound z is reached, it has to rise by P/z - g/St at least: P/left with z >= left, or P/sqrt(2 P y) with
-    z >= sqrt(2 P y). At left = sqrt(P y/2) both gains agree, so that the larger denominator takes the smaller gain.
+    dw/dy = (S_n - C)/w - g/St, strings S_n <= P, centrifugal force C >= 0, resistance g of the film. A bound z of w
+    holds if it rises by P/z - g/St at least where w reaches it. Without the film's part, P y/w' with the speed w' that
+    the film alone would leave, and sqrt(2 P y) do: z >= w', z >= sqrt(2 P y). At w' = sqrt(P y/2) both gains agree, so
+    that the larger denominator takes the smaller gain.
     """
     model = _model()
     rate = model.expanded(model["right_hand_side"]["normal_velocity"])

@@ -27,7 +27,7 @@ class KinkError(ScalingError):
 
 
 def smooth(function: LawFunction, still: Collection[sp.Symbol], positive: Collection[sp.Expr] = ()) -> LawFunction:
-    """A law's function with a guard for every kink; the function itself if it has none.
+    """A law's function that is smooth on either side of guards, one for each kink; itself if it has none.
 
     Arguments:
         still: arguments that are constant along a trajectory.

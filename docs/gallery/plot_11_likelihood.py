@@ -14,6 +14,7 @@ import numpy as np
 from wetdoublet import log_likelihood
 
 names = ["liquid.film_thickness", "liquid.glass_transition_pressure"]
+# the impacts of the tutorial, as a clone has them
 data = Path(os.environ.get("WETDOUBLET_DOCS", "docs")) / "data" / "synthetic-steel-spheres.csv"
 density = log_likelihood("pendulum", data, names, prior={"liquid.film_thickness": "400 um +- 30 %"})  # and its gradient
 

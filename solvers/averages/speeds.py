@@ -118,8 +118,11 @@ def _table(speed: np.ndarray, density: np.ndarray) -> Speeds:
         raise InputError(_LABEL, None, _ACCEPTED, f"has {speed.size} speeds and {density.size} densities")
     if not (np.all(np.diff(speed) > 0) and speed[0] >= 0 and speed[-1] <= _MOST):
         raise InputError(_LABEL, speed, f"speeds that ascend, from 0 to {_MOST:g} m/s", "has others")
-    if not (np.isfinite(density).all() and (density >= 0).all() and density.max() > 0):
-        raise InputError(_LABEL, density, "densities of 0 or more, not all of them 0", "is no density")
+    wrong = density[~(np.isfinite(density) & (density >= 0))]
+    if wrong.size or not density.any():
+        first = float(wrong[0]) if wrong.size else 0.0
+        problem = "is no density" if wrong.size else "is every density"
+        raise InputError(_LABEL, first, "densities of 0 or more, not all of them 0", problem)
     density = density / density.max()  # so that no product overflows or vanishes
     total = float(np.trapezoid(density, speed))
     return Speeds(

@@ -16,7 +16,7 @@ from ..scene.groups import GAPS
 from ..scene.origin import Recorded
 from .brackets import Brackets, enclose
 from .samples import SAMPLE_BUDGET, answers
-from .scene_sampler import SceneSampler
+from .samples_by_kernel import SceneSampler
 
 # Kinds of change: a criterion is just met; a doublet begins to escape without or with a rebound; other.
 GRAZE, FREE, REVERSED, PLAIN = "graze", "escape", "escape reversed", "plain"

@@ -294,7 +294,9 @@ class Atlas(Boundaries):
 
     def __str__(self) -> str:
         angle = self.over == ANGLE
-        name, value = ("angle (deg)", math.degrees) if angle else (f"{self.over} ({self._unit or 1})", float)
+        unit, value = ("deg", math.degrees) if angle else (self._unit, float)
+        name = "angle" if angle else self.over
+        name += f" ({unit})" * bool(unit)
         lines = [f"{'curve':<42} {'kind':<16} {name} and St, from ... to"]
         for curve in self.curves:
             ends = " ... ".join(f"{value(curve.x[k]):.6g}, {curve.stokes[k]:.6g}" for k in (0, -1))
@@ -306,9 +308,9 @@ class Atlas(Boundaries):
         lines += [f"not settled at {value(x):.6g}, St {stokes:.6g}: {why}" for x, stokes, why in self.unsettled]
         sought, spacing = self.sought, self.sought["line_spacing"]
         assert isinstance(spacing, float)
+        apart = f"{value(spacing):.3g} {unit}".rstrip()
         text = (
-            f"{self.range_text}; from {len(self.at)} lines, {value(spacing):.3g} {'deg' if angle else self._unit or 1} "
-            f"apart, sampled every {self.resolution:.2%} in St; "
+            f"{self.range_text}; from {len(self.at)} lines, {apart} apart, sampled every {self.resolution:.2%} in St; "
             f"{self.collisions} collisions; straight lines between the points of a curve are within "
             f"{sought['chord_stokes']:.1e} of St, relative"
         )

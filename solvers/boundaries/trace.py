@@ -18,7 +18,7 @@ from ..host.workers import usable_cores
 from ..scene.scene import Scene
 from .changes import Change, changes_along
 from .samples import answers, first_grid, sampled
-from .scene_sampler import PER_DECADE, SceneSampler
+from .samples_by_kernel import PER_DECADE, SceneSampler
 
 SHARPEST = 1e-13
 _TOGETHER = 32  # lines traced together

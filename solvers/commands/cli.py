@@ -173,6 +173,7 @@ def _usage(error: click.UsageError) -> str:
     if isinstance(error, click.BadOptionUsage):
         return _misused(error.option_name, ctx)
     if ctx and isinstance(ctx.command, click.Group):
+        problem = "missing" if problem == "Missing command" else problem
         return f"COMMAND: {problem}; accepted: {', '.join(COMMANDS)}"
     usage = " ".join(ctx.get_usage().split()).removeprefix("Usage: ") if ctx else "see --help"
     return f"{ctx.info_name if ctx else 'wetdoublet'}: {problem}; accepted: {usage}"

@@ -44,7 +44,7 @@ def map_(
     """Outcome and restitution of SCENE over a grid of impact angles, Stokes numbers and further varied entries.
 
     Without -o and --plot a map of characters is printed. Collisions that fail are marked, and counted at the end; exit
-    status 1 if all do. The picture has the exact boundaries over the cells, and hatches those where the model leaves
+    status 1 if all do. The picture has the exact boundaries over the cells, and dots those where the model leaves
     its range.
 
     Example:
@@ -193,7 +193,7 @@ def _plane(angle: str | None, over: str | None, request: SceneRequest) -> tuple[
 
 @command()
 def critical(angle: _Angles, wrt: Any, request: Entries, output: Shown, **chosen: Any) -> None:
-    """The speed up to which particles of SCENE stick, with its interval and derivatives; above another they bounce.
+    """The speed up to which particles of SCENE stick, and that above which they bounce, with interval and derivatives.
 
     SCENE may be a CSV file of materials, one a row; its columns are entries, as `particles.diameter [um]`.
     With -o FILE.csv the speeds are written as a table.

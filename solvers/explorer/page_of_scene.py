@@ -154,7 +154,7 @@ def _structure(scene: Scene) -> tuple[Any, ...]:
     """What the law of a scene depends on besides its numbers."""
     from ..export.law.kernels import kernels
     from ..export.law.material import material
-    from ..export.law.pair import pair_entries
+    from ..export.law.pair_material import pair_entries
 
     law_kernels = kernels(scene, RTOL, _has_ledger(scene))
     entries = pair_entries(scene, material(scene, law_kernels))

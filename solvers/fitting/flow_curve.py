@@ -170,6 +170,9 @@ def flow_curve(source: str | Path | tuple[Any, Any]) -> FlowCurve:
         >>> found.law, round(found.parameters["flow_index"].value, 4)
         ('power-law', 0.9031)
     """
+    if not isinstance(source, (tuple, str, Path)):
+        accepted = "a file, or a tuple of shear rates and viscosities, SI"
+        raise InputError("source", type(source).__name__, accepted, "is neither")
     rate, viscosity = source if isinstance(source, tuple) else flow_curve_of(source)
     rate, viscosity = np.asarray(rate, float), np.asarray(viscosity, float)
     if rate.shape != viscosity.shape or rate.ndim != 1 or len(set(rate.tolist())) < 3:

@@ -16,6 +16,7 @@ from ..host.arguments import check_mapping, check_names
 from ..scene import units
 from ..scene.fields import ANY, FRACTION, NOT_NEGATIVE, PART, POISSON, POSITIVE, WETTING_ANGLE
 from ..scene.scene import Scene
+from ..sensitivity.parameters import refuse_texts
 from .measurements import Measurements, rows_of
 
 IDENTIFIED = "identified"
@@ -172,6 +173,7 @@ def free_entries(
             guess; a prior of another entry.
     """
     candidates = free_names(scene)
+    refuse_texts(scene, names, candidates, "free")
     chosen = check_names(names, candidates, "free", "names no entry")
     for name in chosen:
         if name in data.columns:

@@ -14,6 +14,7 @@ from ..boundaries.experiment import free_names
 from ..errors import InputError
 from ..host.arguments import check_mapping, check_names
 from ..scene.scene import Scene
+from ..sensitivity.parameters import refuse_texts
 from .data_table import read_data
 from .free_entries import NOISE, FreeEntries, FreeEntry, Normalisation, free_entries, in_unit
 from .likelihood import Evaluation, Likelihood
@@ -135,6 +136,8 @@ def problem(
         labels = [str(k + 1) for k in range(len(scenes))]
     noise = [_noise(dataset) for dataset in measured]
     candidates = list(dict.fromkeys(name for k, setup in enumerate(scenes) for name in (*free_names(setup), *noise[k])))
+    for setup in scenes:
+        refuse_texts(setup, free, candidates, "free")
     chosen = check_names(free, candidates, "free", "names no entry")
     groups = _groups(own, chosen, labels)
     priors = (

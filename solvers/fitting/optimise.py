@@ -10,12 +10,14 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from numbers import Real
 
 import numpy as np
 from scipy.optimize import LinearConstraint, least_squares, minimize
 from scipy.stats import qmc, t
 
-from ..errors import ComputationError
+from ..errors import ComputationError, InputError
+from ..host.arguments import check_names
 from .free_entries import FreeEntries, Normalisation, Prior
 from .joint import Joint
 from .likelihood import Evaluation, Likelihood
@@ -127,7 +129,15 @@ class Objective:
         return information
 
     def log_density(self, values: Mapping[str, float]) -> tuple[float, dict[str, float]]:
-        """`value` and its derivatives at values of all free entries by name, SI."""
+        """`value` and its derivatives at values of all free entries by name, SI.
+
+        Raises:
+            InputError: a value is missing or no number, or is that of another entry.
+        """
+        check_names(list(values), self.free.names, "values")
+        for name in self.free.names:
+            if not isinstance(values.get(name), Real):
+                raise InputError(f"values, {name}", values.get(name), "a number, SI", "is no number" * (name in values))
         inner = self.free.inner(np.array([values[name] for name in self.free.names]))
         height, slope = self.value(inner), np.zeros(self.free.size)
         if np.isfinite(height):

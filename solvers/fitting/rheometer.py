@@ -50,7 +50,7 @@ def flow_curve_of(source: str | Path) -> tuple[np.ndarray, np.ndarray]:
             below = rows[first][place] if place < len(rows[first]) else ""
             unit = _parts(below)[1] or below.strip()
             first += 0 if unit else 1
-        factors[kind] = _factor(unit, kind, rows[line][place])
+        factors[kind] = _factor(unit, kind, f"CURVE.csv {source}, {rows[line][place].strip()}")
     values = [numbers for row in rows[line + 1 :] if (numbers := _numbers(row, places))]
     if len(values) < 3:
         raise InputError("CURVE.csv", str(source), "three rates at least", f"has {len(values)} rows of numbers")
@@ -100,19 +100,19 @@ def _parts(cell: str) -> tuple[str, str]:
     return match["name"].strip(), (match["unit"] or match["plain"] or "").strip()
 
 
-def _factor(unit: str, kind: str, name: str) -> float:
+def _factor(unit: str, kind: str, label: str) -> float:
     wanted = _COLUMNS[kind][1]
     if not unit:
         accepted = f"a unit behind the name, as [{'1/s' if kind == 'rate' else wanted}]"
-        raise InputError(f"CURVE.csv, {name.strip()}", None, accepted, "has no unit")
+        raise InputError(label, None, accepted, "has no unit")
     spelt = units.spelling(unit)
     if kind == "rate" and _PER_MINUTE.fullmatch(spelt):
         return 1 / 60
     if kind == "rate" and _TURNS.fullmatch(spelt):
         problem = "is a frequency or a speed of rotation, which the geometry of the rheometer makes a shear rate"
-        raise InputError(f"CURVE.csv, {name.strip()}", unit, "a shear rate in 1/s or 1/min", problem)
+        raise InputError(label, unit, "a shear rate in 1/s or 1/min", problem)
     spelt = _SPELT.get(spelt.lower(), spelt)
-    return units.factor(spelt, wanted, f"CURVE.csv, {name.strip()}", _ACCEPTED, unit)
+    return units.factor(spelt, wanted, label, _ACCEPTED, unit)
 
 
 def _numbers(row: list[str], places: dict[str, int]) -> dict[str, float]:

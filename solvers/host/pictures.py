@@ -46,7 +46,7 @@ def plot(data: Any, path: str | Path | None = None) -> Any:
     variables = getattr(data, "data_vars", ())
     home = _RESULTS.get(type(data).__name__) or next((_HOMES[name] for name in _HOMES if name in variables), None)
     if home is None:
-        raise InputError("data", type(data).__name__, "a Dataset that this package has made", "is none")
+        raise InputError("data", type(data).__name__, "a Dataset that this package has made", "has no picture")
     return saved(lambda: _drawing(home)(data), path)
 
 

@@ -44,6 +44,7 @@ class Scene(System, NotebookTable):
     Raises:
         InputError: names the first wrong entry, its value, and what is accepted.
 
+    >>> from wetdoublet import Scene
     >>> scene = Scene.load("granulation").with_entries({"liquid.viscosity": "3 Pa s"})
     >>> scene.liquid.viscosity
     3.0

@@ -100,6 +100,7 @@ def gradients_many(
 
     Example:
         >>> import numpy as np
+        >>> from wetdoublet import gradients_many
         >>> found = gradients_many("granulation", stokes=np.array([0.02, 0.03]), angle=1.3, wrt="liquid.viscosity")
         >>> found.gradient.sel(quantity="restitution", parameter="liquid.viscosity").shape
         (2,)

@@ -11,7 +11,7 @@ import numpy as np
 from casadi import SX, Function, densify, jacobian, substitute, vec, vertcat
 
 from ...generated import scaling
-from ..errors import InputError
+from ..errors import InputError, excerpt
 from ..host.arguments import check_names
 from ..host.casadi_calls import Buffered
 from ..host.thread_caches import own_cache
@@ -62,14 +62,23 @@ def check_wrt(scene: Scene, wrt: Sequence[str] | str | None, label: str = "wrt")
         return everything
     # parameters even if the scene takes their defaults or gives another speed
     more = (*_defaults(scene), RELATIVE)
-    for name in (wrt,) if isinstance(wrt, str) else wrt if isinstance(wrt, Collection) else ():
-        entry = scene.fields.get(str(name))
-        if entry is not None and not entry.numeric:
-            raise InputError(label, name, ", ".join(everything), "is a choice, not a number")
+    refuse_texts(scene, wrt, everything, label)
     requested = check_names(wrt, (*everything, *(name for name in more if name not in everything)), label)
     if not requested:
         raise InputError(label, "", ", ".join(everything), "names no parameter")
     return requested
+
+
+def refuse_texts(scene: Scene, names: object, accepted: Sequence[str], label: str) -> None:
+    """InputError for a choice, or an entry that this scene has as text (a volume "from coating"): neither can vary."""
+    for name in (names,) if isinstance(names, str) else names if isinstance(names, Collection) else ():
+        entry, value = scene.fields.get(str(name)), scene.entries.get(str(name))
+        if entry is None or name in accepted:
+            continue
+        if not entry.numeric:
+            raise InputError(label, name, ", ".join(accepted), "is a choice, not a number")
+        if isinstance(value, str):
+            raise InputError(label, name, ", ".join(accepted), f"is {excerpt(value)} in this scene, not a number")
 
 
 def _defaults(scene: Scene) -> dict[str, float]:

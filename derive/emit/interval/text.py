@@ -95,8 +95,8 @@ class Constants:
         self._known[expression] = name
         self.prepared[name] = text
 
-    def named(self, program: Program) -> None:
-        """Add the named constants of a program."""
+    def define_all(self, program: Program) -> None:
+        """Add the constants that a program names, under these names."""
         for symbol, value in program.named.items():
             if symbol not in self._known:
                 self._known[symbol] = symbol.name
@@ -113,7 +113,7 @@ def recurrences(program: Program, constants: Constants, where: Callable[[str], s
     Arguments:
         where: C text of the address of a series.
     """
-    constants.named(program)
+    constants.define_all(program)
     lines = []
     for step in program.operations:
         target, parts = where(step.name), [where(name) for name in step.series]

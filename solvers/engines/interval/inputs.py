@@ -7,7 +7,7 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from ...errors import InputError
+from ...errors import InputError, did_you_mean
 from ...host.arguments import check_mapping
 from ...model.model import select_model
 from ...scene.held import impact_quantity
@@ -111,7 +111,8 @@ def _ends(scene: Scene, name: str, width: object) -> Range:
     """Low and high of an entry, SI, as the scene gives it; what reading them rounds is outward."""
     fields, label = scene.fields, f"within {name}"
     if name not in fields:
-        raise InputError("within", name, "entries of a scene file by dotted name", "is not an entry")
+        problem = "is not an entry" + did_you_mean(name, fields)
+        raise InputError("within", name, "entries of a scene file by dotted name", problem)
     field, tables = fields[name], {entry.partition(".")[0] for entry in scene.entries}
     value = scene.entries.get(name, field.default if name.partition(".")[0] in tables else None)
     if isinstance(value, str) or not field.numeric:

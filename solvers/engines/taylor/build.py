@@ -83,7 +83,7 @@ def kernel(variant: Variant) -> ctypes.CDLL:
 def _compiled(variant: Variant) -> bytes:
     """The library of a variant, compiled if it is not in the cache."""
     tool = compiler()
-    with say_after(_PATIENCE, "a kernel for this kind of scene is compiled, once; this takes some seconds"):
+    with say_after(_PATIENCE, "a kernel for this kind of scene is compiled, once; most take some seconds"):
         emitted = None if tool is None else emitted_headers(variant)
         if emitted is None:
             raise no_kernel() if tool is None else ComputationError("a law or event of this scene has no Taylor series")

@@ -14,7 +14,7 @@ from ..equations import file_name
 from .c_file import digests, kernels_text
 from .kernels import BOOKED, HEAD_ON, PLANE, SPACE, Kernel, kernels, only_in_a_plane, rendered
 from .material import LARGEST, Number, endless, impact, material, results
-from .pair import computed, pair_entries
+from .pair_material import computed, pair_entries
 from .vectors import RTOL as VECTOR_RTOL
 from .vectors import TOLERANCE as VECTOR_TOLERANCE
 from .vectors import pair_vectors, vectors

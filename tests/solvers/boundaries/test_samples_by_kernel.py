@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 from wetdoublet.solvers import Scene, collide_many
-from wetdoublet.solvers.boundaries.scene_sampler import SceneSampler
+from wetdoublet.solvers.boundaries.samples_by_kernel import SceneSampler
 
 RTOL = 1e-9
 # Angle, and a boundary at which a doublet begins to escape, from tests/data/boundaries.json to six digits.

@@ -12,10 +12,12 @@ from ...helpers.own_arm import surface
 
 FREE = ["liquid.viscosity", "liquid.film_thickness"]
 WALL = Scene.load("granulation").with_entries({"partner.wall": True})
+COATED = Scene.load("lactose-pvp")  # with a bridge from the coating
 RUBBED = WALL.with_entries({"particles.friction": 0.3})
 VECTORS, PAIRED = np.ones((2, 3)), xr.DataArray([0.1, 0.2], {"k": [1, 2]})
 SEEN = {"stokes": [0.1], "angle": [0.5], "outcome": ["stick"]}
 RIGHT: dict[str, dict[str, Any]] = {  # a request that each function answers
+    "sensitivities": {},
     "collide_many": {}, "regime_map": {}, "collision_averages": {"speeds": 1.0},
     "collide_pair": {"normal": [0, 0, 1], "velocities": VECTORS, "spins": VECTORS},
     "solve": {"free": "liquid.viscosity", "within": (0.2, 20.0), "restitution": 0.5},
@@ -51,6 +53,7 @@ REFUSED: dict[str, list[tuple[Any, ...]]] = {  # what is changed of it, the fiel
     "collision_averages": [
         ({"scene": "pendulum"}, "scene"), ({"speeds": None}, "speeds"),
         ({"speeds": ([1.0, 0.5], [1.0, 1.0])}, "speeds"), ({"speeds": ([0.5, 1.0], [0.0, 0.0])}, "speeds"),
+        ({"speeds": ([0.5, 1.0, 2.0], [1.0, 3.0, -2.0])}, "speeds", "-2.0 is no density"),
         ({"speeds": "there-is-none.csv"}, "speeds"), ({"radii": [1e-4, 1e-4]}, "radii"),
         ({"films": "thick"}, "films"), ({"tolerance": 1.0}, "tolerance"), ({"wrt": "impact.speed"}, "wrt"),
     ],
@@ -68,21 +71,28 @@ REFUSED: dict[str, list[tuple[Any, ...]]] = {  # what is changed of it, the fiel
         *(({"within": {"liquid.viscosity": ends}}, "within liquid.viscosity") for ends in ((2, 1.9), (2, 2), (-1, 2))),
         ({"within": {"bridge.law": 0.1}}, "within bridge.law"), ({"within": {"liquid.colour": 0.1}}, "within", "col"),
         ({"within": {"impact.speed": 0.1}}, "within impact.speed"),
+        ({"within": {"liquid.viscosty": 0.1}}, "within", "did you mean liquid.viscosity?"),
     ],
     "solve": [
         ({"within": (3.0, 1.0)}, "within"), ({"contact_time": 1e-3}, "target"),
         ({"restitution": "half"}, "restitution"), ({"free": "bridge.law"}, "free"),
+        ({"scene": COATED, "free": "bridge.volume"}, "free", '"from coating" in this scene'),
         ({"restitution": None, "contact_time": "5 Pa"}, "contact_time"), ({"restitution": None}, "target"),
+    ],
+    "sensitivities": [
+        ({"scene": COATED, "wrt": "bridge.volume"}, "wrt", '"from coating" in this scene'),
+        ({"wrt": "bridge.law"}, "wrt", "is a choice"),
     ],
     "fit": [
         ({"free": "liquid.viscosty"}, "free", "did you mean liquid.viscosity?"),
         ({"free": "bridge.law"}, "free", "bridge.law"),
+        ({"scene": COATED, "free": "bridge.volume"}, "free", '"from coating" in this scene'),
         ({"prior": {"liquid.film_thickness": "8 um +- 10 %"}}, "prior", "is not free"),
         ({"prior": {"liquid.viscosity": "2 Pa s"}}, "prior", "is no prior"),
         ({"prior": {"liquid.viscosity": "2 m +- 10 %"}}, "prior liquid.viscosity", "a length"),
     ],
     "design": [
-        ({"free": ["liquid.viscosty"]}, "free"),
+        ({"free": ["liquid.viscosty"]}, "free"), ({"scene": COATED, "free": "bridge.volume"}, "free", "not a number"),
         ({"free": ["bridge.contact_angle"], "over": {"stokes": (1e-4, 2e-4), "angle": 0.0}, "n": 1}, "free"),
         ({"over": {"stokes": (0.1, 0.2), "angle": (0.0, 1.6)}}, "impact.angle"),
         ({"over": {"stokes": (0.1, 0.2), "angle": (0.5, 0.2)}}, "over angle"),
@@ -104,3 +114,22 @@ def test_a_request_that_cannot_be_is_named(name: str, row: tuple[Any, ...]) -> N
         getattr(public, name)(**{key: value for key, value in request.items() if value is not None or key == "spins"})
     assert caught.value.field == field
     assert all(text in str(caught.value) for text in said)
+
+
+def test_values_of_a_log_density_are_those_of_its_entries():
+    """A value of another entry, one that is missing, and text are named."""
+    density = public.log_likelihood("granulation", SEEN, FREE)
+    given = dict.fromkeys(FREE, 1e-5)
+    for values, said in (
+        ({**given, "liquid.viscosty": 1.0}, "did you mean liquid.viscosity"),
+        ({FREE[0]: 2.0}, f"{FREE[1]}: missing"),
+        ({**given, FREE[0]: "2 Pa s"}, "is no number"),
+    ):
+        with pytest.raises(InputError, match=said):
+            density(values)
+
+
+def test_a_flow_curve_is_a_file_or_two_arrays():
+    """Anything else is an input error."""
+    with pytest.raises(InputError, match="is neither"):
+        public.flow_curve({"rate": [1.0, 2.0, 3.0], "viscosity": [1.0, 1.0, 1.0]})

@@ -87,7 +87,7 @@ INLINE vec choose(mask m, vec a, vec b)
     return (vec)(((mask)a & m) | ((mask)b & ~m));
 }
 
-/* The same for lanes with integers. */
+/* `only` for integers. */
 INLINE mask only_whole(mask m, mask x)
 {
     return x & m;
@@ -150,7 +150,7 @@ INLINE vec choose(mask m, vec a, vec b)
     return m ? a : b;
 }
 
-/* The same for lanes with integers. */
+/* `only` for integers. */
 INLINE mask only_whole(mask m, mask x)
 {
     return m ? x : 0;
