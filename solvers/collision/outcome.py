@@ -21,6 +21,10 @@ if TYPE_CHECKING:
     import xarray
 
 
+_SHOWN = (
+    "initial", "final", "normal_lubrication", "tangential_lubrication", "dry_contact", "dry_friction", "capillary",
+    "attraction", "strings", "own_events", "own_terms", "residual",
+)  # fmt: skip
 _OPEN, _OPEN_AT_LEAST = 1e4, 1e-6  # limits of the residual: multiple of rtol, part of the largest term
 
 
@@ -134,6 +138,13 @@ class Outcome(Result, kw_only=True):
     trajectory: xarray.Dataset | None = item(
         "Dataset over `time`, if requested", default=None, repr=False, compare=False
     )
+
+    @property
+    def terms(self) -> dict[str, float]:
+        """Terms of the ledger whose forces act in this collision, J, in the order in which they are shown; or none."""
+        energy = {} if self.energy is None else self.energy.to_dict()
+        absent = absent_terms(self.scene) | (set() if self.scene.bridge is not None else {"capillary"})
+        return {name: energy[name] for name in _SHOWN if name in energy and name not in absent}
 
     @property
     def validity(self) -> tuple[str, ...]:

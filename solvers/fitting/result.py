@@ -14,7 +14,7 @@ from ..errors import InputError
 from ..formatting.tables import aligned
 from ..host import files
 from ..host.files import check_file
-from ..host.pictures import plot
+from ..host.pictures import Drawn
 from ..host.progress import Estimated, Progress
 from ..scene.items import item
 from ..scene.origin import Record, Result, origin, plain
@@ -77,7 +77,7 @@ class RowDiagnostics(Record):
         return 2 * self.contradicting.size >= self.log_likelihood.size
 
 
-class Fit(Result):
+class Fit(Result, Drawn):
     """The result of `fit`: what was estimated, and how that is shown and written.
 
     Example:
@@ -87,6 +87,8 @@ class Fit(Result):
         >>> sorted(fitted.to_dict()["estimates"]["liquid.glass_transition_pressure"])
         ['high', 'low', 'value', 'verdict']
     """
+
+    _picture = "fitting.plot.draw"
 
     parts: tuple[Part, ...] = item("the scenes with their first guesses, and their impacts")
     data: Measurements = item("the impacts of all parts")
@@ -209,7 +211,7 @@ class Fit(Result):
         work.start()
         self.objective.likelihood.tell = work.add
         try:
-            return plot(self, path)
+            return super().plot(path)
         finally:
             del self.objective.likelihood.tell
             work.finish()
