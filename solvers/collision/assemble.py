@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from ...generated.automaton import STICK
 from ..model.dimensionless import Problem
@@ -64,7 +64,7 @@ def assembled(
         "slipping": separated and problem.oblique, "stick": not separated,
     }  # fmt: skip
     results = {**results, "contact_time": time, "until": time}
-    values: dict[str, float | None] = {}
+    values: dict[str, Any] = {}
     for row in _OF_MOTION:
         value = results.get(row.name, 0.0) * (getattr(problem, row.scale) if row.scale else 1.0)
         values[row.name] = value if exists[row.exists] and math.isfinite(value) else None

@@ -100,7 +100,7 @@ def collision(
     names, words = problem.model(full=ledger).names("outputs"), words_of(problem.scene)
     log = record.events[0, : answer["events"]]
     results = dict(zip(names, answer["shown"].tolist())) if separated else {}
-    results |= {name: answer[DEFINITIONS[name].place] for name in ("rotation", "smallest_gap", "slip_restitution")}
+    results |= {name: answer[str(DEFINITIONS[name].place)] for name in ("rotation", "smallest_gap", "slip_restitution")}
     return assembled(
         problem,
         results,
