@@ -121,7 +121,7 @@ class Design(Result, Drawn):
         blocks = [title, "", *aligned(rows), "", *aligned(entries), "", f"Planned for {at}; {scatter}."]
         return "\n".join([*blocks, *self.combinations])
 
-    __repr__ = __str__  # what a notebook shows
+    __repr__ = __str__  # at the prompt
 
     @property
     def _speed(self) -> str:

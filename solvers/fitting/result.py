@@ -197,7 +197,7 @@ class Fit(Result, Drawn):
                 lines += ["", *sentences]
         return "\n".join(lines)
 
-    __repr__ = __str__  # what a notebook shows
+    __repr__ = __str__  # at the prompt
 
     def plot(self, path: str | Path | None = None, progress: Progress | None = None) -> Any:
         """Draw data over the regime map, e_n with its band, profiles and residuals; returns the matplotlib Figure.

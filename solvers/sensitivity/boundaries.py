@@ -120,7 +120,7 @@ class BoundarySensitivities(Result, Drawn):
     def __str__(self) -> str:
         return "\n\n".join([str(self.boundaries), *self._tables()])
 
-    __repr__ = __str__  # what a notebook shows
+    __repr__ = __str__  # at the prompt
 
     def _tables(self) -> list[str]:
         tables = []

@@ -135,7 +135,7 @@ class Critical(Result, Drawn):
             lines += aligned([["", *where], *slopes])
         return "\n".join(lines)
 
-    __repr__ = __str__  # what a notebook shows
+    __repr__ = __str__  # at the prompt
 
     def columns(self) -> dict[str, list[Any]]:
         """A value for each material and angle (rad) by name; speeds in m/s."""

@@ -81,7 +81,7 @@ class Report(Result):
             lines += _section(group, members)
         return "\n".join([*lines, *wrap(self.summary, WIDTH)])
 
-    __repr__ = __str__  # what a notebook shows
+    __repr__ = __str__  # at the prompt
 
     @property
     def headline(self) -> str:
