@@ -30,6 +30,7 @@ class Definition:
         derivative: "all" if every engine differentiates it, "casadi" if the kernel does not, "" if none does.
         integral: True if it is an integral over the trajectory.
         symbol: as shown behind its name.
+        short: a term of the energy in a table for a person.
     """
 
     name: str
@@ -44,6 +45,7 @@ class Definition:
     derivative: str = ""
     integral: bool = False
     symbol: str = ""
+    short: str = ""
 
     @property
     def term(self) -> str:
@@ -96,23 +98,24 @@ _COLLISION = (
 )  # fmt: skip
 
 
-def _energy(term: str, meaning: str, place: str | None, integral: bool = False) -> Definition:
-    return Definition(f"energy.{term}", "J", meaning, place, "energy", derivative="casadi", integral=integral)
+def _energy(term: str, short: str, meaning: str, place: str | None, integral: bool = False) -> Definition:
+    name = f"energy.{term}"
+    return Definition(name, "J", meaning, place, "energy", derivative="casadi", integral=integral, short=short)
 
 
 _ENERGY = (
-    _energy("initial", "kinetic energy at initial contact", "initial"),
-    _energy("final", "kinetic energy at the end", "final"),
-    _energy("normal_lubrication", "taken by the film along the line of centres", "normal", True),
-    _energy("tangential_lubrication", "taken by the shear", "tangential", True),
-    _energy("capillary", "work against the bridge", "capillary", True),
-    _energy("attraction", "work against van der Waals forces", "attraction", True),
-    _energy("dry_contact", "lost in the rebounds", "dry"),
-    _energy("dry_friction", "lost by friction of the dry contact", "friction", True),
-    _energy("strings", "gain of the strings' potential energy", "lifted"),
-    _energy("own_events", "kinetic energy that declared events take", "own_events"),
-    _energy("own_terms", "energy and work of a model's declared terms", "own_terms", True),
-    _energy("residual", "error of the integration: what the ledger leaves", None),
+    _energy("initial", "kinetic, initial", "kinetic energy at initial contact", "initial"),
+    _energy("final", "kinetic, final", "kinetic energy at the end", "final"),
+    _energy("normal_lubrication", "normal lubrication", "taken by the film along the line of centres", "normal", True),
+    _energy("tangential_lubrication", "tangential lubrication", "taken by the shear", "tangential", True),
+    _energy("capillary", "capillary work", "work against the bridge", "capillary", True),
+    _energy("attraction", "van der Waals work", "work against van der Waals forces", "attraction", True),
+    _energy("dry_contact", "dry contact", "lost in the rebounds", "dry"),
+    _energy("dry_friction", "contact friction", "lost by friction of the dry contact", "friction", True),
+    _energy("strings", "strings", "gain of the strings' potential energy", "lifted"),
+    _energy("own_events", "declared events", "kinetic energy that declared events take", "own_events"),
+    _energy("own_terms", "declared terms", "energy and work of a model's declared terms", "own_terms", True),
+    _energy("residual", "residual", "error of the integration: what the ledger leaves", None),
 )
 _DRIFT = Definition("angular_momentum_drift", "1", "change of L over its size at initial contact", "momentum")
 _OF_IMPACT = (

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..many.impacts import Block
+from ..scene.items import csv
 from ..scene.origin import provenance, release
 from ..scene.scene import Scene
 from .geometry import BOUNCES, ENERGY, LOST, NORMAL, ROTATES, STICKS, TANGENTIAL, TURNING
@@ -112,9 +113,9 @@ def to_csv(data: xarray.Dataset) -> str:
     """
     dims = data["stick_probability"].dims
     plain = sorted((name for name in data.data_vars if data[name].dims == dims), key="reason".__eq__)
-    frame = _frame(data[plain].rename({name: f"{name} [m]" for name in dims}))
+    frame = _frame(data[plain])
     frame.insert(len(dims), "relative_speeds", data.attrs["speeds"])
-    return str(frame.to_csv(index=False, lineterminator="\n"))
+    return csv(frame, dict.fromkeys(dims, "m"))
 
 
 def table(data: xarray.Dataset) -> str:

@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 from typing import Any
 
@@ -13,7 +13,8 @@ from ..engines.settings import KERNEL_STEPS
 from ..errors import ComputationError
 from ..model.dimensionless import nondimensionalise
 from ..scene.groups import GAPS
-from ..scene.origin import Recorded
+from ..scene.items import OUTCOME, item
+from ..scene.origin import Record
 from .brackets import Brackets, enclose
 from .samples import SAMPLE_BUDGET, answers
 from .samples_by_kernel import SceneSampler
@@ -28,25 +29,21 @@ _TOGETHER = 0.1  # part of a phase within which contact and a turning point just
 _AT_ONCE = 16  # collisions of a round that are worth waiting for together: two for each lane of the kernel
 
 
-@dataclass(frozen=True)
-class Change(Recorded):
-    """A change of outcome at a Stokes number, from below to above. Ce is None without a bridge.
-
-    Attributes:
-        kind: "graze" (a rebound criterion is just met), "escape" or "escape reversed" (a doublet begins to separate,
-            without and with a rebound), "plain" (located by outcomes alone), or "event WORD" (a declared event of a
-            user's model happens on one side only).
-        merged: True if it stands for several changes closer than 1e-8.
-    """
+class Change(Record):
+    """A change of outcome at a Stokes number, from below to above."""
 
     _keys = "stokes centrifugal from=before to=after"
 
-    stokes: float
-    centrifugal: float | None
-    before: str
-    after: str
-    kind: str
-    merged: bool = False
+    stokes: float = item("Stokes number at which the outcome changes", "1")
+    centrifugal: float | None = item("centrifugal number there", "1")
+    before: str = item("outcome below", OUTCOME)
+    after: str = item("outcome above", OUTCOME)
+    kind: str = item(
+        'what happens there: "graze" (a rebound criterion is just met), "escape" or "escape reversed" (a doublet '
+        'begins to separate, without and with a rebound), "plain" (located by outcomes alone), or "event WORD" (a '
+        "declared event of a user's model happens on one side only)"
+    )
+    merged: bool = item("True if it stands for several changes closer than 1e-8", default=False)
 
 
 def changes_along(

@@ -5,7 +5,6 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -15,7 +14,8 @@ from ..engines.interval.call import BOX, OUTCOME, enclose
 from ..engines.interval.inputs import Inputs
 from ..engines.interval.prove import Proof, prove_inputs
 from ..errors import ComputationError, InputError
-from ..scene.origin import Recorded
+from ..scene.items import item
+from ..scene.origin import Result
 from ..scene.scene import Scene
 
 _LINES = 48  # points of a line between which changes are looked for
@@ -44,14 +44,8 @@ class Change(NamedTuple):
         return self.stokes[1] / self.stokes[0] - 1
 
 
-@dataclass(frozen=True)
-class ProvedBoundary(Recorded):
+class ProvedBoundary(Result):
     """Changes of outcome along a line of constant angle (rad), each between two proved collisions.
-
-    Attributes:
-        proved: stretches with one proved outcome each; neighbours have an end in common, or nothing is proved between.
-        undecided: what lies between two of them with the same outcome. Where there is none, every change of the line is
-            within one of `changes`.
 
     Example:
         >>> from wetdoublet.solvers import prove_boundary
@@ -64,8 +58,13 @@ class ProvedBoundary(Recorded):
     scene: Scene
     angle: float
     changes: tuple[Change, ...]
-    proved: tuple[Stretch, ...]
-    undecided: tuple[Stretch, ...]
+    proved: tuple[Stretch, ...] = item(
+        "stretches with one proved outcome each; neighbours have an end in common, or nothing is proved between"
+    )
+    undecided: tuple[Stretch, ...] = item(
+        "what lies between two of them with the same outcome. Where there is none, every change of the line is within "
+        "one of `changes`"
+    )
 
     def __str__(self) -> str:
         counted = f"{len(self.changes)} change{'' if len(self.changes) == 1 else 's'}"

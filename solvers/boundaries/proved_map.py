@@ -7,7 +7,6 @@ import math
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -23,7 +22,8 @@ from ..host.workers import usable_cores
 from ..many.collide_many import collide_many
 from ..results import outcome_attributes
 from ..scene.held import AXIS_LABELS
-from ..scene.origin import Recorded, provenance
+from ..scene.items import item
+from ..scene.origin import Result, provenance
 from ..scene.scene import Scene
 
 if TYPE_CHECKING:
@@ -67,14 +67,8 @@ class Cell(NamedTuple):
         return {self.by: self.speed, "angle": self.angle, "outcome": word}
 
 
-@dataclass(frozen=True)
-class ProvedMap(Recorded, Drawn):
+class ProvedMap(Result, Drawn):
     """Cells that cover a rectangle of Stokes numbers or speeds, and angles, each with one proved outcome, or undecided.
-
-    Attributes:
-        depth: halvings of a cell.
-        cells: of any size, as far as they had to be halved.
-        proofs: collisions in a box that were enclosed.
 
     Example:
         >>> from wetdoublet.solvers import prove_map
@@ -86,9 +80,9 @@ class ProvedMap(Recorded, Drawn):
     _keys = "shares undecided_area proofs cells"
 
     scene: Scene
-    cells: tuple[Cell, ...]
-    proofs: int
-    depth: int = DEPTH
+    cells: tuple[Cell, ...] = item("of any size, as far as they had to be halved")
+    proofs: int = item("collisions in a box that were enclosed")
+    depth: int = item("halvings of a cell", default=DEPTH)
 
     @property
     def shares(self) -> dict[str, float]:

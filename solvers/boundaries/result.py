@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
@@ -12,10 +11,9 @@ import numpy as np
 
 from ...generated import scaling
 from ...generated.automaton import OUTCOMES
-from ..formatting.tables import NotebookTable
 from ..host.pictures import Drawn
-from ..results import outcome_attributes
-from ..scene.origin import Recorded, origin, provenance
+from ..scene.items import OUTCOME, columns, item
+from ..scene.origin import Record, Result, origin, provenance
 from ..scene.quantities import quantities
 from ..scene.scene import Scene
 from ..scene.schema import MEETING
@@ -27,25 +25,15 @@ from .regions import Slab, labelled, slabs
 if TYPE_CHECKING:
     import xarray
 
-NONE = -1  # outcome code of padding, where there is no change
 LINES = 33  # default number of seed lines of an atlas
 _EDGE = 1e-6  # height in the window up to which a curve ends on its lower edge
 LATTICE = (65, 193)  # columns and rows of the search lattice
 
 
-@dataclass(frozen=True)
-class Boundaries(Drawn, NotebookTable):
+class Boundaries(Result, Drawn):
     """Changes of outcome for each angle (rad), ascending in St, as `boundary` returns them.
 
     `plot` draws the regions of each outcome, the curves and where they meet.
-
-    Attributes:
-        collisions: number of integrated collisions.
-        failures: the reason of each line that could not be traced (its changes are then empty), else "".
-        resolution: relative spacing of the sampled Stokes numbers of every line. Wider strips of an outcome are found;
-            narrower ones only where a margin (of a rebound criterion, of the escape) shows them.
-        scene, window: the scene, and the range of Stokes numbers of the search.
-        rtol: relative tolerance of the integrations.
 
     Example:
         >>> from wetdoublet.solvers import boundary
@@ -58,12 +46,15 @@ class Boundaries(Drawn, NotebookTable):
 
     angles: tuple[float, ...]
     changes: tuple[tuple[Change, ...], ...]
-    collisions: int
-    failures: tuple[str, ...]
-    resolution: float
+    collisions: int = item("number of integrated collisions")
+    failures: tuple[str, ...] = item('why each line could not be traced (its changes are then empty), else ""')
+    resolution: float = item(
+        "relative spacing of the sampled Stokes numbers of every line. Wider strips of an outcome are found; narrower "
+        "ones only where a margin (of a rebound criterion, of the escape) shows them"
+    )
     scene: Scene = field(repr=False)
-    window: tuple[float, float]
-    rtol: float
+    window: tuple[float, float] = item("range of Stokes numbers of the search")
+    rtol: float = item("relative tolerance of the integrations")
 
     @property
     def failed(self) -> tuple[tuple[float, str], ...]:
@@ -124,22 +115,10 @@ class Boundaries(Drawn, NotebookTable):
         """Dataset over `line` and `change`, with units in attributes, padded with NaN, -1 and ""."""
         import xarray as xr
 
-        most, over = max((len(line) for line in self.changes), default=0), ("line", "change")
-        stokes = _padded([[change.stokes for change in line] for line in self.changes], most)
-        centrifugal = [
-            [np.nan if change.centrifugal is None else change.centrifugal for change in line] for line in self.changes
-        ]
-        kind = [[*(change.kind for change in line), *[""] * (most - len(line))] for line in self.changes]
-        variables: dict[str, Any] = {
-            "stokes": (over, stokes, {"units": "1", "long_name": "Stokes number at which the outcome changes"}),
-            "centrifugal": (over, _padded(centrifugal, most), {"units": "1", "long_name": "centrifugal number there"}),
-            "kind": (over, np.array(kind, dtype=str).reshape(len(kind), most), {"long_name": "what happens there"}),
-            "failure": ("line", np.array(self.failures, dtype=str),
-                        {"long_name": "why a line could not be traced"}),
-        }  # fmt: skip
-        for side, meaning in (("before", "outcome below"), ("after", "outcome above")):
-            rows = [[OUTCOMES.index(getattr(change, side)) for change in line] for line in self.changes]
-            variables[side] = over, _padded(rows, most, NONE).astype(np.int8), outcome_attributes(meaning, "none")
+        over = ("line", "change")
+        failures = np.array(self.failures, dtype=str), {"long_name": "why a line could not be traced"}
+        variables = columns(Change, self.changes, ("stokes", "centrifugal", "kind"), *over)
+        variables |= {"failure": (("line",), *failures), **columns(Change, self.changes, ("before", "after"), *over)}
         angle = "line", np.array(self.angles), {"units": "rad", "long_name": "impact angle"}
         attributes = provenance(
             self.scene, resolution=self.resolution, collisions=self.collisions, searched=self.range_text
@@ -164,45 +143,28 @@ class Boundaries(Drawn, NotebookTable):
         return self.scene.impact.relative_speed is not None
 
 
-@dataclass(frozen=True)
-class Curve(Recorded):
-    """A boundary between outcomes, x ascending: `before` is below it, `after` above.
-
-    Arguments:
-        kind: as in `Change`.
-        x, stokes: points of the curve; x in rad or SI.
-    """
+class Curve(Record):
+    """A boundary between outcomes, x ascending."""
 
     _keys = "from=before to=after kind x stokes"
 
-    before: str
-    after: str
-    kind: str
-    x: tuple[float, ...]
-    stokes: tuple[float, ...]
+    before: str = item("outcome below the curve", OUTCOME)
+    after: str = item("outcome above the curve", OUTCOME)
+    kind: str = item("kind of change: as in `Change`")
+    x: tuple[float, ...] = item("x of its points, rad or SI", "SI")
+    stokes: tuple[float, ...] = item("Stokes number", "1")
 
 
-@dataclass(frozen=True)
-class Point(Recorded):
+class Point(Record):
     """A point where curves meet, have a fold, or change in kind."""
 
-    _keys = "kind x stokes"
-
-    kind: str
-    x: float
-    stokes: float
+    kind: str = item("what happens there")
+    x: float = item("rad or SI", "SI")
+    stokes: float = item("Stokes number", "1")
 
 
-@dataclass(frozen=True)
 class Atlas(Boundaries):
     """All boundaries in a plane, as `atlas` returns them: the seed lines, the curves and their meeting points.
-
-    Attributes:
-        over: dotted name of the entry x.
-        span: range of x, rad or SI.
-        at: x of the lines; `angles` are their impact angles.
-        curves, points: boundaries, and points where they meet, have a fold or change in kind.
-        unsettled: places (x, St) where collisions and curves disagree, with the reason.
 
     Example:
         >>> from wetdoublet.solvers import atlas
@@ -211,12 +173,14 @@ class Atlas(Boundaries):
         array([1, 2], dtype=int8)
     """
 
-    over: str = ANGLE
-    span: tuple[float, float] = (0.0, 1.0)
-    at: tuple[float, ...] = ()
+    over: str = item("dotted name of the entry x", default=ANGLE)
+    span: tuple[float, float] = item("range of x, rad or SI", default=(0.0, 1.0))
+    at: tuple[float, ...] = item("x of the lines; `angles` are their impact angles", default=())
     curves: tuple[Curve, ...] = ()
     points: tuple[Point, ...] = ()
-    unsettled: tuple[tuple[float, float, str], ...] = ()
+    unsettled: tuple[tuple[float, float, str], ...] = item(
+        "places (x, St) where collisions and curves disagree, with the reason", default=()
+    )
     background: str = OUTCOMES[0]
 
     def to_dict(self) -> dict[str, Any]:
@@ -320,23 +284,11 @@ class Atlas(Boundaries):
         """The Dataset of the lines, with curves over (curve, vertex), points over point, and x of the lines."""
         data = super().to_dataset()
         x: dict[str, Any] = {"units": self._unit or "1", "long_name": self.over}
-        stokes = {"units": "1", "long_name": "Stokes number"}
-        most = max((len(curve.x) for curve in self.curves), default=0)
-        data["curve_x"] = ("curve", "vertex"), _padded([curve.x for curve in self.curves], most), x
-        data["curve_stokes"] = ("curve", "vertex"), _padded([curve.stokes for curve in self.curves], most), stokes
-        for side, meaning in (("before", "outcome below the curve"), ("after", "outcome above the curve")):
-            values = np.array([OUTCOMES.index(getattr(curve, side)) for curve in self.curves], dtype=np.int8)
-            data[f"curve_{side}"] = "curve", values, outcome_attributes(meaning, "none")
-        data["curve_kind"] = "curve", np.array([curve.kind for curve in self.curves], dtype=str)
-        data["point_kind"] = "point", np.array([point.kind for point in self.points], dtype=str)
-        data["point_x"] = "point", np.array([point.x for point in self.points], dtype=float), x
-        data["point_stokes"] = "point", np.array([point.stokes for point in self.points], dtype=float), stokes
+        curves = columns(Curve, self.curves, ("x", "stokes"), "curve", "vertex")
+        curves |= columns(Curve, self.curves, ("before", "after", "kind"), "curve")
+        points = columns(Point, self.points, ("kind", "x", "stokes"), "point")
+        for word, of in (("curve", curves), ("point", points)):
+            of["x"] = *of["x"][:2], x
+            data = data.assign({f"{word}_{name}": column for name, column in of.items()})
         more = {"over": self.over} | {f"sought_{name}": value for name, value in self.sought.items()}
         return data.assign_coords(x=("line", np.array(self.at), x)).assign_attrs(more)
-
-
-def _padded(rows: Sequence[Sequence[float]], most: int, filler: float = np.nan) -> np.ndarray:
-    full = np.full((len(rows), most), filler)
-    for k, row in enumerate(rows):
-        full[k, : len(row)] = row
-    return full

@@ -4,28 +4,29 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
+from ...generated.automaton import STICK
 from ..model.dimensionless import Problem
+from ..results import DEFINITIONS, OF_SEPARATION
 from .outcome import Energy, Event
 from .result import Collision
 
 if TYPE_CHECKING:
     import xarray
 
+_OF_MOTION = tuple(DEFINITIONS[name] for name in (*OF_SEPARATION, "until"))
+
 
 def assembled(
     problem: Problem,
+    results: Mapping[str, float],
     *,
     outcome: str,
     reversal: str | None,
     certified: bool,
-    outputs: Mapping[str, float],
-    rotation: float,
     time: float,
-    smallest_gap: float,
     final_gap: float,
-    slip: float,
     events: Sequence[tuple[str, float]],
     engine: str,
     steps: int,
@@ -38,10 +39,9 @@ def assembled(
     """The `Collision` in SI units; quantities that a stick leaves undefined are None.
 
     Arguments:
-        outputs: the model's outputs at separation, by name; empty for a stick.
-        rotation: angle turned by the line of centres until the end, rad.
+        results: by name, over their scales; without the model's outputs for a stick, and without rates head-on.
         time: end of the trajectory (x0/v0): separation, or for a stick the end of integration.
-        smallest_gap, final_gap: over x0.
+        final_gap: over x0.
         events: words, and times over x0/v0.
         terms: of the ledger, over m v0^2; None without one.
         momentum: L/L(0) at the end, with a ledger.
@@ -50,34 +50,30 @@ def assembled(
     Raises:
         ComputationError: the ledger of a pair that separates is open, as the trajectory is then wrong.
     """
-    separated, scene = outcome != "stick", problem.scene
-    end, energy = time * problem.time, None if terms is None else Energy.of(problem, terms)
+    separated, scene = outcome != STICK, problem.scene
+    energy = None if terms is None else Energy.of(problem, terms)
     if energy is not None and separated:
         energy.check(rtol)
     torque = scene.pendulum is not None or (scene.wall and problem.oblique)
     drift = None if terms is None or torque else abs(momentum - 1.0) if problem.oblique else 0.0
-
-    def rate(name: str) -> float | None:
-        if not separated:
-            return None
-        return outputs[name] * problem.rate if problem.oblique else 0.0
-
     if scene.package is not None:  # which of the gaps of its group it is
         touched = {"rough": scene.package.touched(problem.groups)}
         reversal, events = touched.get(reversal or "", reversal), [(touched.get(word, word), at) for word, at in events]
-
-    partner = "final_spin_partner" if "final_spin_partner" in outputs else "final_spin"
+    exists = {
+        "all": True, "separated": separated, "sliding": separated and problem.angle > 0,
+        "slipping": separated and problem.oblique, "stick": not separated,
+    }  # fmt: skip
+    results = {**results, "contact_time": time, "until": time}
+    values: dict[str, Any] = {}
+    for row in _OF_MOTION:
+        value = results.get(row.name, 0.0) * (getattr(problem, row.scale) if row.scale else 1.0)
+        values[row.name] = value if exists[row.exists] and math.isfinite(value) else None
+    if "final_spin_partner" not in results and not scene.wall:  # equal spheres spin alike
+        values["final_spin_partner"] = values["final_spin"] if scene.pair else None
+    end = time * problem.time
     return Collision(
+        **values,
         outcome=outcome,
-        restitution=outputs["restitution"] if separated else 0.0,
-        tangential_restitution=outputs["tangential_restitution"] if separated and problem.angle > 0 else None,
-        slip_restitution=slip if separated and problem.oblique and math.isfinite(slip) else None,
-        rotation=rotation if separated else None,
-        contact_time=end if separated else None,
-        smallest_gap=smallest_gap * problem.length if separated else None,
-        final_spin=rate("final_spin"),
-        final_spin_partner=0.0 if separated and scene.wall else rate(partner) if scene.pair else None,
-        final_rotation_rate=rate("final_rotation_rate"),
         final_gap=final_gap * problem.length if separated else None,
         stokes=problem.stokes,
         centrifugal=problem.centrifugal,
@@ -88,7 +84,6 @@ def assembled(
         angle=problem.angle,
         reversal=reversal,
         certified=certified and not separated,
-        until=None if separated else end,
         decided=None if separated else end if decided is None else decided * problem.time,
         events=tuple(Event(kind, at * problem.time) for kind, at in events),
         energy=energy,

@@ -20,28 +20,30 @@ import numpy as np
 
 from ...generated.automaton import STICK
 from ..host.pictures import Drawn
+from ..results import DEFINITIONS
 from ..scene.scene import Scene
-from .outcome import Outcome, absent_terms
+from .outcome import Outcome
 
 if TYPE_CHECKING:
     import xarray
 
 _OVER = "/(m v0^2)"
-FORMULAS = {  # the terms: in words, and as a formula
-    "rigid_rotation": ("rigid rotation", f"[L0^2/I(x0) - L^2/I(x_f)]{_OVER}, I(x) = m r^2 + I_1 + I_2"),
-    "slip": ("slip", f"2 [K(0) - K(t_f)]{_OVER}, K = T - m u^2/2 - L^2/(2 I)"),
-    "sliding": ("sliding and rolling", f"2 [K(0) - K(t_f)]{_OVER}, K = m V^2/2 + I_1 xi^2/2"),
-    "normal_lubrication": ("normal lubrication", f"-2 int F_n u dt{_OVER}"),
-    "tangential_lubrication": ("tangential lubrication", f"-2 int F_t s dt{_OVER}, s the slip of the surfaces"),
-    "dry_contact": ("dry contact", "-sum of (1 - e_dry^2) u^2/v0^2 at the rebounds"),
-    "dry_friction": ("contact friction", f"-2 D{_OVER}, D lost by friction of the solids"),
-    "capillary": ("capillary work", f"-2 int F_c u dt{_OVER}"),
-    "attraction": ("van der Waals work", f"-2 int F_a u dt{_OVER}"),
-    "strings": ("strings", f"-2 [U_s(t_f) - U_s(0)]{_OVER}"),
-    "own_events": ("declared events", f"-2 D{_OVER}, D taken by their jumps"),
-    "own_terms": ("declared terms", f"-2 [E(t_f) - E(0)]{_OVER} - 2 int P dt{_OVER}, P taken by the forces"),
-    "residual": ("residual", "the error of the integration"),
+FORMULAS = {
+    "rigid_rotation": f"[L0^2/I(x0) - L^2/I(x_f)]{_OVER}, I(x) = m r^2 + I_1 + I_2",
+    "slip": f"2 [K(0) - K(t_f)]{_OVER}, K = T - m u^2/2 - L^2/(2 I)",
+    "sliding": f"2 [K(0) - K(t_f)]{_OVER}, K = m V^2/2 + I_1 xi^2/2",
+    "normal_lubrication": f"-2 int F_n u dt{_OVER}",
+    "tangential_lubrication": f"-2 int F_t s dt{_OVER}, s the slip of the surfaces",
+    "dry_contact": "-sum of (1 - e_dry^2) u^2/v0^2 at the rebounds",
+    "dry_friction": f"-2 D{_OVER}, D lost by friction of the solids",
+    "capillary": f"-2 int F_c u dt{_OVER}",
+    "attraction": f"-2 int F_a u dt{_OVER}",
+    "strings": f"-2 [U_s(t_f) - U_s(0)]{_OVER}",
+    "own_events": f"-2 D{_OVER}, D taken by their jumps",
+    "own_terms": f"-2 [E(t_f) - E(0)]{_OVER} - 2 int P dt{_OVER}, P taken by the forces",
+    "residual": "the error of the integration",
 }
+_TURNING = {"rigid_rotation": "rigid rotation", "slip": "slip", "sliding": "sliding and rolling"}
 NONE = "no budget of e_n^2 - 1: a stick never separates, so that it has no e_n"
 _LABEL = 24
 
@@ -75,19 +77,23 @@ class Budget(tuple[tuple[str, float], ...], Drawn):
         total = self.collision.restitution**2 - 1
         lines = [f"why e_n^2 - 1 = {total:.4g}, in the initial normal energy m v0^2/2 = {unit}"]
         for name, share in self:
-            label, formula = FORMULAS[name]
-            lines.append(f"  {label:<{_LABEL - 2}}{share:>11.{1 if name == 'residual' else 4}g}  {formula}")
+            digits = 1 if name == "residual" else 4
+            lines.append(f"  {label_of(name):<{_LABEL - 2}}{share:>11.{digits}g}  {FORMULAS[name]}")
         given, taken = (math.fsum(share for _, share in self[:-1] if share * sign > 0) for sign in (1, -1))
         why = f"e_n {'>' if total > 0 else '<'} 1: {given:.4g} given, {-taken:.4g} taken"
         return "\n".join([*lines, f"  {'sum':<{_LABEL - 2}}{total:>11.4g}  {why}"])
+
+
+def label_of(name: str) -> str:
+    """A term in words."""
+    return _TURNING.get(name) or DEFINITIONS[f"energy.{name}"].short
 
 
 def _shares(collision: Outcome) -> Iterable[tuple[str, float]]:
     energy, scene = collision.energy, collision.scene
     assert energy is not None
     unit = scene.reduced_mass * collision.speed**2 / 2
-    absent = absent_terms(scene) | (set() if scene.bridge is not None else {"capillary"})
-    spent = {name: value for name, value in energy.to_dict().items() if name in FORMULAS and name not in absent}
+    spent = {name: value for name, value in collision.terms.items() if name in FORMULAS}
     turning = energy.initial - energy.final - unit * (1 - collision.restitution**2)
     if scene.turns(collision.angle):
         spins = collision.final_spin or 0.0, collision.final_spin_partner

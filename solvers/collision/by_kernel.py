@@ -17,7 +17,7 @@ from ..engines.taylor.undecided import SEPARATES, undecided
 from ..errors import ComputationError
 from ..model.dimensionless import Problem
 from ..model.model import Model
-from ..results import TERMS
+from ..results import DEFINITIONS, TERMS
 from ..scene.scene import Scene
 from ..scene.user_model_declared import TABLE
 from .assemble import assembled
@@ -99,17 +99,16 @@ def collision(
     separated = answer["outcome"] > 0
     names, words = problem.model(full=ledger).names("outputs"), words_of(problem.scene)
     log = record.events[0, : answer["events"]]
+    results = dict(zip(names, answer["shown"].tolist())) if separated else {}
+    results |= {name: answer[str(DEFINITIONS[name].place)] for name in ("rotation", "smallest_gap", "slip_restitution")}
     return assembled(
         problem,
+        results,
         outcome=OUTCOMES[answer["outcome"]],
         reversal=KINDS[answer["reversal"]] if answer["reversal"] >= 0 else None,
         certified=bool(answer["certified"]),
-        outputs=dict(zip(names, answer["shown"].tolist())) if separated else {},
-        rotation=answer["turned"],
         time=answer["time"],
-        smallest_gap=answer["smallest_gap"],
         final_gap=answer["final_gap"],
-        slip=answer["slip"],
         events=[(words[kind], time) for kind, time in zip(log["kind"].tolist(), log["time"].tolist(), strict=True)],
         engine="taylor",
         steps=answer["steps"],

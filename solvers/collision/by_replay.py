@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from functools import partial
 from typing import TYPE_CHECKING
 
@@ -48,17 +47,17 @@ def by_replay(
             raise problem.in_si(stopped.error(plugin, model)) from None
         return collision(problem, rtol, ledger, trajectory, until)
     conserved = ledger and model.oblique and not (model.strings or model.wall)
+    results = {"rotation": _rotation(replay, model), "smallest_gap": replay.smallest_gap}
+    if path.separated:
+        results |= model.values("outputs", replay.y, p) | {"slip_restitution": slip_restitution(model, replay.y, p)}
     return assembled(
         problem,
+        results,
         outcome=path.outcome,
         reversal=path.reversal,
         certified=path.certified,
-        outputs=model.values("outputs", replay.y, p) if path.separated else {},
-        rotation=_rotation(replay, model),
         time=replay.time,
-        smallest_gap=replay.smallest_gap,
         final_gap=float(replay.y[0]),
-        slip=slip_restitution(model, replay.y, p) if path.separated else math.nan,
         events=replay.events,
         engine=plugin,
         steps=replay.steps,

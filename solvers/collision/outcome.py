@@ -4,22 +4,27 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from dataclasses import field
+from typing import TYPE_CHECKING
 
 from ...generated.automaton import OUTCOMES, STICK
 from ..errors import ComputationError
 from ..model.dimensionless import Problem
 from ..model.validity import NEEDS, sentences
-from ..results import OF_SEPARATION, UNITS
+from ..results import UNITS
 from ..scene.groups import si_values
-from ..scene.origin import origin
+from ..scene.items import item
+from ..scene.origin import Record, Result
 from ..scene.scene import Scene
 
 if TYPE_CHECKING:
     import xarray
 
 
+_SHOWN = (
+    "initial", "final", "normal_lubrication", "tangential_lubrication", "dry_contact", "dry_friction", "capillary",
+    "attraction", "strings", "own_events", "own_terms", "residual",
+)  # fmt: skip
 _OPEN, _OPEN_AT_LEAST = 1e4, 1e-6  # limits of the residual: multiple of rtol, part of the largest term
 
 
@@ -38,16 +43,8 @@ def absent_terms(scene: Scene) -> set[str]:
     return {name for name, value in absent.items() if value is None}
 
 
-@dataclass(frozen=True)
-class Energy:
-    """The energy ledger (budget) of a collision, J.
-
-    `initial` and `final` are kinetic energies, `strings` is the gain of potential energy, `attraction` the work against
-    van der Waals forces (None without them), `dry_friction` the loss by friction of the dry contact (None without),
-    `own_events` the kinetic energy that jumps of a model's declared events take (None if it declares none), `own_terms`
-    the gain of its declared energies and the work against its forces (None likewise); `residual` is
-    initial - final - (all losses and works).
-    """
+class Energy(Record, of="energy."):
+    """The energy ledger of a collision, J; None for terms of forces, events and laws that it does not have."""
 
     initial: float
     final: float
@@ -91,38 +88,23 @@ class Energy:
         return {name: value for name, value in vars(self).items() if value is not None} | {"residual": self.residual}
 
 
-@dataclass(frozen=True)
-class Event:
+class Event(Record):
     """An event of a collision and its time, s since initial contact."""
 
     kind: str
     time: float
 
 
-@dataclass(frozen=True, kw_only=True)
-class Outcome:
-    """One collision as data, in SI units and radians; quantities that a stick leaves undefined are None.
+class Outcome(Result, kw_only=True):
+    """One collision as data, in SI units and radians; of a stick the restitution is 0 and what has no value None."""
 
-    Attributes:
-        outcome: "stick", "stick-rotate-separate" or "bounce".
-        restitution: normal restitution e_n (0 for a stick).
-        tangential_restitution: r_f omega_f/(r_0 omega_0); None where omega_0 is 0.
-        slip_restitution: relative velocity of the surfaces at the contact, after over before; None without one before.
-        generalised_centrifugal: Ce_F = m omega0^2 a/F(x0), F the attraction at initial contact; None without
-            attraction.
-        final_spin: spin of each sphere, rad/s; of the first if the partner differs.
-        final_spin_partner: spin of the partner, rad/s; None without a [partner].
-        final_gap: gap at separation, m.
-        rotation: angle turned by the line of centres until separation, rad.
-        until: for a stick, the time at which integration stopped, s.
-        decided: for a stick, the time at which it was certain, s: `until`, unless another was asked for.
-        certified: True if a certificate, or the enclosure from the initial data on, proves the stick.
-        reversal: the first rebound criterion met, if any.
-        rtol: relative tolerance that was asked for.
-        trajectory: Dataset over `time`, if requested.
-    """
+    _keys = (
+        "outcome restitution tangential_restitution slip_restitution rotation contact_time smallest_gap final_spin "
+        "final_rotation_rate stokes centrifugal capillary speed angle reversal certified until final_spin_partner "
+        "generalised_centrifugal reynolds events energy angular_momentum_drift engine steps rtol validity units"
+    )
 
-    outcome: str
+    outcome: str = item('"stick", "stick-rotate-separate" or "bounce"')
     restitution: float
     tangential_restitution: float | None
     slip_restitution: float | None
@@ -138,20 +120,31 @@ class Outcome:
     speed: float
     angle: float
     reversal: str | None
-    certified: bool
+    certified: bool = item("True if a certificate, or the enclosure from the initial data on, proves the stick")
     until: float | None
-    decided: float | None
+    decided: float | None = item("when a stick was certain, s: `until`, unless another time was asked for")
     events: tuple[Event, ...]
     energy: Energy | None
     angular_momentum_drift: float | None
     engine: str
     steps: int
-    rtol: float
-    generalised_centrifugal: float | None = None
-    final_spin_partner: float | None = None
-    final_gap: float | None = None
+    rtol: float = item("relative tolerance that was asked for")
+    generalised_centrifugal: float | None = item(
+        "Ce_F = m omega0^2 a/F(x0), F the attraction at initial contact; None without attraction", default=None
+    )
+    final_spin_partner: float | None = item("spin of the [partner]; None without one", "rad/s", default=None)
+    final_gap: float | None = item("gap at separation", "m", default=None)
     scene: Scene = field(repr=False, compare=False)
-    trajectory: xarray.Dataset | None = field(default=None, repr=False, compare=False)
+    trajectory: xarray.Dataset | None = item(
+        "Dataset over `time`, if requested", default=None, repr=False, compare=False
+    )
+
+    @property
+    def terms(self) -> dict[str, float]:
+        """Terms of the ledger whose forces act in this collision, J, in the order in which they are shown; or none."""
+        energy = {} if self.energy is None else self.energy.to_dict()
+        absent = absent_terms(self.scene) | (set() if self.scene.bridge is not None else {"capillary"})
+        return {name: energy[name] for name in _SHOWN if name in energy and name not in absent}
 
     @property
     def validity(self) -> tuple[str, ...]:
@@ -180,19 +173,16 @@ class Outcome:
             f"meanwhile{turns}; where solids fill {100 / (12 * diameters):.2g} % of the volume others hit the pair"
         )
 
-    def to_dict(self) -> dict[str, Any]:
-        """The JSON object of `wetdoublet collide --json`."""
-        plain = ("outcome", *OF_SEPARATION, "stokes", "centrifugal", "capillary", "speed", "angle")
-        plain += ("reversal", "certified", "until")
-        result: dict[str, Any] = {name: getattr(self, name) for name in plain if name != "final_spin_partner"}
-        if self.scene.pair or self.scene.wall:
-            result["final_spin_partner"] = self.final_spin_partner
-        if self.scene.attraction is not None:
-            result["generalised_centrifugal"] = self.generalised_centrifugal
-        if self.reynolds is not None:
-            result["reynolds"] = self.reynolds
-        result["events"] = [{"kind": event.kind, "time": event.time} for event in self.events]
-        result["energy"] = self.energy.to_dict() if self.energy else None
-        result["angular_momentum_drift"] = self.angular_momentum_drift
-        result |= {"engine": self.engine, "steps": self.steps, "rtol": self.rtol, "validity": list(self.validity)}
-        return result | {"units": {key: UNITS[key] for key in result if key in UNITS}} | origin(self.scene)
+    @property
+    def _absent(self) -> set[str]:
+        has = {
+            "final_spin_partner": self.scene.pair or self.scene.wall,
+            "generalised_centrifugal": self.scene.attraction is not None,
+            "reynolds": self.reynolds is not None,
+        }
+        return {key for key, is_there in has.items() if not is_there}
+
+    @property
+    def units(self) -> dict[str, str]:
+        """Units of the JSON object's values."""
+        return {key: UNITS[key] for key in self._keys.split() if key in UNITS and key not in self._absent}

@@ -1,8 +1,7 @@
 """The result of one collision: immutable; prints as a table, converts to the JSON object, draws a figure."""
 
-from dataclasses import dataclass, fields
+from dataclasses import fields
 
-from ..formatting.tables import NotebookTable
 from ..host.pictures import Drawn
 from .budget import Budget
 from .outcome import Outcome
@@ -10,8 +9,7 @@ from .outcome import Outcome
 _ENDS = 20  # events that `repr` shows at each end of a longer list
 
 
-@dataclass(frozen=True, kw_only=True)
-class Collision(Outcome, Drawn, NotebookTable):
+class Collision(Outcome, Drawn, kw_only=True):
     """One collision, as `collide` returns it; its attributes are those of `Outcome`.
 
     `plot` draws gap and velocity, the rotation, and the doublet at a few instants; ValueError if the collision was

@@ -5,6 +5,7 @@ import re
 from textwrap import wrap
 
 from ...generated.automaton import BOUNCE, CRITERIA, KINDS, STICK, EventKind
+from ..results import DEFINITIONS
 from ..scene.scene import Scene
 from ..scene.schema import Model
 from ..scene.user_model_declared import OwnEvent
@@ -217,27 +218,16 @@ def _outcome(collision: Outcome) -> list[str]:
     ]
     if collision.outcome == "stick":  # the other quantities are undefined
         return lines
-    if collision.scene.wall:  # a wall has no rotating line of centres
-        return [
-            *lines,
-            _line("tangential e_t", plain(collision.tangential_restitution), "of the velocity along the wall"),
-            *_slip(collision),
-            _line("contact time", quantity(collision.contact_time, "s")),
-            _line("smallest gap", quantity(collision.smallest_gap, "m")),
-            *_spins(collision.scene, "final spin", collision.final_spin, collision.final_spin_partner),
-        ]
-    rotation = collision.rotation
+    wall, rotation = collision.scene.wall, collision.rotation
     turns = f"{rotation / math.tau:.2f} turns" if rotation is not None and abs(rotation) > math.tau else ""
-    return [
-        *lines,
-        _line("tangential e_t", plain(collision.tangential_restitution)),
-        *_slip(collision),
-        _line("rotation", degrees(rotation), turns),
-        _line("contact time", quantity(collision.contact_time, "s")),
-        _line("smallest gap", quantity(collision.smallest_gap, "m")),
-        _line("final rotation rate", plain(collision.final_rotation_rate, "rad/s"), "omega, of the line of centres"),
-        *_spins(collision.scene, "final spin", collision.final_spin, collision.final_spin_partner),
-    ]
+    rate = plain(collision.final_rotation_rate, "rad/s")
+    e_t = plain(collision.tangential_restitution)
+    lines += [_line("tangential e_t", e_t, "of the velocity along the wall" * wall), *_slip(collision)]
+    lines += [] if wall else [_line("rotation", degrees(rotation), turns)]  # a wall has no rotating line of centres
+    lines.append(_line("contact time", quantity(collision.contact_time, "s")))
+    lines.append(_line("smallest gap", quantity(collision.smallest_gap, "m")))
+    lines += [] if wall else [_line("final rotation rate", rate, "omega, of the line of centres")]
+    return [*lines, *_spins(collision.scene, "final spin", collision.final_spin, collision.final_spin_partner)]
 
 
 def _speed_note(collision: Outcome) -> str:
@@ -294,36 +284,17 @@ def _events(events: tuple[Event, ...]) -> list[str]:
 
 
 def _energy(collision: Outcome) -> list[str]:
-    energy, scene = collision.energy, collision.scene
-    if energy is None:
+    if collision.energy is None:
         return [_line("energy", "-", "not integrated along")]
-    terms = [
-        ("kinetic, initial", energy.initial),
-        (f"kinetic, {_end_of(collision)}", energy.final),
-        ("normal lubrication", energy.normal_lubrication),
-        ("tangential lubrication", energy.tangential_lubrication),
-        ("dry contact", energy.dry_contact),
-    ]
-    if energy.dry_friction is not None:
-        terms.append(("contact friction", energy.dry_friction))
-    if scene.bridge is not None:
-        terms.append(("capillary work", energy.capillary))
-    if energy.attraction is not None:
-        terms.append(("van der Waals work", energy.attraction))
-    if scene.pendulum is not None:
-        terms.append(("strings", energy.strings))
-    if energy.own_events is not None:
-        terms.append(("declared events", energy.own_events))
-    if energy.own_terms is not None:
-        terms.append(("declared terms", energy.own_terms))
-    rows = [(name, _exponent(value, 3), value) for name, value in terms]
-    rows.append(("residual", _exponent(energy.residual, 1), energy.residual))
-    if max(abs(value) for _, value in terms) > _SCALE * energy.initial:
-        return [f"{'energy':<{_LABEL}}{'J':>11}", *(f"  {name:<{_LABEL - 2}}{text:>11}" for name, text, _ in rows)]
-    parts = [f"{100 * value / energy.initial:.3f}" for _, value in terms]
-    parts.append(_exponent(100 * energy.residual / energy.initial, 1))
-    lines = [f"{'energy':<{_LABEL}}{'J':>11}{'% of initial':>16}"]
-    return lines + [f"  {name:<{_LABEL - 2}}{text:>11}{share:>16}" for (name, text, _), share in zip(rows, parts)]
+    initial, values = collision.energy.initial, collision.terms
+    names = {term: DEFINITIONS[f"energy.{term}"].short for term in values} | {"final": f"kinetic, {_end_of(collision)}"}
+    last = {term: 1 if term == "residual" else 3 for term in values}  # digits behind the point
+    lines = [f"  {names[term]:<{_LABEL - 2}}{_exponent(value, last[term]):>11}" for term, value in values.items()]
+    if max(abs(value) for term, value in values.items() if term != "residual") > _SCALE * initial:
+        return [f"{'energy':<{_LABEL}}{'J':>11}", *lines]
+    shares = [f"{100 * value / initial:.3f}" for term, value in values.items() if term != "residual"]
+    shares.append(_exponent(100 * values["residual"] / initial, 1))
+    return [f"{'energy':<{_LABEL}}{'J':>11}{'% of initial':>16}", *map("{}{:>16}".format, lines, shares)]
 
 
 def _exponent(value: float, digits: int) -> str:

@@ -1,14 +1,14 @@
 """What the Taylor kernels of scenes answer, and `compile_kernels`, which compiles them before they are needed."""
 
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 
 from ..errors import ComputationError
 from ..host.arguments import check_flag
 from ..host.compiler import compiler
 from ..host.user_cache import folder, why_unwritable
-from ..scene.origin import Recorded
+from ..scene.items import item
+from ..scene.origin import Record
 from ..scene.scene import Scene
 from .settings import RTOL, check_rtol
 from .taylor.build import compile_all, is_compiled, kernel_supports, size_of
@@ -21,29 +21,18 @@ from .taylor.undecided import no_kernel
 Named = Scene | str | Path
 
 
-@dataclass(frozen=True)
-class CompiledKernel(Recorded):
-    """A kernel of a scene.
-
-    Attributes:
-        scene: the name of the scene.
-        oblique: for oblique collisions; else for head-on ones.
-        order: of the Taylor series.
-        serves: what it answers.
-        already: True if it came with the package or was compiled before.
-        seconds: that its compilation took, 0 if it was compiled before.
-        bytes: size in the cache.
-    """
+class CompiledKernel(Record):
+    """A kernel of a scene."""
 
     _keys = "scene oblique order serves already seconds bytes"
 
-    scene: str
-    oblique: bool
-    order: int
-    serves: tuple[str, ...]
-    already: bool
-    seconds: float
-    bytes: int
+    scene: str = item("the name of the scene")
+    oblique: bool = item("for oblique collisions; else for head-on ones")
+    order: int = item("of the Taylor series")
+    serves: tuple[str, ...] = item("what it answers")
+    already: bool = item("True if it came with the package or was compiled before")
+    seconds: float = item("that its compilation took, 0 if it was compiled before")
+    bytes: int = item("size in the cache")
 
     def __str__(self) -> str:
         took = "already compiled" if self.already else f"{self.seconds:.2f} s"

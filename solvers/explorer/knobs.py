@@ -2,11 +2,13 @@
 
 import math
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import replace
 from typing import Any
 
 from ..export.law.material import Number
 from ..scene.fields import Range
+from ..scene.items import item
+from ..scene.origin import Record
 from ..scene.scene import Scene
 from ..scene.schema import SPEEDS
 from ..scene.units import is_number
@@ -65,33 +67,24 @@ _NEVER = 1e50  # from here on a limit is never met
 _STEEPEST = 85.0  # deg, on sliders; number fields take all below 90
 
 
-@dataclass(frozen=True)
-class Knob:
+class Knob(Record):
     """A quantity that is set.
 
-    Arguments:
-        name: of the scene's entry; in the page's address too.
-        unit: empty for a plain number.
-        factor: SI per unit.
-        value: the scene's, in the unit; None for a limit that is never met.
+    Attributes:
         low, high: of the slider, in the unit.
-        logarithmic: whether the slider is.
-        members: numbers of the law that it sets; empty if it is of the impact.
-        never: the law's number for a limit that is never met; None if there is none.
-        first: shown at once.
     """
 
-    name: str
+    name: str = item("of the scene's entry; in the page's address too")
     label: str
-    unit: str
-    factor: float
-    value: float | None
+    unit: str = item("empty for a plain number")
+    factor: float = item("SI per unit")
+    value: float | None = item("the scene's, in the unit; None for a limit that is never met")
     low: float
     high: float
-    logarithmic: bool
-    members: tuple[str, ...] = ()
-    never: float | None = None
-    first: bool = True
+    logarithmic: bool = item("whether the slider is")
+    members: tuple[str, ...] = item("numbers of the law that it sets; empty if it is of the impact", default=())
+    never: float | None = item("the law's number for a limit that is never met; None if there is none", default=None)
+    first: bool = item("shown at once", default=True)
 
 
 def knobs(scene: Scene, entries: Sequence[Number], impact: Sequence[Number]) -> list[dict[str, Any]]:
@@ -106,7 +99,9 @@ def knobs(scene: Scene, entries: Sequence[Number], impact: Sequence[Number]) -> 
             knobs[twin] = replace(own, members=(*own.members, *partner.members))
     first = [knobs.pop(name) for name in _FIRST if name in knobs]
     rest = [replace(knob, first=False) for knob in knobs.values()]
-    return [asdict(knob) | {"hint": _HINTS.get(knob.name, "")} for knob in (*_of_impact(scene, impact), *first, *rest)]
+    return [
+        knob.to_dict() | {"hint": _HINTS.get(knob.name, "")} for knob in (*_of_impact(scene, impact), *first, *rest)
+    ]
 
 
 def _of_entry(scene: Scene, number: Number) -> Knob:

@@ -1,11 +1,12 @@
 """What to cite for a scene: the paper, and where each law that it uses is published."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from typing import Any
 
 from ...generated.references import CITED, REFERENCES, Reference
 from ..model.model import select_model
+from ..scene.items import item
+from ..scene.origin import Record
 from ..scene.scene import Scene
 
 _LATEX = str.maketrans(
@@ -15,20 +16,13 @@ _LATEX = str.maketrans(
 )  # fmt: skip
 
 
-@dataclass(frozen=True)
-class Citation:
-    """A publication, what of the scene it stands for, and its BibTeX entry.
+class Citation(Record):
+    """A publication, what of the scene it stands for, and its BibTeX entry."""
 
-    Arguments:
-        key: of the entry; "" where a user's model gives an entry of its own.
-        uses: such as "bridge law willett".
-        reference: what the entry is made of; None for a user's law.
-    """
-
-    key: str
-    uses: tuple[str, ...]
+    key: str = item('of the entry; "" where a user\'s model gives an entry of its own')
+    uses: tuple[str, ...] = item('such as "bridge law willett"')
     bibtex: str
-    reference: Reference | None = None
+    reference: Reference | None = item("what the entry is made of; None for a user's law", default=None)
 
     def to_dict(self) -> dict[str, Any]:
         """As `wetdoublet cite --json` has it."""

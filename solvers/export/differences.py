@@ -19,7 +19,7 @@ from ..host.emitted import text, with_imports
 from ..many.collide_many import collide_many
 from ..model.key import ModelKey
 from ..model.model import select_model
-from ..scene.origin import origin, plain, release
+from ..scene.origin import Result, origin, plain, release
 from ..scene.scene import Scene
 from ..scene.scenefile import PRESETS, written
 from ..scene.schema import MEETING
@@ -64,8 +64,7 @@ class OnMap(NamedTuple):
         return text
 
 
-@dataclass(frozen=True)
-class Differences:
+class Differences(Result):
     """The differences; without a map where the models are not computed."""
 
     names: tuple[str, str]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from functools import partial
 from pathlib import Path as FilePath
 
@@ -23,6 +23,8 @@ from ..model.model import Model, load, select_model
 from ..model.phases import Flow, expressions
 from ..results import DEFINITIONS
 from ..scene.held import held_quantity
+from ..scene.items import item
+from ..scene.origin import Record, Result
 from ..scene.scene import Scene
 from ..sensitivity.parameters import SCALES, kind_of, parameter_map, references
 from ..sensitivity.trajectory import Course, course_of
@@ -46,42 +48,19 @@ def units_of(model: Model) -> dict[str, str]:
     return dict(_LINE.findall(model.structure.__doc__ or ""))
 
 
-@dataclass(frozen=True)
-class Phase:
-    """A phase of a collision, between two events; every phase takes time.
+class Phase(Record):
+    """A phase of a collision, between two events; every phase takes time."""
 
-    Attributes:
-        name: in words.
-        duration: in x0/v0.
-        before, after: the states at its start and at its end, before the event's reset.
-        event: what ends it, in the words of `Collision.events`; "" where it just ends.
-        watched: the events of `events_K`, in order; the kinks of a law's force included.
-    """
-
-    name: str
-    duration: float
-    before: np.ndarray = field(repr=False)
-    after: np.ndarray = field(repr=False)
-    event: str
-    watched: tuple[str, ...]
+    name: str = item("in words")
+    duration: float = item("how long it takes", "x0/v0")
+    before: np.ndarray = item("the state at its start", repr=False)
+    after: np.ndarray = item("the state at its end, before the event's reset", repr=False)
+    event: str = item('what ends it, in the words of `Collision.events`; "" where it just ends')
+    watched: tuple[str, ...] = item("the events of `events_K`, in order; the kinks of a law's force included")
 
 
-@dataclass(frozen=True)
-class Equations:
+class Equations(Result):
     """The equations of a scene's model, dimensionless, and what happens in its collision.
-
-    Attributes:
-        functions: CasADi functions by name. Of the entries: `groups`, `scales`. Of the groups: `start`, the state at
-            initial contact (behind what happens there). Of (state, groups): `energies`, `angular_momentum`, `outputs`
-            and all others that are emitted; for phase K, counted from 0, `rates_K`, `events_K` (all guards, positive
-            before their events), `event_K` (that of the event which ends it), `reset_K` (the state after the event).
-        states: names of the states, in order.
-        outputs: names of the elements of `energies`, `outputs` and other functions, by function.
-        docs: what each function gives, with its unit; those of phases under `rates_K`, ...
-        entries, groups, scales: values of the scene and its impact by name, in the order of the functions' arguments;
-            entries in SI; scales of length x0, time x0/v0, angular velocity Omega and energy m v0^2.
-        phases: of the scene's collision, in order; of a stick up to where it is certain, or to `until`.
-        units: by name, of states, entries, groups, scales, `outputs`, `energies` and the `duration` of phases.
 
     Example:
         >>> import wetdoublet as wd
@@ -92,15 +71,34 @@ class Equations:
         Function(rates_0:(state[4],groups[13])->(rates[4]) SXFunction)
     """
 
-    functions: Mapping[str, Function] = field(repr=False)
-    states: tuple[str, ...]
-    outputs: Mapping[str, tuple[str, ...]] = field(repr=False)
-    docs: Mapping[str, str] = field(repr=False)
-    entries: Mapping[str, float] = field(repr=False)
-    groups: Mapping[str, float]
-    scales: Mapping[str, float]
-    phases: tuple[Phase, ...]
-    units: Mapping[str, str] = field(repr=False)
+    _keys = "outcome states entries groups scales phases outputs docs units"
+
+    functions: Mapping[str, Function] = item(
+        "CasADi functions by name. Of the entries: `groups`, `scales`. Of the groups: `start`, the state at initial "
+        "contact (behind what happens there). Of (state, groups): `energies`, `angular_momentum`, `outputs` and all "
+        "others that are emitted; for phase K, counted from 0, `rates_K`, `events_K` (all guards, positive before "
+        "their events), `event_K` (that of the event which ends it), `reset_K` (the state after the event)",
+        repr=False,
+    )
+    states: tuple[str, ...] = item("names of the states, in order")
+    outputs: Mapping[str, tuple[str, ...]] = item(
+        "names of the elements of `energies`, `outputs` and other functions, by function", repr=False
+    )
+    docs: Mapping[str, str] = item(
+        "what each function gives, with its unit; those of phases under `rates_K`, ...", repr=False
+    )
+    entries: Mapping[str, float] = item(
+        "values of the scene and its impact by name, SI, in the order of the functions' arguments; so are the others",
+        repr=False,
+    )
+    groups: Mapping[str, float] = item("values of the groups")
+    scales: Mapping[str, float] = item("length x0, time x0/v0, angular velocity Omega and energy m v0^2")
+    phases: tuple[Phase, ...] = item(
+        "of the scene's collision, in order; of a stick up to where it is certain, or to `until`"
+    )
+    units: Mapping[str, str] = item(
+        "by name, of states, entries, groups, scales, `outputs`, `energies` and the `duration` of phases", repr=False
+    )
     outcome: str
     scene: Scene = field(repr=False, compare=False)
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -12,7 +11,8 @@ import numpy as np
 from ..formatting.tables import aligned
 from ..host.pictures import Drawn
 from ..scene.held import NAMES
-from ..scene.origin import Recorded
+from ..scene.items import csv, item
+from ..scene.origin import Record, Result
 from ..scene.scene import Scene
 from .design_window import Window
 from .free_entries import FreeEntries, in_unit, interval
@@ -22,28 +22,18 @@ _QUANTILE = 1.959963984540054  # of a normal distribution, 97.5 %
 _FROM_RANGE = 1.2  # growth of a standard deviation with the range of the search, from which it says nothing
 
 
-@dataclass(frozen=True)
-class Impact:
-    """A planned impact.
+class Impact(Record):
+    """A planned impact."""
 
-    Attributes:
-        count: how often it is repeated.
-        stokes, speed: normal Stokes number and speed (m/s).
-        relative_speed: magnitude of the relative velocity, m/s.
-        angle: rad.
-        probability: by outcome.
-    """
-
-    count: int
+    count: int = item("how often it is repeated")
     stokes: float
     speed: float
     relative_speed: float
     angle: float
-    probability: Mapping[str, float]
+    probability: Mapping[str, float] = item("by outcome")
 
 
-@dataclass(frozen=True)
-class Expected:
+class Expected(Record):
     """What will be known of an entry: standard deviation on the scale of the fit, 95 % interval (None: open), SI."""
 
     sd: float
@@ -51,19 +41,10 @@ class Expected:
     high: float | None
 
 
-@dataclass(frozen=True)
-class Design(Drawn, Recorded):
+class Design(Result, Drawn):
     """The result of `design`: planned impacts, what they will tell, and how that is shown and written.
 
     `plot` draws what single impacts tell over the window, and the planned ones.
-
-    Attributes:
-        impacts: by angle and speed.
-        expected: of each free entry with these impacts and what was known before.
-        before: the same without the impacts.
-        combinations: sentences on products of powers that the impacts tell better than their entries.
-        given: the scene as it was given, whose units are shown.
-        points: (distinct impacts, 2), in the window: logarithm of the speed, and angle, 0 to 1.
 
     Example:
         >>> from wetdoublet.solvers import design
@@ -78,13 +59,15 @@ class Design(Drawn, Recorded):
     window: Window
     free: FreeEntries
     values: np.ndarray
-    impacts: tuple[Impact, ...]
-    expected: Mapping[str, Expected]
-    before: Mapping[str, Expected]
-    combinations: tuple[str, ...]
-    points: np.ndarray
+    impacts: tuple[Impact, ...] = item("by angle and speed")
+    expected: Mapping[str, Expected] = item("of each free entry with these impacts and what was known before")
+    before: Mapping[str, Expected] = item("the same without the impacts")
+    combinations: tuple[str, ...] = item(
+        "sentences on products of powers that the impacts tell better than their entries"
+    )
+    points: np.ndarray = item("(distinct impacts, 2), in the window: logarithm of the speed, and angle, 0 to 1")
     rtol: float
-    given: Scene
+    given: Scene = item("the scene as it was given, whose units are shown")
 
     @property
     def scene(self) -> Scene:
@@ -106,16 +89,15 @@ class Design(Drawn, Recorded):
 
     def to_csv(self) -> str:
         """A row for each impact in the form that `fit` reads, its observations empty."""
-        from pandas import DataFrame
-
         plan, name, noise = self.plan(), self._speed, self.scatter["restitution"]
-        table = DataFrame({
-            f"{name} [m/s]": plan.speed, f"{name}_sd [m/s]": plan.speed_sd, "angle [deg]": np.degrees(plan.angle),
-            "angle_sd [deg]": np.degrees(plan.angle_sd), "outcome": "",
-        })  # fmt: skip
+        columns = {
+            name: plan.speed, f"{name}_sd": plan.speed_sd, "angle": np.degrees(plan.angle),
+            "angle_sd": np.degrees(plan.angle_sd), "outcome": "",
+        }  # fmt: skip
         if noise is not None:
-            table = table.assign(restitution="", restitution_sd=noise)
-        return str(table.to_csv(index=False, float_format="%.6g", lineterminator="\n"))
+            columns |= {"restitution": "", "restitution_sd": noise}
+        units = {name: "m/s", f"{name}_sd": "m/s", "angle": "deg", "angle_sd": "deg"}
+        return csv(columns, units, float_format="%.6g")
 
     def __str__(self) -> str:
         scene, (sd, angle_sd, noise), speed = self.given, self.scatter.values(), NAMES[self._speed]
@@ -139,7 +121,7 @@ class Design(Drawn, Recorded):
         blocks = [title, "", *aligned(rows), "", *aligned(entries), "", f"Planned for {at}; {scatter}."]
         return "\n".join([*blocks, *self.combinations])
 
-    __repr__ = __str__  # what a notebook shows
+    __repr__ = __str__  # at the prompt
 
     @property
     def _speed(self) -> str:

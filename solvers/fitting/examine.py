@@ -14,7 +14,8 @@ from ..boundaries.window import stokes_range
 from ..errors import InputError, several
 from ..formatting.tables import aligned
 from ..scene.held import NAMES
-from ..scene.origin import Recorded
+from ..scene.items import item
+from ..scene.origin import Record, Result
 from ..scene.scene import Scene
 from .data_table import read_data
 from .likelihood import check_energy
@@ -34,8 +35,7 @@ _FACTOR, _PART = 2.0, 0.1  # by which entries are changed to see which impacts d
 _STICK = OUTCOMES.index(STICK)
 
 
-@dataclass(frozen=True)
-class Finding:
+class Finding(Record):
     """Something odd: its kind, what names the rows, and a sentence."""
 
     kind: str
@@ -43,27 +43,22 @@ class Finding:
     text: str
 
 
-@dataclass(frozen=True)
-class Checkup(Recorded):
-    """The result of `check_data`.
-
-    Attributes:
-        findings: what is odd; kinds "units", "energy", "restitution", "speed", "outlier", "duplicate", "contradiction".
-        agreement: share of the impacts that come out as observed with the scene as it is.
-        differing: labels of the impacts that do not.
-        telling: entry -> number of impacts that would visibly differ if it were twice or half as large.
-        notes: sentences on how the columns were read and what the data lack.
-    """
+class Checkup(Result):
+    """The result of `check_data`."""
 
     _keys = "points=data.size agreement differing findings telling notes"
 
     data: Measurements
     scene: Scene
-    findings: tuple[Finding, ...]
-    agreement: float
-    differing: tuple[str, ...]
-    telling: dict[str, int]
-    notes: tuple[str, ...]
+    findings: tuple[Finding, ...] = item(
+        'what is odd; kinds "units", "energy", "restitution", "speed", "outlier", "duplicate", "contradiction"'
+    )
+    agreement: float = item("share of the impacts that come out as observed with the scene as it is")
+    differing: tuple[str, ...] = item("labels of the impacts that do not")
+    telling: dict[str, int] = item(
+        "entry -> number of impacts that would visibly differ if it were twice or half as large"
+    )
+    notes: tuple[str, ...] = item("sentences on how the columns were read and what the data lack")
 
     def __str__(self) -> str:
         lines = [*self.notes, f"As the scene is, {self.agreement:.0%} of the impacts come out as observed."]

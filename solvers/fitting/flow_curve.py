@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -18,7 +17,8 @@ import numpy as np
 from ..errors import InputError
 from ..formatting.tables import aligned
 from ..host.pictures import Drawn
-from ..scene.origin import Recorded
+from ..scene.items import item
+from ..scene.origin import Record, Result
 from ..scene.schema import FIELDS
 from .rheometer import flow_curve_of
 
@@ -67,8 +67,7 @@ _LAWS: tuple[tuple[str, Curve, tuple[str, ...]], ...] = (
 _MOST = {"cross": 1.0, "carreau": 1.0}  # of the flow index
 
 
-@dataclass(frozen=True)
-class Parameter:
+class Parameter(Record):
     """An entry of `[liquid]`, SI, with its 95 % interval; None for an end that the curve does not determine."""
 
     value: float
@@ -76,31 +75,22 @@ class Parameter:
     high: float | None
 
 
-@dataclass(frozen=True)
-class FlowCurve(Drawn, Recorded):
-    """A law fitted to a flow curve.
-
-    Attributes:
-        law: as `liquid.law`.
-        parameters: by entry of `[liquid]`.
-        criteria: information criterion of every law less the least.
-        scatter: standard deviation of the viscosity, a part of it.
-        reference_rate: of `viscosity` where the law has none of its own, 1/s.
-        rate, viscosity: the curve, ascending by rate.
-        remarks: what to know of the curve: a difference of its ramps, laws for which it has too few points.
-    """
+class FlowCurve(Result, Drawn):
+    """A law fitted to a flow curve."""
 
     _picture = "fitting.plot_flow_curve.draw"
     _keys = "law parameters criteria scatter points=rate.size rates reference_rate entries remarks"
 
-    law: str
-    parameters: Mapping[str, Parameter]
-    criteria: Mapping[str, float]
-    scatter: float
-    reference_rate: float
-    rate: np.ndarray = field(repr=False)
-    viscosity: np.ndarray = field(repr=False)
-    remarks: tuple[str, ...] = ()
+    law: str = item("as `liquid.law`")
+    parameters: Mapping[str, Parameter] = item("by entry of `[liquid]`")
+    criteria: Mapping[str, float] = item("information criterion of every law less the least")
+    scatter: float = item("standard deviation of the viscosity, a part of it")
+    reference_rate: float = item("of `viscosity` where the law has none of its own", "1/s")
+    rate: np.ndarray = item("shear rates of the curve, ascending", "1/s", repr=False)
+    viscosity: np.ndarray = item("viscosities of the curve", "Pa s", repr=False)
+    remarks: tuple[str, ...] = item(
+        "what to know of the curve: a difference of its ramps, laws for which it has too few points", default=()
+    )
 
     def __call__(self, rate: np.ndarray) -> np.ndarray:
         """The viscosity by the law, Pa s."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from functools import cached_property
 from pathlib import Path
 from typing import Any
@@ -14,9 +14,10 @@ from ..errors import InputError
 from ..formatting.tables import aligned
 from ..host import files
 from ..host.files import check_file
-from ..host.pictures import plot
+from ..host.pictures import Drawn
 from ..host.progress import Estimated, Progress
-from ..scene.origin import origin, plain
+from ..scene.items import item
+from ..scene.origin import Record, Result, origin, plain
 from ..scene.scene import Scene
 from .free_entries import IDENTIFIED, FreeEntries, interval, unit_shown
 from .joint import Part, home, worded
@@ -34,8 +35,7 @@ CONTRADICTED = (
 """The first remark where `RowDiagnostics.contradicted`."""
 
 
-@dataclass(frozen=True)
-class Estimate:
+class Estimate(Record):
     """An entry: the most likely value, its 95 % interval (None: an open end), SI, and the verdict."""
 
     value: float
@@ -53,23 +53,18 @@ class Estimate:
         return f"to {50 * (self.high - self.low) / abs(self.value):.2g} %"
 
 
-@dataclass(frozen=True)
-class RowDiagnostics:
-    """The rows of the data under the estimates; arrays of one length, NaN where a row has no such number.
+class RowDiagnostics(Record):
+    """The rows of the data under the estimates; arrays of one length, NaN where a row has no such number."""
 
-    Attributes:
-        probability: of the observed outcome.
-        expected: result -> its mean over the scatter, where the outcome is the observed one.
-        residual: result -> what was measured less that, over the standard deviation of both.
-        log_likelihood: of the row, relative to a perfect observation.
-        pull: how far the estimates would move without the row, in standard errors, to first order.
-    """
-
-    probability: np.ndarray
-    expected: Mapping[str, np.ndarray]
-    residual: Mapping[str, np.ndarray]
-    log_likelihood: np.ndarray
-    pull: np.ndarray
+    probability: np.ndarray = item("of the observed outcome")
+    expected: Mapping[str, np.ndarray] = item(
+        "result -> its mean over the scatter, where the outcome is the observed one"
+    )
+    residual: Mapping[str, np.ndarray] = item(
+        "result -> what was measured less that, over the standard deviation of both"
+    )
+    log_likelihood: np.ndarray = item("of the row, relative to a perfect observation")
+    pull: np.ndarray = item("how far the estimates would move without the row, in standard errors, to first order")
 
     @property
     def contradicting(self) -> np.ndarray:
@@ -82,21 +77,8 @@ class RowDiagnostics:
         return 2 * self.contradicting.size >= self.log_likelihood.size
 
 
-@dataclass(frozen=True)
-class Fit:
+class Fit(Result, Drawn):
     """The result of `fit`: what was estimated, and how that is shown and written.
-
-    Attributes:
-        parts: the scenes with their first guesses, and their impacts.
-        data: the impacts of all parts.
-        estimates: by dotted name, NAME@LABEL of an entry that is not shared by the scenes.
-        log_likelihood: maximum, with all constants of the densities; priors are not part of it.
-        correlation: of the estimates in the variables of the search, (entries, entries).
-        combinations: sentences on products of powers that the data tell.
-        remarks: sentences on defaults, contradictions, and what the data lack.
-        quadrature: change of the log-likelihood with twice as fine integrals.
-        others: values of less likely separate maxima, with their log-likelihoods.
-        ends: of each entry's interval below and above, all entries in the variables of the search.
 
     Example:
         >>> from wetdoublet.solvers import fit
@@ -106,18 +88,26 @@ class Fit:
         ['high', 'low', 'value', 'verdict']
     """
 
-    parts: tuple[Part, ...]
-    data: Measurements
-    estimates: Mapping[str, Estimate]
-    log_likelihood: float
-    correlation: np.ndarray
-    combinations: tuple[str, ...]
-    remarks: tuple[str, ...]
+    _picture = "fitting.plot.draw"
+
+    parts: tuple[Part, ...] = item("the scenes with their first guesses, and their impacts")
+    data: Measurements = item("the impacts of all parts")
+    estimates: Mapping[str, Estimate] = item("by dotted name, NAME@LABEL of an entry that is not shared by the scenes")
+    log_likelihood: float = item("maximum, with all constants of the densities; priors are not part of it")
+    correlation: np.ndarray = item("of the estimates in the variables of the search, (entries, entries)")
+    combinations: tuple[str, ...] = item("sentences on products of powers that the data tell")
+    remarks: tuple[str, ...] = item("sentences on defaults, contradictions, and what the data lack")
     rows: RowDiagnostics
-    quadrature: float
-    others: tuple[tuple[Mapping[str, float], float], ...]
+    quadrature: float = item("change of the log-likelihood with twice as fine integrals")
+    others: tuple[tuple[Mapping[str, float], float], ...] = item(
+        "values of less likely separate maxima, with their log-likelihoods"
+    )
     objective: Objective = field(repr=False, compare=False)
-    ends: tuple[tuple[np.ndarray, np.ndarray], ...] = field(repr=False, compare=False)
+    ends: tuple[tuple[np.ndarray, np.ndarray], ...] = item(
+        "of each entry's interval below and above, all entries in the variables of the search",
+        repr=False,
+        compare=False,
+    )
 
     @property
     def first(self) -> Scene:
@@ -207,7 +197,7 @@ class Fit:
                 lines += ["", *sentences]
         return "\n".join(lines)
 
-    __repr__ = __str__  # what a notebook shows
+    __repr__ = __str__  # at the prompt
 
     def plot(self, path: str | Path | None = None, progress: Progress | None = None) -> Any:
         """Draw data over the regime map, e_n with its band, profiles and residuals; returns the matplotlib Figure.
@@ -221,7 +211,7 @@ class Fit:
         work.start()
         self.objective.likelihood.tell = work.add
         try:
-            return plot(self, path)
+            return super().plot(path)
         finally:
             del self.objective.likelihood.tell
             work.finish()

@@ -3,7 +3,6 @@
 import math
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass, field
 from numbers import Real
 from pathlib import Path
 from typing import Any
@@ -14,6 +13,8 @@ from ..errors import InputError
 from ..formatting.tables import aligned
 from ..scene import units
 from ..scene.columns import Column, row_name
+from ..scene.items import item
+from ..scene.origin import Result
 from ..scene.scene import Scene
 from ..scene.values import with_unit
 from .filmed_impact import FilmedImpact
@@ -35,23 +36,17 @@ _ALIKE = 1e-9  # difference of two positions that are one number, over all that 
 _COUNT = re.compile(r"(\S*?)\s*(?:css_)?(?:px|pixels?)")
 
 
-@dataclass(frozen=True)
-class Tracks:
-    """Impacts measured on films.
+class Tracks(Result):
+    """Impacts measured on films."""
 
-    Attributes:
-        labels: what names the impacts.
-        columns: `speed` (normal), `angle`, `restitution`, ... and their `_sd`, SI, at the scene's gaps; `outcome`
-            ("stick", or "" of impacts that separate); and what `fit` takes: `relative_speed`, `impact_parameter`,
-            `exit_speed`, `exit_parameter`, `delay`, `turn` of the free flight, with `_sd` and `correlation`.
-        noise: standard deviation of a centre's coordinate, m, by impact.
-        remarks: sentences.
-    """
-
-    labels: tuple[str, ...]
-    columns: Mapping[str, list[Any]]
-    noise: tuple[float, ...]
-    remarks: tuple[str, ...] = field(default=())
+    labels: tuple[str, ...] = item("what names the impacts")
+    columns: Mapping[str, list[Any]] = item(
+        '`speed` (normal), `angle`, `restitution`, ... and their `_sd`, SI, at the scene\'s gaps; `outcome` ("stick", '
+        'or "" of impacts that separate); and what `fit` takes: `relative_speed`, `impact_parameter`, `exit_speed`, '
+        "`exit_parameter`, `delay`, `turn` of the free flight, with `_sd` and `correlation`"
+    )
+    noise: tuple[float, ...] = item("standard deviation of a centre's coordinate, m, by impact")
+    remarks: tuple[str, ...] = item("sentences", default=())
 
     def _shown(self, columns: Mapping[str, list[Any]]) -> tuple[list[str], list[list[str]]]:
         """Header and cells, angles in degrees."""

@@ -22,15 +22,14 @@ _HOMES = {  # a variable that only one kind of result has -> what draws it
     "engine": "sensitivity.plots.draw_gradients",
     "outcome": "many.plot_map.draw",
 }
-_RESULTS = {"Design": "fitting.plot_design.draw", "Fit": "fitting.plot.draw"}  # results that are no Dataset, by class
 _ROOT = __package__.rpartition(".")[0]
 
 
 def plot(data: Any, path: str | Path | None = None) -> Any:
-    """Draw a Dataset that this package has made, read back from a file or not.
+    """Draw a result, or a Dataset that this package has made, read back from a file or not.
 
     Arguments:
-        data: of `collide_many`, `regime_map`, `band` or `gradients_many`.
+        data: a result that has a picture, or a Dataset of `collide_many`, `regime_map`, `band` or `gradients_many`.
         path: file to write (.png, .pdf or .svg); None only draws.
 
     Returns:
@@ -44,9 +43,10 @@ def plot(data: Any, path: str | Path | None = None) -> Any:
         >>> figure = plot(regime_map("granulation", stokes=[0.01, 0.1, 0.3], angle=["10 deg", "40 deg", "70 deg"]))
     """
     variables = getattr(data, "data_vars", ())
-    home = _RESULTS.get(type(data).__name__) or next((_HOMES[name] for name in _HOMES if name in variables), None)
+    home = getattr(data, "_picture", None) or next((_HOMES[name] for name in _HOMES if name in variables), None)
     if home is None:
-        raise InputError("data", type(data).__name__, "a Dataset that this package has made", "has no picture")
+        accepted = "a result or a Dataset that this package has made"
+        raise InputError("data", type(data).__name__, accepted, "has no picture")
     return saved(lambda: _drawing(home)(data), path)
 
 

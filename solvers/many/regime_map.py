@@ -21,6 +21,7 @@ from ..host.progress import Progress
 from ..model.validity import flag_words
 from ..results import BY_DEFAULT, FAILED, IMPACT, REVERSALS, VALIDITY, attributes
 from ..scene.groups import formulas
+from ..scene.items import csv
 from ..scene.origin import release
 from ..scene.scene import Scene
 from ..scene.schema import MEETING, SPEEDS
@@ -202,9 +203,7 @@ def to_csv(data: xarray.Dataset) -> str:
             frame[name] = column.map({True: "true", False: "false"})
         elif column.dtype == object:
             frame[name] = column.str.split().str.join(" ")
-    units = {name: data[name].attrs.get("units", "1") for name in names}
-    frame.columns = [name if unit == "1" else f"{name} [{unit}]" for name, unit in units.items()]
-    return str(frame.to_csv(index=False, lineterminator="\n"))
+    return csv(frame, {name: data[name].attrs.get("units", "1") for name in names})
 
 
 def netcdf(data: xarray.Dataset, encoding: Mapping[Hashable, Any] | None = None) -> memoryview:

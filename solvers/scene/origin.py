@@ -1,14 +1,16 @@
 """JSON objects of results: declared keys, and where the numbers come from."""
 
 import math
-from collections.abc import Mapping
-from dataclasses import fields, is_dataclass
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass, field, fields, is_dataclass
 from functools import cache
 from operator import attrgetter
-from typing import Any, ClassVar
+from typing import Any, ClassVar, dataclass_transform
 
 import numpy as np
 
+from ..formatting.tables import NotebookTable
+from .items import documented, item
 from .scene import Scene
 
 
@@ -34,17 +36,41 @@ def origin(scene: Scene) -> dict[str, Any]:
     return {"version": release(), "scene": entries} | ({"held": scene.held} if scene.held else {})
 
 
-class Recorded:
-    """A result whose JSON object is declared: keys in order, `key` or `key=attribute`; its scene's origin follows."""
+@dataclass_transform(frozen_default=True, field_specifiers=(item, field))
+class Record:
+    """A frozen dataclass that has a JSON object and declared items, whose meanings its docstring gets.
 
-    _keys: ClassVar[str]
+    `_keys` are the keys of the object in order, `key` or `key=attribute`; else they are the fields. The origin of its
+    scene follows.
+
+    Arguments:
+        of: what stands before the names of its fields in `DEFINITIONS`, as "energy.".
+    """
+
+    _keys: ClassVar[str] = ""
+    __dataclass_fields__: ClassVar[dict[str, Any]]  # for type checkers
+
+    def __init_subclass__(cls, kw_only: bool = False, of: str = "") -> None:
+        dataclass(frozen=True, kw_only=kw_only)(cls)
+        cls.__doc__ = documented(cls, of)
 
     def to_dict(self) -> dict[str, Any]:
         """The JSON object of the command: SI units and radians, null where there is no value."""
-        pairs = [item.partition("=") for item in self._keys.split()]
+        keys = self._keys or " ".join(entry.name for entry in fields(self) if entry.name != "scene")
+        pairs = [key.partition("=") for key in keys.split()]
         scene = getattr(self, "scene", None)
         provenance = origin(scene) if isinstance(scene, Scene) else {}
-        return {key: plain(attrgetter(name or key)(self)) for key, _, name in pairs} | provenance
+        present = [(key, name or key) for key, _, name in pairs if key not in self._absent]
+        return {key: plain(attrgetter(name)(self)) for key, name in present} | provenance
+
+    @property
+    def _absent(self) -> Collection[str]:
+        """Keys that the JSON object has not."""
+        return ()
+
+
+class Result(Record, NotebookTable):
+    """A record with a text, which a notebook shows as a table."""
 
 
 def plain(value: Any, gaps: bool = False) -> Any:
@@ -56,13 +82,13 @@ def plain(value: Any, gaps: bool = False) -> Any:
     if hasattr(value, "to_dict"):
         return value.to_dict()
     if is_dataclass(value):
-        return {item.name: plain(getattr(value, item.name), gaps) for item in fields(value)}
+        return {entry.name: plain(getattr(value, entry.name), gaps) for entry in fields(value)}
     if isinstance(value, Mapping):
-        return {str(key): plain(item, gaps) for key, item in value.items()}
+        return {str(key): plain(member, gaps) for key, member in value.items()}
     if hasattr(value, "_asdict"):  # a named tuple
         return plain(value._asdict(), gaps)
     if isinstance(value, (np.ndarray, np.generic)):
         return plain(value.tolist(), gaps)
     if isinstance(value, (list, tuple)):
-        return [plain(item, gaps) for item in value]
+        return [plain(member, gaps) for member in value]
     return None if gaps and isinstance(value, float) and not math.isfinite(value) else value

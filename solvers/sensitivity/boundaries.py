@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
 from pathlib import Path as FilePath
 from typing import TYPE_CHECKING, Any
 
@@ -22,7 +21,8 @@ from ..errors import ComputationError, InputError
 from ..formatting.tables import numbers_aligned
 from ..host.arguments import check_function
 from ..host.pictures import Drawn
-from ..scene.origin import provenance
+from ..scene.items import item
+from ..scene.origin import Record, Result, provenance
 from ..scene.scene import Scene
 from ..scene.schema import DEFAULTS, MEETING, SPEEDS
 from .parameters import Row, cell, check_wrt, elasticities, kind_of, numbers, parameter_map, references
@@ -39,20 +39,16 @@ _ERROR = 1e-6  # of the derivatives beside the largest: smaller ones are 0
 _ASIDE, _NARROW = 1e-8, 1e-10  # of St*: where both sides must have their outcomes, and to which the change is enclosed
 
 
-@dataclass(frozen=True)
-class Moving:
-    """A change of outcome and its derivatives; St* is that of the change, Ce* is None without a bridge.
-
-    Attributes:
-        gradient: "stokes", "speed", "relative_speed", "centrifugal" -> parameter -> dSt*/dp, dv*/dp, dCe*/dp, SI.
-        elasticity: the same as d ln/d ln p; None where either is zero.
-        reason: the reason if there are no derivatives; then both are empty.
-    """
+class Moving(Record):
+    """A change of outcome and its derivatives; St* is that of the change, Ce* is None without a bridge."""
 
     change: Change
-    gradient: Mapping[str, Row] = field(default_factory=dict)
-    elasticity: Mapping[str, Row] = field(default_factory=dict)
-    reason: str = ""
+    gradient: Mapping[str, Row] = item(
+        '"stokes", "speed", "relative_speed", "centrifugal" -> parameter -> dSt*/dp, dv*/dp, dCe*/dp, SI',
+        default_factory=dict,
+    )
+    elasticity: Mapping[str, Row] = item("the same as d ln/d ln p; None where either is zero", default_factory=dict)
+    reason: str = item("the reason if there are no derivatives; then both are empty", default="")
 
     @property
     def results(self) -> tuple[str, ...]:
@@ -65,8 +61,7 @@ class Moving:
         return {"sensitivities": both or None}
 
 
-@dataclass(frozen=True)
-class BoundarySensitivities(Drawn):
+class BoundarySensitivities(Result, Drawn):
     """The changes of outcome at each angle (rad), ascending in St, with their derivatives.
 
     `plot` draws the elasticities of every change of outcome as bars.
@@ -125,7 +120,7 @@ class BoundarySensitivities(Drawn):
     def __str__(self) -> str:
         return "\n\n".join([str(self.boundaries), *self._tables()])
 
-    __repr__ = __str__  # what a notebook shows
+    __repr__ = __str__  # at the prompt
 
     def _tables(self) -> list[str]:
         tables = []

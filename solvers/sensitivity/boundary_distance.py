@@ -22,6 +22,7 @@ from ..engines.taylor.tangent import DISTANCES, GRIPS
 from ..errors import ComputationError
 from ..model.dimensionless import Problem
 from ..scene.groups import TIE
+from ..scene.origin import Record
 from ..scene.scene import Scene
 
 LIMIT, PER_RTOL, WIDEST = 1e-6, 1e4, 1e-3
@@ -54,8 +55,7 @@ _CUT_OFF = {
 _TURNS = tuple(KINDS[kind] for kind in (EventKind.TURNED, EventKind.FELL_BACK, EventKind.RUPTURE))
 
 
-@dataclass(frozen=True)
-class Near:
+class Near(Record):
     """The nearest known boundary, and the collision's distance from it relative to the quantity `of`."""
 
     boundary: str

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import asdict, dataclass, field, replace
-from typing import Any
+from dataclasses import replace
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -23,7 +23,8 @@ from ..host.arguments import check_function, check_mapping, check_whole
 from ..host.pictures import Drawn
 from ..many.arguments import checked_numbers
 from ..many.collide_many import collide_many
-from ..scene.origin import origin
+from ..scene.items import cells, csv, item, units
+from ..scene.origin import Record, Result
 from ..scene.scene import Scene
 from ..scene.schema import SPEEDS
 from .boundaries import check_boundary_wrt, moving
@@ -32,62 +33,70 @@ from .parameters import cell
 from .uncertainty import LEVELS, check_samples, deviations, drawn, normal_deviates, value_of
 
 _NEAR, _FINE, _COARSE = 3.0, 100, 12  # factor about the speed within which draws are searched finely; samples a decade
+_SHOWN = ("material", "angle", "relative_speed", "interval", "speed", "stokes", "to", "bounces_above")
 _WIDTH = 1e-5  # to which the speed of a draw is enclosed, relative
 _BEYOND = 1e-4  # by which the impact that is looked at is faster than the change
 _REACH, _PLACES = 10.0, 21  # factor up to which an entry is followed for an extreme, and number of its values
 _STICK = OUTCOMES.index(STICK)
-_SPEEDS = ("relative_speed", "speed", "interval", "bounces_above", "sticks")
-_UNITS = dict.fromkeys(_SPEEDS, "m/s") | {"angle": "rad", "stokes": "1"}
+Interval = tuple[float | None, float | None]
 
 
-@dataclass(frozen=True)
-class CriticalSpeed:
-    """The speed up to which impacts of one material stick at one angle; speeds in m/s.
-
-    Attributes:
-        material: its name.
-        angle: rad.
-        searched: range of Stokes numbers of the search.
-        relative_speed, speed, stokes: up to which all impacts of the range stick: magnitude of the relative velocity,
-            its normal component, and Stokes number. None if the slowest do not stick, or all do.
-        to: outcome just beyond.
-        bounces_above: relative speed from which on all of the range bounce; None if the fastest do not, or all do.
-        slowest: outcome at the lower end of the range; "" if it could not be computed.
-        sticks: intervals of relative speeds that stick; the first and the last may end where the range does.
-        interval: 95 % interval of `relative_speed`; None for an end that is not in the range. None without uncertain
-            entries.
-        gradient, elasticity: derivatives of `relative_speed` by parameter, SI.
-        sentences: what the numbers leave out.
-        validity: where an impact just above that speed, or else the slowest, leaves the model's range.
-        failed: whether there is no answer; the first sentence says why.
-    """
-
-    material: str
-    angle: float
-    searched: tuple[float, float]
-    relative_speed: float | None = None
-    speed: float | None = None
-    stokes: float | None = None
-    to: str | None = None
-    bounces_above: float | None = None
-    slowest: str = ""
-    sticks: tuple[tuple[float, float], ...] = ()
-    interval: tuple[float | None, float | None] | None = None
-    gradient: Mapping[str, Any] = field(default_factory=dict)
-    elasticity: Mapping[str, Any] = field(default_factory=dict)
-    sentences: tuple[str, ...] = ()
-    validity: tuple[str, ...] = ()
-    failed: bool = False
+def _number(value: float | None) -> str:
+    return "-" if value is None else f"{value:.4g}"
 
 
-@dataclass(frozen=True)
-class Critical(Drawn):
+def _degrees(angle: float) -> str:
+    return f"{math.degrees(angle):.6g}"
+
+
+def _interval(interval: Interval | None) -> str:
+    if interval is None:
+        return ""
+    low, high = interval
+    if low is None or high is None:
+        return "open" if low == high else f"below {high:.4g}" if low is None else f"above {low:.4g}"
+    return f"{low:.4g} to {high:.4g}"
+
+
+class CriticalSpeed(Record):
+    """The speed up to which impacts of one material stick at one angle; None where the slowest do not, or all do."""
+
+    material: str = item("its name", head="material")
+    angle: float = item("impact angle", "rad", "angle (deg)", _degrees)
+    searched: tuple[float, float] = item("range of Stokes numbers of the search")
+    relative_speed: float | None = item(
+        "magnitude of the relative velocity up to which all impacts of the range stick", "m/s",
+        "sticks up to relative speed (m/s)", _number, default=None,
+    )  # fmt: skip
+    speed: float | None = item("normal component of that", "m/s", "normal speed (m/s)", _number, default=None)
+    stokes: float | None = item("Stokes number of that", "1", "St", _number, default=None)
+    to: str | None = item("outcome just beyond", "", "then", lambda word: word or "-", default=None)
+    bounces_above: float | None = item(
+        "relative speed from which on all of the range bounce; None if the fastest do not, or all do", "m/s",
+        "bounces above relative speed (m/s)", _number, default=None,
+    )  # fmt: skip
+    slowest: str = item('outcome at the lower end of the range; "" if it could not be computed', default="")
+    sticks: tuple[tuple[float, float], ...] = item(
+        "intervals of relative speeds that stick; the first and the last may end where the range does", "m/s",
+        default=(),
+    )  # fmt: skip
+    interval: Interval | None = item(
+        "95 % interval of `relative_speed`; None for an end that is not in the range. None without uncertain entries",
+        "m/s", "95 % interval", _interval, default=None,
+    )  # fmt: skip
+    gradient: Mapping[str, Any] = item("derivatives of `relative_speed` by parameter, SI", default_factory=dict)
+    elasticity: Mapping[str, Any] = item("the same as d ln/d ln p", default_factory=dict)
+    sentences: tuple[str, ...] = item("what the numbers leave out", default=())
+    validity: tuple[str, ...] = item(
+        "where an impact just above that speed, or else the slowest, leaves the model's range", default=()
+    )
+    failed: bool = item("whether there is no answer; the first sentence says why", default=False)
+
+
+class Critical(Result, Drawn):
     """Critical speeds, a row for each material and angle.
 
     `plot` draws the relative speed up to which they stick over the angle, or by material.
-
-    Attributes:
-        scene: the scene, unless there are several materials.
 
     Example:
         >>> from wetdoublet.solvers import critical
@@ -96,32 +105,21 @@ class Critical(Drawn):
     """
 
     _picture = "sensitivity.plots.draw_critical"
+    _keys = "rows rtol units"
 
     rows: tuple[CriticalSpeed, ...]
-    scene: Scene | None
+    scene: Scene | None = item("the scene, unless there are several materials")
     rtol: float
+    units: ClassVar = units(CriticalSpeed)
 
     def to_dict(self) -> dict[str, Any]:
         """The JSON object of `wetdoublet critical --json`: the row itself if there is one, else `rows`."""
-        rows = [asdict(row) for row in self.rows]
-        from_where = {} if self.scene is None else origin(self.scene)
-        return (rows[0] if len(rows) == 1 else {"rows": rows}) | {"rtol": self.rtol, "units": _UNITS} | from_where
-
-    def table(self) -> tuple[list[str], list[list[str]]]:
-        """Head and rows of the table; a column without any cell is left out."""
-        head = ["material", "angle (deg)", "sticks up to relative speed (m/s)", "95 % interval", "normal speed (m/s)",
-                "St", "then", "bounces above relative speed (m/s)"]  # fmt: skip
-        rows = [
-            [row.material, f"{math.degrees(row.angle):.6g}", _number(row.relative_speed), _interval(row.interval),
-             _number(row.speed), _number(row.stokes), row.to or "-", _number(row.bounces_above)]
-            for row in self.rows
-        ]  # fmt: skip
-        columns = [k for k in range(len(head)) if any(row[k] for row in rows)]
-        return [head[k] for k in columns], [[row[k] for k in columns] for row in rows]
+        result = super().to_dict()
+        return result.pop("rows")[0] | result if len(self.rows) == 1 else result
 
     def __str__(self) -> str:
-        head, rows = self.table()
-        where = [f"{row.material} {math.degrees(row.angle):.6g} deg".strip() for row in self.rows]
+        head, rows = cells(self.rows, _SHOWN)
+        where = [f"{row.material} {_degrees(row.angle)} deg".strip() for row in self.rows]
         lines = aligned([head, *rows])
         lines += [f"{at}: {text}" for at, row in zip(where, self.rows, strict=True) for text in row.sentences]
         for text in dict.fromkeys(text for row in self.rows for text in row.validity):
@@ -137,7 +135,7 @@ class Critical(Drawn):
             lines += aligned([["", *where], *slopes])
         return "\n".join(lines)
 
-    __repr__ = __str__  # what a notebook shows
+    __repr__ = __str__  # at the prompt
 
     def columns(self) -> dict[str, list[Any]]:
         """A value for each material and angle (rad) by name; speeds in m/s."""
@@ -147,24 +145,7 @@ class Critical(Drawn):
 
     def to_csv(self) -> str:
         """A row for each material and angle: speeds in m/s, angles in rad; empty where there is none."""
-        from pandas import DataFrame
-
-        speeds = ("relative_speed", "low", "high", "speed", "bounces_above")
-        units = {"angle": "angle [rad]"} | {name: f"{name} [m/s]" for name in speeds}
-        return str(DataFrame(self.columns()).rename(columns=units).to_csv(index=False, lineterminator="\n"))
-
-
-def _number(value: float | None) -> str:
-    return "-" if value is None else f"{value:.4g}"
-
-
-def _interval(interval: tuple[float | None, float | None] | None) -> str:
-    if interval is None:
-        return ""
-    low, high = interval
-    if low is None or high is None:
-        return "open" if low == high else f"below {high:.4g}" if low is None else f"above {low:.4g}"
-    return f"{low:.4g} to {high:.4g}"
+        return csv(self.columns(), self.units | {"low": "m/s", "high": "m/s"})
 
 
 def critical(

@@ -13,12 +13,13 @@ import numpy as np
 from ...generated.automaton import STICK
 from ..engines.settings import CASADI_ENGINES, check_engine, check_rtol
 from ..errors import ComputationError, InputError
-from ..formatting.tables import NotebookTable, numbers_aligned
+from ..formatting.tables import numbers_aligned
 from ..host.arguments import check_name
 from ..host.pictures import Drawn
 from ..results import DEFINITIONS, check_differentiated
 from ..scene.held import NAMES, held_quantity
-from ..scene.origin import Recorded, provenance
+from ..scene.items import item
+from ..scene.origin import Result, provenance
 from ..scene.scene import Scene
 from . import by_casadi, by_kernel
 from .boundary_distance import Near, checked, courses_of, explained
@@ -38,20 +39,10 @@ _SHOWN = 5  # most quantities side by side
 _ROUNDING = 1e-13  # relative to the largest elasticity; smaller ones are rounding errors of cancelling contributions
 
 
-@dataclass(frozen=True, kw_only=True)
-class Sensitivities(Recorded, Drawn, NotebookTable):
+class Sensitivities(Result, Drawn, kw_only=True):
     """Derivatives of a collision's results; SI and radians; None where undefined.
 
     `plot` draws a tornado chart of the elasticities.
-
-    Attributes:
-        value: each quantity's value.
-        gradient: quantity -> parameter -> dy/dp, all others held.
-        elasticity: quantity -> parameter -> d ln y/d ln p; None where y or p is zero.
-        outcome: outcome of the collision.
-        reference: values of the parameters.
-        near: the nearest boundary found from the trajectory, None if there is none.
-        rtol: relative tolerance that was asked for.
 
     Example:
         >>> from wetdoublet.solvers import sensitivities
@@ -63,16 +54,16 @@ class Sensitivities(Recorded, Drawn, NotebookTable):
     _picture = "sensitivity.plots.draw"
     _keys = "value gradient elasticity outcome method engine hold nearest=near rtol units"
 
-    value: Mapping[str, float | None]
-    gradient: Mapping[str, Row]
-    elasticity: Mapping[str, Row]
-    reference: Mapping[str, float]
-    outcome: str
+    value: Mapping[str, float | None] = item("each quantity's value")
+    gradient: Mapping[str, Row] = item("quantity -> parameter -> dy/dp, all others held")
+    elasticity: Mapping[str, Row] = item("quantity -> parameter -> d ln y/d ln p; None where y or p is zero")
+    reference: Mapping[str, float] = item("values of the parameters")
+    outcome: str = item("outcome of the collision")
     method: str
     engine: str
     hold: str
-    rtol: float
-    near: Near | None = None
+    rtol: float = item("relative tolerance that was asked for")
+    near: Near | None = item("the nearest boundary found from the trajectory, None if there is none", default=None)
     scene: Scene = field(repr=False, compare=False)
 
     @property

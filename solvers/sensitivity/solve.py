@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 import warnings
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path as FilePath
 from typing import Any
 
@@ -24,7 +24,8 @@ from ..many.collide_many import collide_many
 from ..results import DEFINITIONS, DIFFERENTIATED, INTEGRATED, OF_IMPACT, REVERSALS
 from ..scene.fields import ANY, Field
 from ..scene.held import held_quantity
-from ..scene.origin import origin
+from ..scene.items import item
+from ..scene.origin import Record, origin
 from ..scene.scene import Scene
 from ..scene.schema import MEETING, SPEEDS
 from .parameters import check_wrt
@@ -130,24 +131,19 @@ def _target(target: Mapping[str, Any]) -> tuple[str, float]:
     return name, value
 
 
-@dataclass(frozen=True)
-class Solution:
-    """One value of the entry, SI.
-
-    Attributes:
-        outcome: of the collision there.
-        gradient: derivatives of the value by parameter, and by the result's target; empty where there are none.
-        reason: why there are none.
-    """
+class Solution(Record):
+    """One value of the entry, SI."""
 
     value: float
-    outcome: str
-    gradient: Mapping[str, float] = field(default_factory=dict)
-    reason: str = ""
+    outcome: str = item("of the collision there")
+    gradient: Mapping[str, float] = item(
+        "derivatives of the value by parameter, and by the result's target; empty where there are none",
+        default_factory=dict,
+    )
+    reason: str = item("why there are none", default="")
 
 
-@dataclass(frozen=True)
-class Jump:
+class Jump(Record):
     """Value of the entry where the result jumps over its target; outcomes, with criteria, and results beside it."""
 
     value: float

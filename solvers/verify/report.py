@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from textwrap import wrap
 from typing import TYPE_CHECKING
 
-from ..scene.origin import Recorded, provenance
+from ..scene.items import item
+from ..scene.origin import Record, Result, provenance
 
 if TYPE_CHECKING:
     import xarray
@@ -18,28 +18,19 @@ _MARK, _LONGEST = 6, 200  # characters of the mark on the left, and of the failu
 _BESIDE = 26  # width of value and bound, so that places are aligned
 
 
-@dataclass(frozen=True)
-class Finding:
-    """The result of one check: statement, value, bound ("" for an identity), and success.
-
-    Arguments:
-        ok: None for a value that is reported without a bound.
-        where: the place of the worst case (Stokes number, angle, engine, event).
-        about: further lines (a table, intervals), shown verbatim.
-        kept: True if it was computed by an earlier run, from the same equations.
-        shipped: True if it was proved when the package was built, from the same equations.
-    """
+class Finding(Record):
+    """The result of one check: statement, value, bound ("" for an identity), and success."""
 
     group: str
     name: str
     statement: str
     figure: str
     bound: str
-    ok: bool | None
-    where: str = ""
-    about: tuple[str, ...] = ()
-    kept: bool = False
-    shipped: bool = False
+    ok: bool | None = item("None for a value that is reported without a bound")
+    where: str = item("the place of the worst case (Stokes number, angle, engine, event)", default="")
+    about: tuple[str, ...] = item("further lines (a table, intervals), shown verbatim", default=())
+    kept: bool = item("True if it was computed by an earlier run, from the same equations", default=False)
+    shipped: bool = item("True if it was proved when the package was built, from the same equations", default=False)
 
     @property
     def line(self) -> str:
@@ -59,8 +50,7 @@ def note(name: str, statement: str, figure: str, where: str = "", about: tuple[s
     return Finding("", name, statement, figure, "", None, where, about)
 
 
-@dataclass(frozen=True)
-class Report(Recorded):
+class Report(Result):
     """All findings; `str` is the report."""
 
     _keys = "ok summary=headline findings"
@@ -91,7 +81,7 @@ class Report(Recorded):
             lines += _section(group, members)
         return "\n".join([*lines, *wrap(self.summary, WIDTH)])
 
-    __repr__ = __str__  # what a notebook shows
+    __repr__ = __str__  # at the prompt
 
     @property
     def headline(self) -> str:

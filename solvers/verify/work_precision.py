@@ -3,7 +3,6 @@
 import math
 import time
 from collections.abc import Sequence
-from dataclasses import dataclass
 from itertools import takewhile
 from pathlib import Path
 from typing import NamedTuple
@@ -17,7 +16,8 @@ from ..formatting.tables import table
 from ..host.environment import environment, one_core
 from ..host.pictures import Drawn
 from ..host.progress import Progress
-from ..scene.origin import Recorded
+from ..scene.items import cells, item
+from ..scene.origin import Record, Result
 from ..scene.scene import Scene
 
 TOLERANCES = tuple(10.0**-k for k in range(4, 13))
@@ -36,22 +36,23 @@ class Impact(NamedTuple):
     angle: float
 
 
-@dataclass(frozen=True)
-class Row:
-    """One engine at one tolerance.
+def _duration(seconds: float) -> str:
+    """A time as text in ms or us, with three digits."""
+    return f"{seconds * 1e3:.3g} ms" if seconds >= 1e-3 else f"{seconds * 1e6:.3g} us"
 
-    Attributes:
-        error: largest absolute error of e_n; None where no collision separates.
-        seconds: mean CPU time of a collision computed alone.
-        wrong, failed: collisions with another outcome than the reference, and that the engine does not complete.
-    """
 
-    engine: str
-    rtol: float
-    error: float | None
-    seconds: float
-    wrong: int
-    failed: int
+class Row(Record):
+    """One engine at one tolerance."""
+
+    engine: str = item("its name", head="engine")
+    rtol: float = item("relative tolerance", "1", "rtol", "{:.0e}".format)
+    error: float | None = item(
+        "largest absolute error of e_n; None where no collision separates", "1", "error in e_n",
+        lambda error: "-" if error is None else f"{error:.1e}",
+    )  # fmt: skip
+    seconds: float = item("mean CPU time of a collision computed alone", "s", "CPU time", _duration)
+    wrong: int = item("collisions with another outcome than the reference", head="wrong")
+    failed: int = item("collisions that the engine does not complete", head="failed")
 
     def keeps(self, error: float) -> bool:
         """True if all outcomes are right and no error of e_n exceeds `error`."""
@@ -66,32 +67,24 @@ class Recommendation(NamedTuple):
     reason: str
 
 
-@dataclass(frozen=True)
-class WorkPrecision(Drawn, Recorded):
-    """Cost and error of the engines on a sample of a scene's collisions.
-
-    Attributes:
-        wanted: the absolute error of e_n for which a setting is recommended.
-        sample: description of the sample.
-        impacts: impacts on which errors are measured.
-        separate: number of these that separate.
-        left_out: impacts so near a boundary that the references disagree on the outcome.
-        references: engine and tolerance of each reference; an engine is compared with the first other one.
-        uncertainty: largest difference in e_n between the references; smaller errors cannot be distinguished from
-            theirs.
-    """
+class WorkPrecision(Result, Drawn):
+    """Cost and error of the engines on a sample of a scene's collisions."""
 
     _picture = "verify.work_precision_plot.draw"
     _keys = "sample impacts separate left_out references uncertainty rows error=wanted recommended environment"
 
     scene: Scene
-    wanted: float
-    sample: str
-    impacts: tuple[Impact, ...]
-    separate: int
-    left_out: int
-    references: tuple[tuple[str, float], ...]
-    uncertainty: float
+    wanted: float = item("the absolute error of e_n for which a setting is recommended")
+    sample: str = item("description of the sample")
+    impacts: tuple[Impact, ...] = item("impacts on which errors are measured")
+    separate: int = item("number of these that separate")
+    left_out: int = item("impacts so near a boundary that the references disagree on the outcome")
+    references: tuple[tuple[str, float], ...] = item(
+        "engine and tolerance of each reference; an engine is compared with the first other one"
+    )
+    uncertainty: float = item(
+        "largest difference in e_n between the references; smaller errors cannot be distinguished from theirs"
+    )
     rows: tuple[Row, ...]
 
     @property
@@ -129,10 +122,6 @@ class WorkPrecision(Drawn, Recorded):
         return Recommendation(best.engine, best.rtol, "; ".join([f"{_duration(best.seconds)} each, {why}", *dearer]))
 
     def __str__(self) -> str:
-        rows = []
-        for row in self.rows:
-            error = "-" if row.error is None else f"{row.error:.1e}"
-            rows.append((row.engine, f"{row.rtol:.0e}", error, _duration(row.seconds), str(row.wrong), str(row.failed)))
         counted = f"{len(self.impacts)} of them count, of which {self.separate} separate."
         if self.left_out:
             counted += f" {self.left_out} are left out: the references disagree on the outcome."
@@ -141,7 +130,7 @@ class WorkPrecision(Drawn, Recorded):
         setting = f"{best.engine}, rtol {best.rtol:.0e}" if best.engine else "none"
         return "\n".join([
             f"{name_of(self.scene)}: {self.sample}", counted, "",
-            table(("engine", "rtol", "error in e_n", "CPU time", "wrong", "failed"), rows), "",
+            table(*cells(self.rows)), "",
             f"Errors are differences from the first of {against} that is another engine.",
             f"These two differ by at most {self.uncertainty:.1e} in e_n: the error estimate of the references.",
             "CPU time on one core, of a collision by `collide` without ledger.", "",
@@ -261,8 +250,3 @@ def _errors(pairs: Sequence[tuple[Collision, Collision]]) -> list[float]:
         for collision, truth in pairs
         if collision.outcome == truth.outcome and truth.contact_time
     ]
-
-
-def _duration(seconds: float) -> str:
-    """A time as text in ms or us, with three digits."""
-    return f"{seconds * 1e3:.3g} ms" if seconds >= 1e-3 else f"{seconds * 1e6:.3g} us"

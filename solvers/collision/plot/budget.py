@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 from ....generated.automaton import STICK
 from ...errors import InputError
 from ...formatting.style import INK, LONGEST, picture, plain_text, title
-from ..budget import FORMULAS, Budget, angular_momentum, over_time
+from ..budget import Budget, angular_momentum, label_of, over_time
 from ..outcome import Outcome
 from ..text import against, name_of
 from .time_panels import BLUE, GREEN, GREY, ORANGE, PURPLE, Column, columns_of, finish, letter
@@ -69,7 +69,7 @@ def _fill(column: Column, collision: Outcome, turns: bool) -> None:
     largest = max(abs(values).max() for values in terms.values())
     for name, values in terms.items():
         if np.any(abs(values) > _NOTHING * largest):
-            word = "solids" if name == "dry_contact" else FORMULAS[name][0]
+            word = "solids" if name == "dry_contact" else label_of(name)
             panel.plot(time, values, color=_COLOURS[name], label=word)
     panel.plot(time, sum(terms.values()), color=INK, linewidth=2, label="sum: $u^2/v_0^2 - 1$")
     panel.axhline(0, color=GREY, linewidth=0.6)

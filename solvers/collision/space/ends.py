@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 
 import numpy as np
 
@@ -21,6 +21,7 @@ OPEN = "the energy ledger is open: try a smaller rtol, or another engine"
 GREW = "energy has grown: errors have added up over a long trajectory; try a smaller rtol, or another engine"
 TRANSVERSE = [_INITIAL, _FINAL, _SHEAR]
 """Places of the terms to which motion across the line of centres contributes."""
+_SHAPES = {"normal": (3,), "turning": (3,), "sliding": (3,), "spins": (2, 3), "energy": (len(TERMS),)}  # of others ()
 FAILED = -1
 _STICK = OUTCOMES.index(STICK)
 
@@ -54,24 +55,9 @@ class Ends:
     @classmethod
     def blank(cls, size: int) -> Ends:
         """Ends of which nothing is known."""
-
-        def unknown(*shape: int) -> np.ndarray:
-            return np.full((size, *shape), np.nan)
-
-        return cls(
-            outcome=np.full(size, FAILED, np.int8),
-            certified=np.zeros(size, bool),
-            reason=np.full(size, "", object),
-            time=unknown(),
-            gap=unknown(),
-            opening=unknown(),
-            slip=unknown(),
-            normal=unknown(3),
-            turning=unknown(3),
-            sliding=unknown(3),
-            spins=unknown(2, 3),
-            energy=unknown(len(TERMS)),
-        )
+        numbers = {entry.name: np.full((size, *_SHAPES.get(entry.name, ())), np.nan) for entry in fields(cls)}
+        codes = {"outcome": np.full(size, FAILED, np.int8), "certified": np.zeros(size, bool)}
+        return cls(**numbers | codes | {"reason": np.full(size, "", object)})
 
     def put(self, where: np.ndarray, other: Ends) -> None:
         for name, values in vars(other).items():

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field
 from pathlib import Path
 from time import perf_counter
 
 from ....generated.automaton import OUTCOMES
 from ...scene.held import impact_quantity, impact_value
-from ...scene.origin import Recorded
+from ...scene.items import item
+from ...scene.origin import Result
 from ...scene.scene import Scene
 from .build import NotProvable
 from .call import BOX, OUTCOME, REASONS, SHARP, Enclosure, Range, enclose
@@ -24,19 +24,8 @@ _HELD = {
 }
 
 
-@dataclass(frozen=True, kw_only=True)
-class Proof(Recorded):
+class Proof(Result, kw_only=True):
     """What is proved of a collision, or of every collision in a box.
-
-    Attributes:
-        outcome: "stick", "stick-rotate-separate" or "bounce"; None if nothing is proved.
-        restitution: low and high of e_n, (0, 0) for a stick; None if nothing is proved.
-        reason: why nothing is proved; "" for a proof.
-        smallest_gap: a bound below the gap up to separation, m; None for a stick, and if nothing is proved.
-        steps: of the enclosure.
-        ranges: low and high of the quantities that the proof holds for, SI.
-        box: low and high of the entries of the box, SI, as the scene gives them.
-        seconds: wall time of the proof.
 
     Example:
         >>> from wetdoublet.solvers import prove
@@ -46,16 +35,18 @@ class Proof(Recorded):
 
     _keys = "proved outcome restitution reason smallest_gap rebounds steps seconds inputs=ranges within=box held"
 
-    outcome: str | None
-    restitution: Range | None
-    reason: str
-    smallest_gap: float | None
-    steps: int
+    outcome: str | None = item('"stick", "stick-rotate-separate" or "bounce"; None if nothing is proved')
+    restitution: Range | None = item("low and high of e_n, (0, 0) for a stick; None if nothing is proved")
+    reason: str = item('why nothing is proved; "" for a proof')
+    smallest_gap: float | None = item(
+        "a bound below the gap up to separation, m; None for a stick, and if nothing is proved"
+    )
+    steps: int = item("of the enclosure")
     rebounds: int
-    ranges: Mapping[str, Range]
-    box: Mapping[str, Range]
+    ranges: Mapping[str, Range] = item("low and high of the quantities that the proof holds for, SI")
+    box: Mapping[str, Range] = item("low and high of the entries of the box, SI, as the scene gives them")
     scene: Scene
-    seconds: float = field(compare=False)
+    seconds: float = item("wall time of the proof", compare=False)
 
     @property
     def proved(self) -> bool:

@@ -21,6 +21,8 @@ from ...boundaries.result import Atlas
 from ...errors import ComputationError
 from ...formatting.style import INK, fill, letters, styled
 from ...host.files import save
+from ...scene.items import item
+from ...scene.origin import Record
 from ...scene.scene import Scene
 from ...scene.schema import MEETING
 from .printed import CITATION, NOT_COMPARED, PRINTED
@@ -39,18 +41,13 @@ _STYLE: Any = {  # matplotlib's stubs type each key separately
 BRIDGED, DRY, PENDULUM = "granulation", "granulation-dry-bridge", "pendulum"
 
 
-@dataclass(frozen=True)
-class Comparison:
-    """Our number or finding for an entry of PRINTED, and why it differs.
-
-    Arguments:
-        agrees: for a finding in words, True if it agrees with the paper.
-    """
+class Comparison(Record):
+    """Our number or finding for an entry of PRINTED, and why it differs."""
 
     key: str
     ours: float | str
     why: str = ""
-    agrees: bool | None = None
+    agrees: bool | None = item("for a finding in words, True if it agrees with the paper", default=None)
 
     @property
     def verdict(self) -> str:

@@ -4,7 +4,6 @@ import json
 import math
 import re
 from collections import Counter
-from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
@@ -55,7 +54,7 @@ def _case(verdict: Verdict) -> dict[str, Any]:
         "error": verdict.error,
         "conditioning": verdict.conditioning if verdict.conditioning != math.inf else None,
         "found": {name: {key: getattr(result, key) for key in columns} | result.more for name, result in results},
-        "issues": [asdict(issue) for issue in verdict.issues],
+        "issues": [issue.to_dict() for issue in verdict.issues],
     }
 
 

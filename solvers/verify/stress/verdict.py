@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from ...engines.taylor.undecided import CHATTERS, CREEPS, RESTS, REVERSED, ROUNDED
+from ...scene.items import item
+from ...scene.origin import Record
 from ...scene.scene import Scene
 
 RTOL = 1e-9
@@ -19,23 +21,18 @@ _REASONS = {  # physical explanations of engine failures, by pattern of the mess
 }
 
 
-@dataclass(frozen=True)
-class Case:
-    """A scene with its impact.
-
-    Arguments:
-        kind: "sampled", "beside" a boundary, or "lines" at `angles` (rad) along which boundaries are traced.
-        distance: relative distance in St from the boundary; None if none is known.
-        expected: outcome on this side of the boundary, according to its tracing.
-        change: kind of the boundary, as in `changes.Change.kind`.
-    """
+class Case(Record):
+    """A scene with its impact."""
 
     name: str
     scene: Scene
-    kind: str = "sampled"
-    distance: float | None = None
-    expected: str | None = None
-    change: str = ""
+    kind: str = item(
+        '"sampled", "beside" a boundary, or "lines" at `angles` (rad) along which boundaries are traced',
+        default="sampled",
+    )
+    distance: float | None = item("relative distance in St from the boundary; None if none is known", default=None)
+    expected: str | None = item("outcome on this side of the boundary, according to its tracing", default=None)
+    change: str = item("kind of the boundary, as in `changes.Change.kind`", default="")
     angles: tuple[float, ...] = ()
 
 
@@ -60,21 +57,13 @@ class Result:
         return max(abs(own - its) for own, its in pairs)
 
 
-@dataclass(frozen=True)
-class Issue:
-    """A disagreement or failure.
+class Issue(Record):
+    """A disagreement or failure."""
 
-    Arguments:
-        kind: one of DISAGREEMENTS, or "failure".
-        between: the engines concerned.
-        message: description.
-        explained: the explanation; empty if there is none.
-    """
-
-    kind: str
-    between: tuple[str, ...]
-    message: str
-    explained: str = ""
+    kind: str = item('one of DISAGREEMENTS, or "failure"')
+    between: tuple[str, ...] = item("the engines concerned")
+    message: str = item("description")
+    explained: str = item("the explanation; empty if there is none", default="")
 
 
 @dataclass(frozen=True)
