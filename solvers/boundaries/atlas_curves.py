@@ -71,13 +71,13 @@ def _settled(plane: Plane, cells: Cells, x: np.ndarray, traced: Traced) -> Atlas
         wrong = _wrong(arcs, slabs(arcs, column, middle), points, outcomes)
         if attempt == _ROUNDS or not wrong.size:
             break
-        cells.divide_at([(x, y) for x, y in points[_some(wrong, points)].tolist()])
+        cells.divide_at([(x, y) for x, y in points[_few(wrong, points)].tolist()])
     unsettled = [
         (end.place, "curves end here, where collisions are not decided") for end in meetings if not end.located
     ]
     unsettled += [
         (points[k], f"a collision here is a {OUTCOMES[outcomes[k]]}, which the curves do not say")
-        for k in _some(wrong, points).tolist()
+        for k in _few(wrong, points).tolist()
     ]
     unsettled += _against_lines(plane, arcs, x, traced)
     folds = [(FOLD, place) for _, folded in pieces for place in folded]
@@ -102,7 +102,7 @@ def _wrong(arcs: list[Arc], regions: list[Slab], points: np.ndarray, outcomes: n
     return differ[apart(arcs, points[differ]) > _NEAR]
 
 
-def _some(wrong: np.ndarray, points: np.ndarray) -> np.ndarray:
+def _few(wrong: np.ndarray, points: np.ndarray) -> np.ndarray:
     """A few of the indices, spread in x."""
     if wrong.size <= _MORE:
         return wrong

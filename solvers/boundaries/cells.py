@@ -104,7 +104,7 @@ class Cells:
         rings: dict[Cell, Ring] = {}
         halves: dict[Cell, list[np.ndarray]] = {}
         while True:
-            cells = {cell for change in self._found() for cell in self._beside(change)}
+            cells = {cell for change in self._found() for cell in self._neighbours(change)}
             fresh = {cell: ring for cell in cells if (ring := self._ring(cell)) != rings.get(cell)}
             rings |= fresh
             halves |= self._halves(fresh)
@@ -206,7 +206,7 @@ class Cells:
         """The sides with changes: axis, coordinate of the line, and a coordinate along it."""
         return ((axis, line, 0.5 * (low + high)) for (axis, line, low, high), places in self._changes.items() if places)
 
-    def _beside(self, side: tuple[int, float, float]) -> list[Cell]:
+    def _neighbours(self, side: tuple[int, float, float]) -> list[Cell]:
         """The undivided cells on either side of a part of a line."""
         axis, line, along = side
         sides = (math.nextafter(line, -1), math.nextafter(line, 2))

@@ -47,14 +47,14 @@ def sets_of(machine: str, features: Collection[str]) -> tuple[InstructionSet, ..
 
 
 @cache
-def here() -> tuple[InstructionSet, ...]:
+def own_sets() -> tuple[InstructionSet, ...]:
     """The instruction sets of this machine, widest first; kernels are compiled for the first."""
     return sets_of(platform.machine(), _features())
 
 
 def lanes() -> int:
     """Number of doubles in a vector register of this machine."""
-    return here()[0].lanes
+    return own_sets()[0].lanes
 
 
 def _features() -> frozenset[str]:
@@ -72,4 +72,4 @@ def _features() -> frozenset[str]:
 
 def described() -> str:
     """The machine in words: two that differ in them may compute other last digits."""
-    return f"{platform.machine()} {here()[0].name}"
+    return f"{platform.machine()} {own_sets()[0].name}"

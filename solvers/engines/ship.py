@@ -13,7 +13,7 @@ from ..host.compiler import CannotCompile, compiler, library
 from ..host.user_cache import digest_of
 from ..host.workers import usable_cores
 from ..model.key import ModelKey
-from .machine import SETS, InstructionSet, here
+from .machine import SETS, InstructionSet, own_sets
 from .taylor.shipped import SUFFIX, compilation, name_of
 from .taylor.source import Variant
 
@@ -102,7 +102,7 @@ if __name__ == "__main__":
     if unknown := set(arguments.sets) - set(by_name):
         parser.error(f"no such instruction set: {', '.join(sorted(unknown))}; accepted: {', '.join(by_name)}")
     try:
-        sets = [by_name[name] for name in arguments.sets] or [here()[0]]
+        sets = [by_name[name] for name in arguments.sets] or [own_sets()[0]]
         chosen = values_for_here() if arguments.for_here else variants()
         if arguments.structure:
             chosen = [item for item in chosen if item.choice.structure == arguments.structure and not item.gradients]

@@ -343,7 +343,7 @@ def laid_out(
             dims_of[name] = tuple(dims[axis] for axis in axes)
         columns_of[name] = dims_of[name], array
     _check_dims(dims, dims_of)
-    return dims, shape, columns_of, _beside(named)
+    return dims, shape, columns_of, _coordinates(named)
 
 
 def _check_dims(dims: Dims, dims_of: Mapping[str, Dims]) -> None:
@@ -369,7 +369,7 @@ def _misfit(name: str, array: np.ndarray, shape: tuple[int, ...]) -> InputError:
     return InputError(name, f"shape {array.shape}", f"what numpy broadcasts to {shape}", "does not fit the others")
 
 
-def _beside(named: Mapping[str, Any]) -> xarray.Dataset | None:
+def _coordinates(named: Mapping[str, Any]) -> xarray.Dataset | None:
     """Coordinates of all DataArrays; contradictory ones are left out, or are an InputError if they are an index."""
     import xarray as xr
 

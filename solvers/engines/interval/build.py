@@ -13,7 +13,7 @@ from ...host.compiler import library as compiled
 from ...host.thread_caches import once
 from ...host.user_cache import fetch, loaded
 from ...model.key import ModelKey
-from ..machine import here
+from ..machine import own_sets
 
 RUNTIME = Path(__file__).resolve().parent / "runtime"
 TERMS = 24  # coefficients of a series
@@ -100,7 +100,7 @@ def engine(choice: ModelKey, own_rupture: bool, parameters: int) -> Engine:
     if tool is None:
         raise NotProvable("proofs need a C compiler")
     text = source(choice, own_rupture, parameters)
-    flags = (*here()[0].flags, *FLAGS, *more_flags())
+    flags = (*own_sets()[0].flags, *FLAGS, *more_flags())
     try:
         name = f"interval-{choice.structure}-{key(text, flags)}.so"
         library = loaded(fetch(name, lambda: compiled(text, flags)), ctypes.CDLL)

@@ -14,7 +14,7 @@ from ...host.user_cache import fetch, has, loaded, lookup
 from ...host.workers import usable_cores
 from ...model.model import select_model
 from ...scene.scene import Scene
-from ..machine import here
+from ..machine import own_sets
 from ..settings import RTOL
 from .headers import headers, tangents
 from .orders import order_for
@@ -48,7 +48,7 @@ def is_compiled(variant: Variant) -> bool:
         return True
     if not has(f"{stem(variant)}-"):
         return False  # its headers may not have been derived yet
-    entry = _expected(variant, flags(variant, here()[0]))
+    entry = _expected(variant, flags(variant, own_sets()[0]))
     return entry is not None and has(entry.removesuffix("so"))
 
 
@@ -87,7 +87,7 @@ def _compiled(variant: Variant) -> bytes:
         emitted = None if tool is None else emitted_headers(variant)
         if emitted is None:
             raise no_kernel() if tool is None else ComputationError("a law or event of this scene has no Taylor series")
-        text, flagged = source(variant, emitted), flags(variant, here()[0])
+        text, flagged = source(variant, emitted), flags(variant, own_sets()[0])
         try:
             return fetch(_entry(variant, text, flagged), lambda: compiled(text, flagged))
         except (CannotCompile, OSError) as error:
@@ -136,6 +136,6 @@ def size_of(variant: Variant) -> int:
     """Size in bytes of the compiled library of a variant; 0 if there is none yet."""
     content = shipped(variant)
     if content is None:
-        entry = _expected(variant, flags(variant, here()[0]))
+        entry = _expected(variant, flags(variant, own_sets()[0]))
         content = lookup(entry) if entry is not None else None
     return len(content or b"")

@@ -11,7 +11,7 @@ from pathlib import Path
 from ...host.compiler import more_flags
 from ...host.remarks import say_once
 from ...host.user_cache import digest_of
-from ..machine import InstructionSet, here, lanes
+from ..machine import InstructionSet, lanes, own_sets
 from .source import Variant, emitted_headers, flags, source, stem
 
 FOLDER, SUFFIX = Path(__file__).resolve().with_name("kernels"), ".so"
@@ -21,7 +21,7 @@ def shipped(variant: Variant) -> bytes | None:
     """The library of a variant for the widest instruction set of this machine that it was shipped for; None if none."""
     if more_flags() or not any(name.startswith(f"{stem(variant)}-") for name in _names()):
         return None
-    for instructions in here():
+    for instructions in own_sets():
         if (content := content_of(FOLDER, name_of(variant, instructions), SUFFIX)) is not None:
             return content
     return None

@@ -12,7 +12,7 @@ from wetdoublet.solvers.boundaries import proved_boundary
 from wetdoublet.solvers.engines.interval.build import FLAGS, Engine, engine, source
 from wetdoublet.solvers.engines.interval.call import BOX, enclose
 from wetdoublet.solvers.engines.interval.inputs import Inputs
-from wetdoublet.solvers.engines.machine import here
+from wetdoublet.solvers.engines.machine import own_sets
 from wetdoublet.solvers.host.compiler import compiler, library
 from wetdoublet.solvers.host.user_cache import loaded
 from wetdoublet.solvers.model.model import select_model
@@ -203,7 +203,7 @@ def test_a_barrier_that_is_wrong_is_contradicted() -> None:
     right = "return iv_sub(energy, work(b, x[GAP], gap));"
     assert text.count(right) == 1
     doubled = text.replace(right, "return iv_sub(energy, iv_mul(iv_point(2.0), work(b, x[GAP], gap)));")
-    mutant = loaded(library(doubled, (*here()[0].flags, *FLAGS)), ctypes.CDLL)
+    mutant = loaded(library(doubled, (*own_sets()[0].flags, *FLAGS)), ctypes.CDLL)
     assert mutant.interval_start()
     mutant.interval_prove.argtypes, mutant.interval_prove.restype = [ctypes.c_void_p] * 5, None
     assert wrong(Engine(mutant, known.quantities, known.room), 0.005, inputs)[1] > 0

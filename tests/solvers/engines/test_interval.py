@@ -11,7 +11,7 @@ from wetdoublet.solvers import InputError, Scene, prove
 from wetdoublet.solvers.engines.interval.build import FLAGS, RUNTIME, Why, engine, source
 from wetdoublet.solvers.engines.interval.call import BOX, enclose
 from wetdoublet.solvers.engines.interval.inputs import Inputs
-from wetdoublet.solvers.engines.machine import here
+from wetdoublet.solvers.engines.machine import own_sets
 from wetdoublet.solvers.host.compiler import compiler, library
 from wetdoublet.solvers.host.user_cache import loaded
 from wetdoublet.solvers.model.model import select_model
@@ -49,7 +49,7 @@ EDGES = (0.0, 5e-324, 2.2250738585072014e-308, 1e-160, 1.0, 1 - 2**-53, 1 + 2**-
 
 
 def compiled(text: str) -> ctypes.CDLL:
-    return loaded(library(text + HARNESS, (*here()[0].flags, *FLAGS)), ctypes.CDLL)
+    return loaded(library(text + HARNESS, (*own_sets()[0].flags, *FLAGS)), ctypes.CDLL)
 
 
 @pytest.fixture(scope="module")
@@ -253,10 +253,10 @@ def test_another_library_may_flush_small_numbers_to_zero() -> None:
     """Results, operands or both: the engine keeps small numbers all the same, and leaves that setting as it was; one
     that does not is refused at load.
     """
-    flush = loaded(library(FLUSHED, (*here()[0].flags, *FLAGS)), ctypes.CDLL).flush
+    flush = loaded(library(FLUSHED, (*own_sets()[0].flags, *FLAGS)), ctypes.CDLL).flush
     key = select_model(Scene.load("granulation"), False, fold=True)
     kept, text = engine(key, False, 0).library, source(key, False, 0).replace("fesetenv(FE_DFL_ENV)", "(void)0")
-    mutant = loaded(library(text, (*here()[0].flags, *FLAGS)), ctypes.CDLL)
+    mutant = loaded(library(text, (*own_sets()[0].flags, *FLAGS)), ctypes.CDLL)
     for bits in (0x8000, 0x40, 0x8040):
         try:
             flush(bits)
@@ -272,7 +272,7 @@ def test_a_compiler_that_ignores_rounding_is_refused() -> None:
     """Code that rounds to nearest all the same fails the test at load."""
     key = select_model(Scene.load("granulation"), False, fold=True)
     text = source(key, False, 0).replace("fesetround(FE_UPWARD)", "(void)0")
-    library_here = loaded(library(text, (*here()[0].flags, *FLAGS)), ctypes.CDLL)
+    library_here = loaded(library(text, (*own_sets()[0].flags, *FLAGS)), ctypes.CDLL)
     assert library_here.interval_start() == 0
     assert engine(key, False, 0).library.interval_start() == 1
 

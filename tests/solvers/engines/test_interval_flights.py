@@ -17,7 +17,7 @@ from wetdoublet import generated
 from wetdoublet.solvers import InputError, Scene
 from wetdoublet.solvers.engines.interval.build import FLAGS, source
 from wetdoublet.solvers.engines.interval.inputs import Inputs
-from wetdoublet.solvers.engines.machine import here
+from wetdoublet.solvers.engines.machine import own_sets
 from wetdoublet.solvers.host.compiler import compiler, library
 from wetdoublet.solvers.host.user_cache import loaded
 from wetdoublet.solvers.model.model import select_model
@@ -156,7 +156,7 @@ def groups(scene: Scene, q: dict[str, Any]) -> dict[str, Any]:
 def compiled(text: str) -> ctypes.CDLL:
     """The engine's text with the harness, as a library."""
     settings = f"#define ORDER {ORDER}\n#define TOLERANCE {TOLERANCE}\n#define WIDEST {WIDEST}\n"
-    made = loaded(library(text + settings + HARNESS, (*here()[0].flags, *FLAGS)), ctypes.CDLL)
+    made = loaded(library(text + settings + HARNESS, (*own_sets()[0].flags, *FLAGS)), ctypes.CDLL)
     assert made.interval_start()
     made.interval_flight.restype = ctypes.c_long
     return made

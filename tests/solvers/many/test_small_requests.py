@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from wetdoublet.solvers import Scene, collide_many, regime_map
-from wetdoublet.solvers.engines.machine import here
+from wetdoublet.solvers.engines.machine import own_sets
 from wetdoublet.solvers.engines.settings import RTOL, SMALL
 from wetdoublet.solvers.engines.taylor.call import variant
 from wetdoublet.solvers.engines.taylor.source import flags
@@ -24,7 +24,7 @@ CUSTOM = {"custom.yield_stress": 50.0}
 def levels(scene: Scene) -> dict[str, str]:
     """The level of optimization by kind of kernel."""
     kinds = {"large": {}, "small": {"small": True}, "steps": {"trajectory": True}}
-    found = {name: flags(variant(scene, True, RTOL, **options), here()[0]) for name, options in kinds.items()}
+    found = {name: flags(variant(scene, True, RTOL, **options), own_sets()[0]) for name, options in kinds.items()}
     return {name: next(flag for flag in given if flag.startswith("-O")) for name, given in found.items()}
 
 

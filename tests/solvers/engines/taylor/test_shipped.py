@@ -27,7 +27,7 @@ from wetdoublet.solvers.engines import machine, ship
 
 if sys.argv[2:]:
     lesser = machine.sets_of(sys.argv[2], [])
-    machine.here = lambda: lesser
+    machine.own_sets = lambda: lesser
 from wetdoublet.solvers.engines import ship
 from wetdoublet.solvers.engines.taylor import build, shipped
 
