@@ -5,8 +5,8 @@
 #   their numbers of fragments: drops of 1 and 3 mm at their speeds of fall coalesce in 11 % of collisions, and the
 #   others leave less than three fragments beside the rest. `long_kernel` is the same whichever drop is named first.
 # What happens: 4e-112 in place of 11 %, 1e-42 for drops of 0.1 and 3 mm, of which 99 % do by that law: from 1 mm on
-#   nothing coalesces. The number of fragments is 437. With Long's kernel a drop of 3 mm meets one of 0.05 mm 0.28 times as often as
-#   the one of 0.05 mm meets that of 3 mm. No message.
+#   nothing coalesces. The number of fragments is 437. With Long's kernel a drop of 3 mm meets one of 0.05 mm 0.28
+#   times as often as the one of 0.05 mm meets that of 3 mm. No message.
 # Why: that law's Weber number is the energy of the collision over the surface energy of the drop that both would make,
 #   1.9 here, as PySDM has it too; taken is density times diameter of the smaller drop times speed squared over surface
 #   tension, 223. The efficiency of Long looks at the second drop for the larger one.

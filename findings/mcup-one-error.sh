@@ -4,8 +4,8 @@
 # Guess: `DataGenerator(...).add_noise_y(const_err=0.02)` adds an error of its own to each point.
 # What happens: all points get the same one: a line is moved as a whole, and with `stat_error` scaled as a whole. The
 #   residuals of a fit are 1e-16, the slope is exact in each of 300 sets, and the true intercept lies within the
-#   standard error of the fit in some 30 % of them in place of 68 %. With a seed the error in x is the error in y too. No
-#   message.
+#   standard error of the fit in some 30 % of them in place of 68 %. With a seed the error in x is the error in y too.
+#   No message.
 # Why: one random number is drawn and added to the array.
 # Why it matters here: whether the interval of a fitted critical Stokes number holds is asked with such sets. The slope
 #   of restitution over Stokes number seems to be found always, the intercept hardly ever, and both say nothing about

@@ -9,9 +9,9 @@
 #   and - are right, and so is `np.multiply`. No message.
 # Why: the functions are computed with the bare numbers, and the result gets the first one's unit; for sums alone the
 #   dimensions are compared before, but nothing is converted.
-# Why it matters here: gaps in micrometres stand beside radii in millimetres. The distance of two centres by `np.hypot`,
-#   the largest overlap by `np.maximum` and the logarithm of film over roughness are wrong by powers of ten, with a unit.
-#   Write operators, or bring all to one unit before.
+# Why it matters here: gaps in micrometres stand beside radii in millimetres. The distance of two centres by
+#   `np.hypot`, the largest overlap by `np.maximum` and the logarithm of film over roughness are wrong by powers of
+#   ten, with a unit. Write operators, or bring all to one unit before.
 set -euo pipefail
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
