@@ -207,6 +207,7 @@ def _validity(pairs: Pairs, ends: Ends, motions: Motions) -> list[str]:
         "tangential_restitution": 0.0,
         "restitution": 1.0,
         "smallest_gap": np.nan,
+        "contact_time": ends.time[which],  # 0 of a stick
     }
     table |= {"speed": -some.opening, "angle": angle}
     return sentences(some.scene, table | course | {"outcome": ends.outcome[which]})

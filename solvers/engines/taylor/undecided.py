@@ -33,6 +33,9 @@ def undecided(
         declared: the last declared event that happened, by its word.
         own: a user's model is in the scene.
     """
+    if answer["status"] == Status.TOO_OBLIQUE:  # it was not begun
+        message = f"at this angle, with these spins, {REVERSED} within a rounding error of the film thickness"
+        return ComputationError(message, advice="try a smaller angle or slower spins")
     state = {"gap": float(answer["final_gap"])}
     state |= {name: float(value) for name, value in zip(states[1:], answer["shown"], strict=False)}
     gap, velocity = state["gap"], state[states[1]]
@@ -49,10 +52,6 @@ def undecided(
     message, advice = {
         Status.NO_BUDGET: (spent, f"{why}: try a larger --rtol, or another impact{ended}"),
         Status.CHATTER: (spent, f"{CHATTERS}: try another impact{ended}"),
-        Status.TOO_OBLIQUE: (
-            f"at this angle, with these spins, {REVERSED} within a rounding error of the film thickness",
-            "try a smaller angle or slower spins",
-        ),
         Status.ESCAPED: (f"a stick that is proved {SEPARATES}", "please report the scene"),
         Status.WITHIN_ROUNDING: (
             f"the doublet separates so slowly that {ROUNDED}",

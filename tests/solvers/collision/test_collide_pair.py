@@ -126,6 +126,18 @@ def test_validity_has_the_sentences_of_a_planar_collision():
     assert collide_pair(GRANULATION, [0, 0, 1], [[0, 0, 0], [0, 0, -1.0]], np.zeros((2, 3))).attrs["validity"] == []
 
 
+@pytest.mark.filterwarnings("ignore::wetdoublet.solvers.ModelWarning")
+def test_a_liquid_that_thins_collides_in_space_as_in_the_plane():
+    """And both say that the contact outlasts the rate of the plateau."""
+    law = {"liquid.law": "power-law", "liquid.flow_index": 0.6, "liquid.plateau_rate": "1e7 1/s"}
+    scene, bodies = GRANULATION.with_entries(law), bodies_of(GRANULATION)
+    across = 8.0 * np.tan(0.4) * (1 + bodies.film_thickness / bodies.contact)
+    found = collide_pair(scene, [0, 0, 1], [[0, 0, 0], [0, across, -8.0]], np.zeros((2, 3)))
+    plane = collide(scene, speed=8.0, angle=0.4, ledger=False)
+    assert float(found.restitution) == pytest.approx(plane.restitution, rel=1e-7)
+    assert found.attrs["validity"] == [*plane.validity] and "liquid.plateau_rate" in plane.validity[0]
+
+
 UNEQUAL = {"partner.radius": "200 um", "partner.mass": "8e-5 g"}
 ALONG = np.array([1.0, 2.0, -0.3]) / np.linalg.norm([1.0, 2.0, -0.3])
 TWISTS = 2e4, 1e6  # rad/s: the first is 5 times as fast as the approach at the surface

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from wetdoublet.solvers import InputError, Scene, boundary, collide_many, regime_map
+from wetdoublet.solvers import ComputationError, InputError, Scene, boundary, collide_many, regime_map
 
 from ...helpers.entries import CIRCLES
 from ...helpers.reference import collide
@@ -65,3 +65,10 @@ def test_circling_is_decided_by_its_limit() -> None:
     first, second = (line[0] for line in found.changes)
     assert (first.before, first.after) == ("stick", "stick-rotate-separate")
     assert first.centrifugal == pytest.approx(second.centrifugal, rel=1e-8)
+
+
+def test_an_impact_too_oblique_to_begin_has_no_state() -> None:
+    """The centrifugal force turns the approach within 1e-16 of the film: the gap has not moved, least of all to 0."""
+    with pytest.raises(ComputationError, match="within a rounding error of the film thickness") as caught:
+        collide("granulation", stokes=0.03, angle=np.pi / 2 - 1e-9)
+    assert not caught.value.state and caught.value.time is None
