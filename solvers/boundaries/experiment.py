@@ -15,7 +15,7 @@ from casadi import SX, Function, densify, jacobian, vertcat
 
 from ...generated.automaton import LAST_ANSWER
 from ..engines.settings import KERNEL_STEPS
-from ..engines.taylor.call import Impacts, run_kernel
+from ..engines.taylor.call import KernelImpacts, run_kernel
 from ..engines.taylor.layout import result
 from ..engines.taylor.tangent import run_tangent
 from ..many.by_kernel import admissible
@@ -148,7 +148,7 @@ class Experiment:
         size = next(iter(self.columns.values())).size
         return replace(self, columns=columns), np.concatenate([self._share(row) + k * size for k in range(len(every))])
 
-    def impacts(self, row: np.ndarray, speed: np.ndarray, angle: np.ndarray) -> Impacts:
+    def impacts(self, row: np.ndarray, speed: np.ndarray, angle: np.ndarray) -> KernelImpacts:
         """Impacts on these rows, as the kernel takes them."""
         share, material = self._share(row), self.scene.material
         others = {
@@ -161,7 +161,7 @@ class Experiment:
             if spin is not None and spin.any() and (angle < 0).any():
                 others[name] = spin[share] * np.where(angle < 0, -1.0, 1.0)
         size = np.abs(angle)
-        return Impacts(self.scene, speed, np.where(size < _HEAD_ON, 0.0, np.minimum(size, STEEPEST)), others)
+        return KernelImpacts(self.scene, speed, np.where(size < _HEAD_ON, 0.0, np.minimum(size, STEEPEST)), others)
 
     def answers(
         self, row: np.ndarray, speed: np.ndarray, angle: np.ndarray, rotation: bool = False, **options: Any
@@ -212,7 +212,7 @@ class Experiment:
         return results
 
     def _fill(
-        self, results: Results, names: tuple[str, ...], row: np.ndarray, impacts: Impacts, which: np.ndarray,
+        self, results: Results, names: tuple[str, ...], row: np.ndarray, impacts: KernelImpacts, which: np.ndarray,
         oblique: bool, forward: bool, budget: int,
     ) -> None:  # fmt: skip
         """Fill in the results of impacts `which`, that are all oblique or all head-on."""

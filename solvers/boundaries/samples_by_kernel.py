@@ -8,7 +8,7 @@ import numpy as np
 from ...generated.automaton import BOUNCE, LAST_ANSWER, OUTCOMES, ROTATE, STICK, Purpose, Status
 from ..collision.by_kernel import recorded, words_of
 from ..engines.settings import KERNEL_STEPS
-from ..engines.taylor.call import Impacts
+from ..engines.taylor.call import KernelImpacts
 from ..engines.taylor.layout import ANSWER
 from ..engines.taylor.record import run_recorded
 from ..errors import ComputationError, InputError
@@ -96,7 +96,7 @@ class SceneSampler:
         """The events of collisions at an angle (rad); None if one is not decided with the steps of a sample."""
         self.collisions += len(stokes)
         speed = np.array([self.scene.speed_of(number) for number in stokes])
-        impacts = Impacts(self.scene, speed, np.full(speed.size, angle))
+        impacts = KernelImpacts(self.scene, speed, np.full(speed.size, angle))
         ran = run_recorded(impacts, self.scene.turns(angle), self.rtol, trajectory=True, budget=SAMPLE_BUDGET,
                            keep=False, fold=False)  # fmt: skip
         if (ran.answers["status"] > LAST_ANSWER).any():
@@ -127,7 +127,7 @@ class SceneSampler:
         Arguments:
             solids: SI quantities of the rebound criteria that replace the scene's.
         """
-        every = Impacts(self.scene, stokes / self.scene.stokes_per_speed, angle, solids or {})
+        every = KernelImpacts(self.scene, stokes / self.scene.stokes_per_speed, angle, solids or {})
         answers, peaks = np.zeros(every.size, ANSWER), np.zeros(every.size)
         for oblique, which in every.by_kind():
             impacts = every.subset(which)
@@ -142,7 +142,7 @@ class SceneSampler:
             answers[which], peaks[which] = ran.answers, ran.peaks
         return answers, peaks
 
-    def _take_limits(self, answers: np.ndarray, impacts: Impacts, oblique: bool, budget: int) -> None:
+    def _take_limits(self, answers: np.ndarray, impacts: KernelImpacts, oblique: bool, budget: int) -> None:
         """Fill in the limit outcomes of equal spheres that circle until the budget of steps is exhausted."""
         scene, endless = self.scene, np.flatnonzero(answers["status"] == Status.CHATTER)
         key = select_model(scene, oblique, fold=False)

@@ -11,7 +11,7 @@ import numpy as np
 from ...generated.automaton import CLOSING, KINDS, LAST_ANSWER, OPENING, OUTCOMES
 from ..engines.casadi.sequence import EventSequence, sequence
 from ..engines.steps import Steps
-from ..engines.taylor.call import Impacts
+from ..engines.taylor.call import KernelImpacts
 from ..engines.taylor.record import Recorded, run_recorded
 from ..engines.taylor.undecided import SEPARATES, undecided
 from ..errors import ComputationError
@@ -45,7 +45,7 @@ def recorded(
     Raises:
         ComputationError: phase, time and state, in SI, if the outcome is not decided; or there is no kernel.
     """
-    ran = run_recorded(Impacts.single(problem), problem.oblique, rtol, ledger, trajectory, until=until)
+    ran = run_recorded(KernelImpacts.single(problem), problem.oblique, rtol, ledger, trajectory, until=until)
     answer, words = ran.answers[0], words_of(problem.scene)
     if answer["status"] > LAST_ANSWER:
         log = ran.events[0, : answer["events"]]

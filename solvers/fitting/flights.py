@@ -17,7 +17,7 @@ import numpy as np
 
 from ..boundaries.experiment import LENGTHS, STEEPEST, Experiment, Results, Rows
 from ..engines.settings import KERNEL_STEPS
-from ..engines.taylor.call import Impacts
+from ..engines.taylor.call import KernelImpacts
 from ..errors import InputError
 from ..scene.groups import formulas
 
@@ -119,7 +119,7 @@ class FlightExperiment(Experiment):
     def _arrival(self, row: np.ndarray, speed: np.ndarray, angle: np.ndarray) -> list[np.ndarray]:
         return [*self._distances(row), self.rows.flights.reach[row % self.rows.size], speed, angle]
 
-    def impacts(self, row: np.ndarray, speed: np.ndarray, angle: np.ndarray) -> Impacts:
+    def impacts(self, row: np.ndarray, speed: np.ndarray, angle: np.ndarray) -> KernelImpacts:
         return self.collisions.impacts(row, *_at_contact(*self._arrival(row, speed, angle)))
 
     def plain(self, names: tuple[str, ...], row: np.ndarray, speed: np.ndarray, angle: np.ndarray) -> np.ndarray:

@@ -61,7 +61,7 @@ def collide_by_kernel(
     return np.concatenate(incomplete)
 
 
-def impacts_of(request: Impacts) -> tuple[call.Impacts, np.ndarray]:
+def impacts_of(request: Impacts) -> tuple[call.KernelImpacts, np.ndarray]:
     """The impacts of a batch in SI, and a mask of their collisions; the others need the scene's own validation."""
     scene = request.scene
     values: dict[str, np.ndarray] = {}
@@ -77,7 +77,7 @@ def impacts_of(request: Impacts) -> tuple[call.Impacts, np.ndarray]:
         speed = request.speed if request.speed is not None else np.asarray(request.stokes) / unit
         sound &= _usual(speed, _MOST)
         sound &= _within_film(scene, {**(values or scene.material), "speed": speed})
-    impacts = call.Impacts(scene, speed, request.angle, values, request.small)
+    impacts = call.KernelImpacts(scene, speed, request.angle, values, request.small)
     return impacts if sound.all() else impacts.subset(np.flatnonzero(sound)), sound
 
 
@@ -127,7 +127,9 @@ def _within_film(scene: Scene, values: Mapping[str, np.ndarray | float]) -> np.n
     return sound
 
 
-def block_of(of: Sequence[str], answers: np.ndarray, impacts: call.Impacts, ledgers: np.ndarray | None = None) -> Block:
+def block_of(
+    of: Sequence[str], answers: np.ndarray, impacts: call.KernelImpacts, ledgers: np.ndarray | None = None
+) -> Block:
     """Kernel records as the requested columns of a result."""
     separated = answers["outcome"] > 0
     exists = {
@@ -159,7 +161,7 @@ def block_of(of: Sequence[str], answers: np.ndarray, impacts: call.Impacts, ledg
     return block
 
 
-def rates_of(answers: np.ndarray, impacts: call.Impacts) -> Block:
+def rates_of(answers: np.ndarray, impacts: call.KernelImpacts) -> Block:
     """Spins and rotation rate at separation, rad/s; 0 head-on."""
     scene, unit = impacts.scene, impacts.rates
     rates = {name: result(answers, name) * unit for name in RATES}
@@ -169,7 +171,7 @@ def rates_of(answers: np.ndarray, impacts: call.Impacts) -> Block:
     return rates
 
 
-def _ledger(ledgers: np.ndarray, impacts: call.Impacts) -> Block:
+def _ledger(ledgers: np.ndarray, impacts: call.KernelImpacts) -> Block:
     """The ledger in J, and the drift of the angular momentum; NaN where the scene has no such term."""
     scene, others = impacts.scene, impacts.others
     unit = np.asarray(others.get("reduced_mass", scene.reduced_mass)) * impacts.speed**2

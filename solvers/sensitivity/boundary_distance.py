@@ -16,7 +16,7 @@ import numpy as np
 from ...generated.automaton import CRITERIA, KINDS, LAST_ANSWER, EventKind
 from ..boundaries.brackets import Brackets, enclose
 from ..collision.by_kernel import words_of
-from ..engines.taylor.call import Impacts
+from ..engines.taylor.call import KernelImpacts
 from ..engines.taylor.record import run_recorded
 from ..engines.taylor.tangent import DISTANCES, GRIPS
 from ..errors import ComputationError
@@ -146,7 +146,7 @@ def course(answer: np.void, log: np.ndarray, words: Sequence[str], speed: float)
 
 def courses_of(scene: Scene, n: Problem, factors: np.ndarray) -> list[Course]:
     """What happens in a scene's collision at other speeds."""
-    impacts = Impacts(scene, n.speed * factors, np.full(factors.size, n.angle), small=True)
+    impacts = KernelImpacts(scene, n.speed * factors, np.full(factors.size, n.angle), small=True)
     ran, words = run_recorded(impacts, n.oblique, FINE, ledger=True), words_of(scene)
     speeds = ran.answers["shown"][:, 0].tolist()
     rows = zip(ran.answers, ran.events, speeds, strict=True)

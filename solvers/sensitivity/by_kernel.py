@@ -7,7 +7,7 @@ import numpy as np
 from ...generated.automaton import LAST_ANSWER, OUTCOMES
 from ..engines.kernels import differentiates
 from ..engines.settings import KERNEL_STEPS
-from ..engines.taylor.call import Impacts
+from ..engines.taylor.call import KernelImpacts
 from ..engines.taylor.orders import order_for
 from ..engines.taylor.tangent import GRIPS, Carried, Scales, run_tangent
 from ..results import DEFINITIONS, TANGENTS
@@ -36,7 +36,7 @@ Sticks and undefined results are NaN.
 
 
 def gradients_by_kernel(
-    impacts: Impacts,
+    impacts: KernelImpacts,
     kind: Kind,
     wrt: tuple[str, ...],
     of: tuple[str, ...],
@@ -76,7 +76,9 @@ def gradients_by_kernel(
     return run, value, first / units
 
 
-def _in_theta(impacts: Impacts, kind: Kind, wrt: tuple[str, ...]) -> tuple[dict[str, np.ndarray], Scales, np.ndarray]:
+def _in_theta(
+    impacts: KernelImpacts, kind: Kind, wrt: tuple[str, ...]
+) -> tuple[dict[str, np.ndarray], Scales, np.ndarray]:
     """Derivatives of quantities and scales in theta, as `Carried.along` takes them, and dp/dtheta of each impact.
 
     Only those of speed, angle and scales differ from impact to impact.
@@ -99,7 +101,7 @@ def slopes(problem: Problem, query: Query) -> Slopes | None:
     if not path.separated or not offers(problem.scene, of, (problem.n.oblique,)):
         return None
     sharp = query.sharpened(path.parting)
-    impact, order = Impacts.single(problem.n), order_for(rtol)
+    impact, order = KernelImpacts.single(problem.n), order_for(rtol)
     run, value, first = gradients_by_kernel(impact, problem.kind, problem.wrt, of, sharp, order)
     answer, (distance, boundary, _) = run.answers[0], run.near[0]
     if answer["status"] > LAST_ANSWER or OUTCOMES[answer["outcome"]] != path.outcome:

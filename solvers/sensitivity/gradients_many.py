@@ -13,7 +13,7 @@ import numpy as np
 from ...generated.automaton import LAST_ANSWER, OUTCOMES
 from ...generated.automaton import STICK as STICKS
 from ..engines.settings import KERNEL_STEPS, RTOL, check_engine, check_rtol
-from ..engines.taylor.call import Impacts
+from ..engines.taylor.call import KernelImpacts
 from ..engines.taylor.orders import order_backward, order_for
 from ..engines.taylor.tangent import CHATTERS, DISTANCES, Carried, run_tangent
 from ..errors import WetDoubletError
@@ -45,7 +45,7 @@ STICK = "a stick: its restitution is 0, and nothing else of it is defined"
 
 
 @dataclass(frozen=True, kw_only=True)
-class _Gradients(Impacts):
+class _Gradients(KernelImpacts):
     """Impacts, what of them is requested, and the results so far, which are filled in; NaN where not computed."""
 
     hold: str

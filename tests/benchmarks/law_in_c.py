@@ -21,7 +21,7 @@ import numpy as np
 from wetdoublet.solvers import Scene
 from wetdoublet.solvers.engines.settings import KERNEL_STEPS
 from wetdoublet.solvers.engines.taylor.build import kernel
-from wetdoublet.solvers.engines.taylor.call import Impacts, run_kernel, task
+from wetdoublet.solvers.engines.taylor.call import KernelImpacts, run_kernel, task
 from wetdoublet.solvers.engines.taylor.layout import ANSWER
 from wetdoublet.solvers.export.law.kernels import PLANE, kernels
 from wetdoublet.solvers.formatting.tables import table
@@ -66,7 +66,7 @@ def same_kernel(scene: Scene, rows: np.ndarray) -> Callable[[], np.ndarray]:
     library = kernel(own.variant)
     assert library is not None
     others = {"impact_spin": rows["spin"].copy(), "impact_partner_spin": rows["partner_spin"].copy()}
-    given = Impacts(own.scene, rows["speed"].copy(), rows["angle"].copy(), others)
+    given = KernelImpacts(own.scene, rows["speed"].copy(), rows["angle"].copy(), others)
 
     def call() -> np.ndarray:
         found = np.zeros(rows.size, ANSWER)
@@ -87,7 +87,7 @@ def speed(scene: Scene, law: Law, loops: dict[str, ctypes.CDLL], spinning: bool)
     }
     calls |= {"batch": lambda: law.collide(rows), "kernel": same_kernel(scene, rows)}
     if not spinning:
-        plain = Impacts(scene, rows["speed"].copy(), rows["angle"].copy(), {})
+        plain = KernelImpacts(scene, rows["speed"].copy(), rows["angle"].copy(), {})
         calls["for maps"] = lambda: run_kernel(plain, RTOL, jumps=2)
     return best(calls, TIMED)
 

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 from wetdoublet.solvers import InputError, Scene, prove
 from wetdoublet.solvers.engines.kernels import differentiates
-from wetdoublet.solvers.engines.taylor.call import Impacts, run_kernel
+from wetdoublet.solvers.engines.taylor.call import KernelImpacts, run_kernel
 from wetdoublet.solvers.engines.taylor.record import run_recorded
 from wetdoublet.solvers.engines.taylor.tangent import run_tangent
 from wetdoublet.solvers.host.compiler import compiler
@@ -28,7 +28,7 @@ FLAGS = (
 )
 RTOL = 1e-7
 BUDGET = 3000  # steps: what creeps for longer shows nothing new
-Replay = Callable[[Impacts, bool], bool]  # False where there is no such kernel
+Replay = Callable[[KernelImpacts, bool], bool]  # False where there is no such kernel
 
 
 def _recorded(**options: Any) -> Replay:
@@ -36,7 +36,7 @@ def _recorded(**options: Any) -> Replay:
 
 
 def _carried(backward: bool) -> Replay:
-    def replay(impacts: Impacts, oblique: bool) -> bool:
+    def replay(impacts: KernelImpacts, oblique: bool) -> bool:
         if differentiates(impacts.scene, (oblique,)):
             run_tangent(impacts, oblique, RTOL, False, budget=BUDGET, backward=backward)
         return differentiates(impacts.scene, (oblique,))
@@ -53,7 +53,7 @@ KINDS: dict[str, Replay] = {
 }
 
 
-def random_impacts(scene: Scene, count: int, oblique: bool, seed: int) -> Impacts:
+def random_impacts(scene: Scene, count: int, oblique: bool, seed: int) -> KernelImpacts:
     """Impacts whose every quantity is random about the scene's; one in fifty has a number that no scene may have."""
     draw = np.random.default_rng(seed)
     speed = scene.speed_of(1.0) * 10.0 ** draw.uniform(-3, 1.5, count)
@@ -74,7 +74,7 @@ def random_impacts(scene: Scene, count: int, oblique: bool, seed: int) -> Impact
     columns = [speed, *others.values()]
     for k in np.flatnonzero(draw.uniform(size=count) < 0.02):
         columns[draw.integers(len(columns))][k] = draw.choice([0.0, -1.0, math.inf, math.nan, 1e308, 5e-324])
-    return Impacts(scene, speed, angle, others)
+    return KernelImpacts(scene, speed, angle, others)
 
 
 def replay(preset: str, kind: str, oblique: bool, count: int) -> bool:

@@ -16,7 +16,7 @@ import numpy as np
 from ....generated.automaton import LAST_ANSWER, OUTCOMES, STICK
 from ...engines.casadi.replay import Replay, Stopped, replayed
 from ...engines.casadi.sequence import EventSequence
-from ...engines.taylor.call import Impacts, run_kernel
+from ...engines.taylor.call import KernelImpacts, run_kernel
 from ...engines.taylor.layout import OWN_LEDGER
 from ...engines.taylor.undecided import undecided
 from ...errors import WetDoubletError
@@ -46,7 +46,7 @@ class Planar:
     energy: np.ndarray
 
 
-def _by_kernel(impacts: Impacts, rtol: float, threads: int, ledger: bool) -> Planar:
+def _by_kernel(impacts: KernelImpacts, rtol: float, threads: int, ledger: bool) -> Planar:
     """Planar collisions by the kernel."""
     ledgers = np.zeros(impacts.size, OWN_LEDGER) if ledger else None
     answers = run_kernel(impacts, rtol, False, threads, ledgers=ledgers)
@@ -61,7 +61,7 @@ def _by_kernel(impacts: Impacts, rtol: float, threads: int, ledger: bool) -> Pla
     return Planar(outcome, certified, reason, answers["time"], answers["final_gap"], opening, slide, roll, terms)
 
 
-def _by_replay(impacts: Impacts, plugin: str, rtol: float, ledger: bool) -> Planar:
+def _by_replay(impacts: KernelImpacts, plugin: str, rtol: float, ledger: bool) -> Planar:
     """Planar collisions by Rosenbrock or CVODES, one after the other."""
     size = impacts.size
     time, gap, opening, slide, roll = (np.full(size, np.nan) for _ in range(5))
@@ -86,7 +86,7 @@ def _by_replay(impacts: Impacts, plugin: str, rtol: float, ledger: bool) -> Plan
     return result
 
 
-def _problem(impacts: Impacts, k: int) -> Problem:
+def _problem(impacts: KernelImpacts, k: int) -> Problem:
     scene = impacts.scene.with_entries({"impact.spin": float(impacts.others["impact_spin"][k])})
     return nondimensionalise(scene, float(impacts.speed[k]), float(impacts.angle[k]))
 
@@ -126,13 +126,13 @@ def beside_wall(pairs: Pairs, engine: str, rtol: float, threads: int, ledger: bo
 
     def collided(angle: float, spinning: float) -> Planar:
         spin = {"impact_spin": spinning * speed / radius}
-        impacts = Impacts(pairs.scene, speed, np.full(pairs.size, angle), spin)
+        impacts = KernelImpacts(pairs.scene, speed, np.full(pairs.size, angle), spin)
         planar.append(impacts)
         if engine == "taylor":
             return _by_kernel(impacts, rtol, threads, ledger)
         return _by_replay(impacts, engine, rtol, ledger)
 
-    planar: list[Impacts] = []
+    planar: list[KernelImpacts] = []
     cases = ((_SLIDES, 0.0), (_SLIDES, 1.0), (0.0, 1.0), (_SLIDES, -1.0))[: 4 if ledger else 2]
     parts = [collided(*case) for case in cases]
     slides, both = parts[:2]

@@ -3,7 +3,7 @@
 import numpy as np
 
 from ....generated.automaton import LAST_ANSWER, TURNLESS, Status
-from ...engines.taylor.call import Impacts, run_kernel
+from ...engines.taylor.call import KernelImpacts, run_kernel
 from ...engines.taylor.layout import OWN_LEDGER
 from ...engines.taylor.undecided import undecided
 from ...model.dimensionless import nondimensionalise
@@ -82,7 +82,7 @@ def _in_planes(pairs: Pairs, axis: np.ndarray, along: np.ndarray, rtol: float, t
     angle = np.arctan2(contact * np.abs(along[:, 0]), -pairs.opening)
     sense = np.where(along[:, 0] < 0, -1.0, 1.0)  # the angle is not negative
     others = {"impact_spin": sense * along[:, 1], "impact_partner_spin": sense * along[:, 2]}
-    impacts = Impacts(scene, -pairs.opening, angle, others)
+    impacts = KernelImpacts(scene, -pairs.opening, angle, others)
     ledgers = np.zeros(pairs.size, OWN_LEDGER) if ledger else None
     answers = run_kernel(impacts, rtol, True, threads, ledgers=ledgers)
     states = load(select_model(scene, not bool(pairs.head_on.all()), full=ledger)).state

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from ....generated.automaton import TURNLESS
-from ...engines.taylor.call import Impacts
+from ...engines.taylor.call import KernelImpacts
 from ...errors import InputError
 from ...scene.scene import Scene
 from ...scene.units import quantity
@@ -100,7 +100,7 @@ class Pairs:
         return rates
 
     @cached_property
-    def impacts(self) -> Impacts:
+    def impacts(self) -> KernelImpacts:
         """The pairs as the kernel in space takes them."""
         others = components(
             initial_normal=self.normal,
@@ -108,7 +108,7 @@ class Pairs:
             impact_spin=self.spins[:, 0],
             impact_partner_spin=self.spins[:, 1],
         )
-        return Impacts(self.scene, -self.opening, np.zeros(self.size), others)
+        return KernelImpacts(self.scene, -self.opening, np.zeros(self.size), others)
 
     @cached_property
     def opening(self) -> np.ndarray:

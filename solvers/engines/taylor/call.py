@@ -31,7 +31,7 @@ CHUNK = 4096  # collisions in a block for a thread
 
 
 @dataclass(frozen=True)
-class Impacts:
+class KernelImpacts:
     """Collisions of one scene as kernels take them, in SI.
 
     Arguments:
@@ -47,7 +47,7 @@ class Impacts:
     small: bool = False
 
     @classmethod
-    def single(cls, problem: Problem) -> Impacts:
+    def single(cls, problem: Problem) -> KernelImpacts:
         """One collision."""
         return cls(problem.scene, np.array([problem.speed]), np.array([problem.angle]), small=True)
 
@@ -79,9 +79,9 @@ class Impacts:
         mask = self.oblique if not self.in_space else np.ones(self.size, bool)
         yield from ((kind, which) for kind in (True, False) if (which := np.flatnonzero(mask == kind)).size)
 
-    def subset(self, which: np.ndarray | slice) -> Impacts:
+    def subset(self, which: np.ndarray | slice) -> KernelImpacts:
         others = {name: values[which] for name, values in self.others.items()}
-        return Impacts(self.scene, self.speed[which], self.angle[which], others, self.small)
+        return KernelImpacts(self.scene, self.speed[which], self.angle[which], others, self.small)
 
     def problem(self, k: int) -> Problem:
         """Collision k as the scene has it, without columns."""
@@ -109,7 +109,7 @@ def variant(
 
 
 def run_kernel(
-    impacts: Impacts,
+    impacts: KernelImpacts,
     rtol: float,
     rotation: bool = False,
     threads: int = 1,
@@ -159,7 +159,9 @@ def run_kernel(
     return answers
 
 
-def task(library: ctypes.CDLL, impacts: Impacts, rtol: float, budget: int, answers: np.ndarray, jumps: int = 0) -> Task:
+def task(
+    library: ctypes.CDLL, impacts: KernelImpacts, rtol: float, budget: int, answers: np.ndarray, jumps: int = 0
+) -> Task:
     """The task of a kernel for impacts all oblique or all head-on, as the kernel is.
 
     Arguments:

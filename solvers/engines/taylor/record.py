@@ -11,7 +11,7 @@ from ....generated.automaton import LAST_ANSWER, Purpose
 from ..settings import KERNEL_STEPS, KERNEL_STEPS_IN_SPACE
 from ..steps import Steps
 from .build import kernel
-from .call import Impacts, task, variant
+from .call import KernelImpacts, task, variant
 from .headers import books_own
 from .layout import ANSWER, ANSWER_IN_SPACE, HAPPENING, LEDGER, OWN_LEDGER, number, step_row
 
@@ -35,7 +35,7 @@ class Recorded:
 
 
 def run_recorded(
-    impacts: Impacts,
+    impacts: KernelImpacts,
     oblique: bool,
     rtol: float,
     ledger: bool = False,
@@ -93,7 +93,7 @@ def run_recorded(
     return Recorded(answers, log, ledgers if ledger else None, written, margins)
 
 
-def recorded_in_space(impact: Impacts, rtol: float) -> tuple[Any, np.ndarray]:
+def recorded_in_space(impact: KernelImpacts, rtol: float) -> tuple[Any, np.ndarray]:
     """The answer of one pair in space, and its events with the modes between them (`HAPPENING`)."""
     library, room = kernel(variant(impact.scene, True, rtol, space=True)), _ROOM[1]
     while True:

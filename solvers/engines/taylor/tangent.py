@@ -13,7 +13,7 @@ from ...scene.groups import si_values
 from ...scene.scene import Scene
 from ..settings import KERNEL_STEPS
 from .build import kernel, kernel_supports
-from .call import Impacts, task, variant
+from .call import KernelImpacts, task, variant
 from .layout import ANSWER, MOST_STEPS, NEARNESS, RESULTS, derivative_column, names, result
 from .orders import order_backward, order_for
 from .source import Variant
@@ -67,7 +67,7 @@ class Carried:
 
 
 def run_tangent(
-    impacts: Impacts,
+    impacts: KernelImpacts,
     oblique: bool,
     rtol: float,
     rotation: bool,

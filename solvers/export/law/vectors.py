@@ -12,7 +12,7 @@ from ...collision.space.collide_pair import collide_pair
 from ...collision.space.pairs import Bodies
 from ...engines.settings import KERNEL_STEPS
 from ...engines.taylor.build import kernel
-from ...engines.taylor.call import Impacts, task
+from ...engines.taylor.call import KernelImpacts, task
 from ...engines.taylor.layout import ANSWER
 from ...errors import ComputationError
 from ...many.by_kernel import block_of
@@ -91,7 +91,7 @@ def _computed(of_law: Kernel, impacts: dict[str, np.ndarray]) -> list[Vector]:
     spins = {name: values for name, values in impacts.items() if name.endswith("spin")}
     if of_law.scene.wall:
         del spins["impact_partner_spin"]
-    candidates = Impacts(of_law.scene, impacts["speed"], impacts["angle"], spins)
+    candidates = KernelImpacts(of_law.scene, impacts["speed"], impacts["angle"], spins)
     for rtol in (RTOL, _TIGHTER * RTOL):
         block = _by_kernel(library, candidates, rtol)
         partner, spin = block["final_spin_partner"], block["final_spin"]
@@ -107,7 +107,7 @@ def _computed(of_law: Kernel, impacts: dict[str, np.ndarray]) -> list[Vector]:
     return [Vector(*(tuple(values[k].tolist()) for values in (inputs, codes[1], tight))) for k in np.flatnonzero(sound)]
 
 
-def _by_kernel(library: ctypes.CDLL, impacts: Impacts, rtol: float) -> Block:
+def _by_kernel(library: ctypes.CDLL, impacts: KernelImpacts, rtol: float) -> Block:
     answers, scene = np.zeros(impacts.speed.size, ANSWER), impacts.scene
     task(library, impacts, rtol, KERNEL_STEPS, answers).run()
     block = block_of(_RESULTS, answers, impacts)

@@ -16,7 +16,7 @@ from wetdoublet.generated.automaton import LAST_ANSWER, Status
 from wetdoublet.solvers import Scene, collide
 from wetdoublet.solvers.engines.settings import KERNEL_STEPS
 from wetdoublet.solvers.engines.taylor.build import kernel
-from wetdoublet.solvers.engines.taylor.call import Impacts, task
+from wetdoublet.solvers.engines.taylor.call import KernelImpacts, task
 from wetdoublet.solvers.engines.taylor.layout import ANSWER
 from wetdoublet.solvers.export.law.kernels import kernels
 from wetdoublet.solvers.export.law.material import results
@@ -86,7 +86,7 @@ def test_is_our_kernel(law: Law, monkeypatch: pytest.MonkeyPatch):
     assert library is not None
     these, found, x0 = impacts[which], found[which], SPHERES.liquid.film_thickness
     others = {"impact_spin": these["spin"].copy(), "impact_partner_spin": these["partner_spin"].copy()}
-    at = Impacts(own.scene, these["speed"].copy(), these["angle"].copy(), others)
+    at = KernelImpacts(own.scene, these["speed"].copy(), these["angle"].copy(), others)
     task(library, at, 1e-9, KERNEL_STEPS, answers).run()
     assert np.array_equal(found["outcome"], answers["outcome"])
     assert np.array_equal(found["certified"], answers["certified"])

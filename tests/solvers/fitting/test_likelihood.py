@@ -8,7 +8,7 @@ import pytest
 from wetdoublet.generated.automaton import LAST_ANSWER
 from wetdoublet.solvers import Scene, collide_many, log_likelihood
 from wetdoublet.solvers.boundaries import experiment
-from wetdoublet.solvers.engines.taylor.call import Impacts, run_kernel
+from wetdoublet.solvers.engines.taylor.call import KernelImpacts, run_kernel
 from wetdoublet.solvers.fitting.likelihood import KNEE, Likelihood, limit
 from wetdoublet.solvers.fitting.measurements import Measurements
 from wetdoublet.solvers.fitting.scatter import EXACT, Resolution
@@ -167,7 +167,7 @@ def test_undecided_collisions_are_reported(monkeypatch: pytest.MonkeyPatch):
     likelihood = Likelihood(scene, ("particles.dry_restitution",), data)
     result = likelihood(np.array([0.99]), Resolution(grid=101))
     at = scatter * (np.arange(200) + 0.5 - 100) / 25  # within four standard deviations
-    drawn = few(Impacts(scene, speed + at, np.full(200, 1.0), {}), 1e-9, jumps=2)
+    drawn = few(KernelImpacts(scene, speed + at, np.full(200, 1.0), {}), 1e-9, jumps=2)
     weight = np.exp(-((at / scatter) ** 2) / 2)
     share = weight[drawn["status"] > LAST_ANSWER].sum() / weight.sum()
     assert 0.01 < share < 0.99

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from wetdoublet.generated.automaton import LAST_ANSWER, OUTCOMES, Status
 from wetdoublet.solvers import Scene, collide, gradients_many, sensitivities
-from wetdoublet.solvers.engines.taylor.call import Impacts
+from wetdoublet.solvers.engines.taylor.call import KernelImpacts
 from wetdoublet.solvers.engines.taylor.tangent import run_tangent
 from wetdoublet.solvers.host.compiler import compiler
 from wetdoublet.solvers.scene.groups import si_values
@@ -25,7 +25,7 @@ def test_backward_is_forward(preset: str, stokes: tuple[float, float], angle: tu
     """
     scene, count = Scene.load(preset), 24
     draw = np.random.default_rng(8)
-    impacts = Impacts(
+    impacts = KernelImpacts(
         scene, scene.speed_of(np.exp(draw.uniform(*np.log(stokes), count))), draw.uniform(*angle, count), {}
     )
     forward, backward, turned = (
@@ -56,7 +56,7 @@ def test_resting_with_friction_is_decided(backward: bool) -> None:
     scene = beads.with_entries({**entries, "particles.dry_restitution": 0.05})
     found = collide(scene, speed=0.3, angle=1.2, engine="taylor")
     assert found.events[-1].kind == "rests" and found.until > found.events[-1].time  # proved later than it rests
-    run = run_tangent(Impacts(scene, np.array([0.3]), np.array([1.2]), {}), True, 1e-9, False, backward=backward)
+    run = run_tangent(KernelImpacts(scene, np.array([0.3]), np.array([1.2]), {}), True, 1e-9, False, backward=backward)
     answer = run.answers[0]
     assert answer["status"] == Status.DECIDED
     assert (answer["outcome"], answer["events"]) == (OUTCOMES.index(found.outcome), len(found.events))

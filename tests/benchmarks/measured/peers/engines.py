@@ -8,7 +8,7 @@ from typing import Any
 from wetdoublet.generated.automaton import LOOSEST, OUTCOMES
 from wetdoublet.solvers.collision.collide import collide
 from wetdoublet.solvers.engines.settings import CASADI_ENGINES
-from wetdoublet.solvers.engines.taylor.call import Impacts, run_kernel
+from wetdoublet.solvers.engines.taylor.call import KernelImpacts, run_kernel
 from wetdoublet.solvers.errors import ComputationError
 from wetdoublet.solvers.host.compiler import compiler
 from wetdoublet.solvers.many.collide_many import collide_many
@@ -83,7 +83,7 @@ def _many(asked: Asked, copies: int, rtol: float) -> Call:
 def _kernel(asked: Asked, copies: int, rtol: float) -> Call:
     """The Taylor kernel without what `collide_many` adds: checks, labels."""
     scene, (stokes, angle) = asked[0], columns(asked[1], copies)
-    given = Impacts(scene, stokes / scene.stokes_per_speed, angle, {})
+    given = KernelImpacts(scene, stokes / scene.stokes_per_speed, angle, {})
 
     def read(found: Any) -> list[Answer | str]:
         rows = zip(found["status"].tolist(), found["outcome"].tolist(), found["shown"][:, 0].tolist())

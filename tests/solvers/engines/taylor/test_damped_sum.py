@@ -48,7 +48,7 @@ def test_a_creeping_trajectory_takes_long_steps():
     """
     scene = Scene.load("granulation")
     stokes, angle = 0.0662, math.radians(42.62)
-    impacts = engine.Impacts(scene, np.array([scene.speed_of(stokes)]), np.array([angle]), {})
+    impacts = engine.KernelImpacts(scene, np.array([scene.speed_of(stokes)]), np.array([angle]), {})
     found = engine.run_kernel(impacts, 1e-8)
     assert found is not None
     assert found["outcome"][0] == 1

@@ -17,7 +17,7 @@ pytestmark = pytest.mark.skipif(compiler() is None, reason="no C compiler")
 def collided(scene: Scene, stokes: list[float], angle: float, rtol: float) -> np.ndarray:
     """Answers of the kernel."""
     speed = scene.speed_of(1.0) * np.array(stokes)
-    found = engine.run_kernel(engine.Impacts(scene, speed, np.full(len(stokes), angle), {}), rtol)
+    found = engine.run_kernel(engine.KernelImpacts(scene, speed, np.full(len(stokes), angle), {}), rtol)
     assert found is not None
     return found
 
@@ -57,7 +57,7 @@ def test_collisions_that_creep_to_no_avail_keep_to_their_budget():
     for what one stay in implicit.h may take beyond it (its 4000 tries, and the trajectory to there).
     """
     scene = Scene.load("granulation-dry-bridge")
-    impact = engine.Impacts(scene, scene.speed_of(np.array([1e-3])), np.array([1e-9]), {})
+    impact = engine.KernelImpacts(scene, scene.speed_of(np.array([1e-3])), np.array([1e-9]), {})
     found = engine.run_kernel(impact, 1e-7, budget=1500)
     assert found is not None
     assert found["status"].tolist() == [2]
@@ -69,7 +69,7 @@ def test_a_spent_budget_ends_a_collision_as_if_it_were_alone():
     scene = Scene.load("granulation-dry-bridge")
     random = np.random.default_rng(3)
     speed, angle = scene.speed_of(0.02 * np.exp(random.normal(0, 2, 64))), 10 ** random.uniform(-7, 0, 64)
-    impacts = engine.Impacts(scene, speed, angle)
+    impacts = engine.KernelImpacts(scene, speed, angle)
     together = engine.run_kernel(impacts, 1e-9, budget=1000)
     assert {Status.NO_BUDGET, Status.DECIDED} <= {*together["status"]}
     for k in range(64):
@@ -89,7 +89,7 @@ def test_a_separation_that_rounding_decides_is_none():
     orbital = 0.5e-8 * (2e-4 + 2e-6) ** 2 * speed * np.tan(angle) / 2e-4
     spins = -orbital * (1 + left) / (2 * 0.4 * 1e-8 * 1e-4**2)
     others = {"impact_spin": spins, "impact_partner_spin": spins.copy()}
-    found = engine.run_kernel(engine.Impacts(scene, speed, angle, others), 1e-9)
+    found = engine.run_kernel(engine.KernelImpacts(scene, speed, angle, others), 1e-9)
     assert found is not None
     within = found["status"] == Status.WITHIN_ROUNDING
     assert within.any()

@@ -51,7 +51,7 @@ def collided(room: tuple[int, int], keep: bool = True, **options: int) -> record
     """Chatter on a rough pendulum, and a short trajectory beside it, with this room for events and steps at first."""
     scene = Scene.load("pendulum").with_entries({"particles.roughness": "208.57911437038672 um"})
     speeds = np.array([scene.speed_of(0.06760659), scene.speed_of(3.0)])
-    impacts = record.Impacts(scene, speeds, np.full(2, 0.7759), {})
+    impacts = record.KernelImpacts(scene, speeds, np.full(2, 0.7759), {})
     found = record.run_recorded(impacts, True, RTOL, trajectory=True, keep=keep, room=room, **options)
     assert found is not None
     return found
@@ -96,7 +96,7 @@ def test_a_buffer_that_is_too_small_is_refused(short: str):
     scene = Scene.load("granulation")
     kernel = library.kernel(engine.variant(scene, True, RTOL, ledger=True, trajectory=True, fold=False))
     assert kernel is not None
-    impacts = record.Impacts(scene, np.full(9, scene.speed_of(0.02)), np.full(9, 1.3), {})
+    impacts = record.KernelImpacts(scene, np.full(9, scene.speed_of(0.02)), np.full(9, 1.3), {})
     answers = np.zeros(9, layout.ANSWER)
     task = engine.task(kernel, impacts, RTOL, 1000, answers)
     task.buffer("books", np.zeros(9, layout.LEDGER))
