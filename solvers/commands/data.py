@@ -93,9 +93,12 @@ def check(data: str | None, request: Entries, output: Written) -> None:
 
 
 def _measured(source: Sequence[str], **given: Any) -> list[tuple[SceneRequest, str | None]]:
-    """Scenes, each with the file of its impacts."""
-    requests = several(source[::2], **given)
-    return list(zip(requests, [*source[1::2], None][: len(requests)], strict=True))
+    """Scenes, each with the file of its impacts, which may stand in either order."""
+    pairs: list[tuple[str, str | None]] = []
+    for scene, file in zip(source[::2], [*source[1::2], None]):
+        exchanged = file is not None and _is_scene(file) and not _is_scene(scene)
+        pairs.append((file or "", scene) if exchanged else (scene, file))
+    return list(zip(several([scene for scene, _ in pairs], **given), [file for _, file in pairs], strict=True))
 
 
 _Measured = Annotated[Any, group(_measured, "source", "changes", "hold", "model")]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -101,5 +102,6 @@ def field_of(quantity: Mapping[str, Any]) -> Field:
     example = f'"{default}"' if isinstance(default, str) else "1" if default is None else str(default)
     if unit and default is None:
         example = f'"1 {unit}"'
-    what = f"the {quantity['meaning']}" if unit else f"a number ({quantity['meaning']})"
+    meaning = re.sub(r"^(an?|the) ", "", quantity["meaning"])
+    what = f"the {meaning}" if unit else f"a number ({meaning})"
     return Field(f"{TABLE}.{quantity['name']}", what, example, interval, unit=unit)

@@ -76,6 +76,7 @@ BAD = [
     ("collide granulation -o ./x.png --plot x.png", "-o", '"x.png" is given to --plot as well', "two different files"),
     ("collide granulation pendulum", "collide", "pendulum", "SCENE"),
     ("", "COMMAND", "issing", "scenes, collide"),
+    ("fit none.csv granulation --free liquid.viscosity", "data", '"none.csv" is no file', "a CSV file"),  # either order
     ("sensitivity granulation --wrt ,", "--wrt", "names nothing", "names, separated by commas"),
     ("bench --set liquid.viscosity=3Pas", "--set", "needs a SCENE", ""),
     ("diff library", "B", "missing", "library"),

@@ -207,11 +207,11 @@ def test_the_template_runs(tmp_path: Path):
 
 def test_a_default_of_another_dimension_is_no_example(tmp_path: Path):
     """A pressure as the default of a viscosity is refused, and what is accepted is the viscosity's unit."""
-    file, declared = tmp_path / "mine.py", 'k = quantity("k", unit="Pa s", default="1 Pa")\n'
+    file, declared = tmp_path / "mine.py", 'k = quantity("k", unit="Pa s", default="1 Pa", meaning="a lag")\n'
     law = 'law("film", "mine", resistance=6*pi*k*a**2*u/x)\n'
     file.write_text(f"from wetdoublet.derive.user import *\n{declared}{law}")
     refused = run("generate", file, "--out", tmp_path / "mine")
-    said = '"1 Pa" is a pressure, not a viscosity; accepted: the k > 0 with its unit, which is Pa s'
+    said = '"1 Pa" is a pressure, not a viscosity; accepted: the lag > 0 with its unit, which is Pa s'
     assert (refused.exit_code, refused.stderr.rstrip().endswith(said)) == (2, True)
 
 
