@@ -21,6 +21,7 @@ from typing import NamedTuple
 
 from ..errors import InputError, install_extra
 from . import user_cache as cache
+from .interrupts import held
 from .remarks import say
 from .thread_caches import once
 
@@ -249,9 +250,18 @@ def _run(command: tuple[str, ...], limit: float, place: Path | None = None) -> t
         KeyboardInterrupt: it was interrupted.
     """
     environment = os.environ | {"LC_ALL": "C"} | ({"TMPDIR": str(place)} if place else {})
-    run = subprocess.run(
-        command, stdin=subprocess.DEVNULL, capture_output=True, env=environment, timeout=limit, check=False
-    )
-    if run.returncode in _INTERRUPTED:
+    process = None
+    try:
+        with held():  # an interrupt while it begins would lose it
+            process = subprocess.Popen(
+                command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, env=environment
+            )
+        output, errors = process.communicate(timeout=limit)
+    except BaseException:
+        if process is not None:
+            with process:  # which waits for its end
+                process.kill()
+        raise
+    if process.returncode in _INTERRUPTED:
         raise KeyboardInterrupt
-    return run.returncode, (run.stdout + b"\n" + run.stderr).decode(errors="replace")
+    return process.returncode, (output + b"\n" + errors).decode(errors="replace")
