@@ -23,10 +23,8 @@ ORDER = (
     "derive.checks",
     "generated", "solvers.errors", "solvers.host", "solvers.results", "solvers.formatting", "solvers.scene",
     "solvers.model", "solvers.engines", "solvers.collision", "solvers.many",
-    "solvers.boundaries", "solvers.collision.space", "solvers.boundaries", "solvers.boundaries", "solvers.sensitivity",
-    "solvers.averages", "solvers.fitting", "solvers.fitting", "solvers.verify", "solvers.export",
-    "solvers.explorer", "solvers.verify.paper", "solvers.export", "solvers.commands", "solvers",
-    "solvers.package", "solvers.__main__",
+    "solvers.boundaries", "solvers.sensitivity", "solvers.averages", "solvers.fitting", "solvers.verify",
+    "solvers.export", "solvers.explorer", "solvers.commands", "solvers", "solvers.package", "solvers.__main__",
 )  # fmt: skip
 
 

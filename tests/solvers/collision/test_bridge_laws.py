@@ -1,9 +1,6 @@
 """Bridge laws as parts: own rupture distances, ranges that are left."""
 
-import json
 import math
-import subprocess
-import sys
 
 import pytest
 from wetdoublet.solvers import InputError, ModelWarning, Scene, collide_many
@@ -50,14 +47,3 @@ def test_a_range_that_is_left_is_said_once():
     inside = {"bridge.law": "willett", "bridge.contact_angle": "50 deg"}  # the ends of a range belong to it
     said = collide(Scene.load("granulation").with_entries(inside)).validity
     assert not any("range of the law" in each for each in said)
-
-
-def test_json_stays_pure():
-    """On the command line the remark is one line on standard error, and standard output is one JSON object."""
-    command = [sys.executable, "-m", "wetdoublet.solvers", "collide", "granulation", "--json", "--engine", "cvodes"]
-    done = subprocess.run(
-        [*command, "--set", "bridge.law=willett-simple"], capture_output=True, text=True, timeout=900, check=True
-    )
-    assert json.loads(done.stdout)["outcome"] == "stick-rotate-separate"
-    (line,) = done.stderr.splitlines()
-    assert line.startswith("warning: bridge.volume = 0.1")

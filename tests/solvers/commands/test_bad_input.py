@@ -13,6 +13,7 @@ import pytest
 from wetdoublet.solvers.commands.cli import COMMANDS, cli
 from wetdoublet.solvers.commands.texts import entry_range
 from wetdoublet.solvers.errors import CheckFailed, ComputationError, InputError, ModelWarning
+from wetdoublet.solvers.host.compiler import compiler
 from wetdoublet.solvers.scene.scene import Scene
 from wetdoublet.solvers.scene.scenefile import PRESETS
 from wetdoublet.solvers.scene.schema import FIELDS
@@ -287,7 +288,7 @@ def test_generate(module, tmp_path):
 
 
 def test_a_warning_is_said_once(module):
-    """However many collisions a warning is of, it is one line; another one is another line."""
+    """However many collisions a warning is of, it is one line; another one is another line; the JSON stays pure."""
 
     def collide(scene, **options):
         for text in ("a law is stretched", "a law is stretched", "another one"):
@@ -296,8 +297,9 @@ def test_a_warning_is_said_once(module):
 
     module("wetdoublet.solvers.collision.collide", collide=collide)
     for _ in range(2):  # each command anew
-        said = run("collide", "granulation", "--json").stderr
-        assert said == "warning: a law is stretched\nwarning: another one\n"
+        done = run("collide", "granulation", "--json")
+        assert json.loads(done.stdout) == {}
+        assert done.stderr == "warning: a law is stretched\nwarning: another one\n"
 
 
 def test_only_near_names_are_suggested():
@@ -318,3 +320,17 @@ def test_a_table_without_columns(line, columns, tmp_path):
     done = run(*line.format(tmp_path / "empty.csv").split())
     assert done.exit_code == 2
     assert "has no line with names of columns" in done.stderr and columns in done.stderr
+
+
+@pytest.mark.skipif(compiler() is None, reason="no C compiler")
+def test_a_cache_that_cannot_be_written(tmp_path: Path) -> None:
+    """Kernels that would be lost at the end of the process are not compiled: the last line names the folder."""
+    file = tmp_path / "file"
+    file.write_text("")
+    command = (sys.executable, "-m", "wetdoublet.solvers", "compile", "granulation-dry-bridge")
+    env = os.environ | {"WETDOUBLET_CACHE": str(file / "cache")}
+    done = subprocess.run(command, capture_output=True, text=True, check=False, env=env)
+    assert (done.returncode, done.stdout) == (1, "")
+    said = done.stderr.splitlines()[-1]
+    assert said.startswith(f"kernels cannot be kept in the cache {file / 'cache'}: ")
+    assert "WETDOUBLET_CACHE" in said.partition(";")[2]

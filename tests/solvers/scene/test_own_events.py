@@ -98,24 +98,22 @@ def test_energy_is_not_created_unsaid(snaps: Path):
             collide(scene(snaps, kept=2.0, braking_gap="12 um"), stokes=0.3, angle=0.0, engine=engine)
 
 
-TURNS = '''"""The collision ends when the doublet has turned far enough, or after a time."""
+TURNS = '''"""The collision ends when the doublet has turned far enough."""
 from wetdoublet.derive.user import *
 
-last = quantity("last", unit="{}", default=1000.0, meaning="angle or time at which it ends")
-event("at last", guard=last - {}, ends="stick")
+last = quantity("last", default=1000.0, meaning="angle at which it ends")
+event("at last", guard=last - beta, ends="stick")
 '''
 
 
-@pytest.mark.parametrize(("unit", "watched"), [("1", "beta"), ("s", "t")])
-def test_guards_of_angle_and_time(tmp_path: Path, unit: str, watched: str):
-    """An end at an angle, or at a time: where the library's own trajectory is then, by every engine."""
+def test_a_guard_of_the_angle(tmp_path: Path):
+    """An end at an angle: where the library's own trajectory is then, by every engine."""
     path = tmp_path / "turns.py"
-    path.write_text(TURNS.format(unit, watched))
+    path.write_text(TURNS)
     impact = {"stokes": 0.02, "angle": math.radians(75)}
     library = collide(Scene.load("granulation"), **impact, trajectory=True, engine="cvodes", rtol=1e-12).trajectory
     place = int(0.6 * library.time.size)
-    end = float((library.rotation if watched == "beta" else library.time)[place])
-    own = Scene.load("granulation", model=path).with_entries({"custom.last": end})
+    own = Scene.load("granulation", model=path).with_entries({"custom.last": float(library.rotation[place])})
     for engine in ("taylor", "rosenbrock", "cvodes"):
         found = collide(own, **impact, engine=engine)
         assert found.engine == engine
