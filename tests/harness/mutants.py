@@ -99,6 +99,11 @@ MUTANTS = {
         "changes[k] = tuple(outcome_changes[1:])",
         "test_sticks_and_boundaries.py::test_nothing_changes_between_boundaries",
     ),
+    "strings that pull too much": Mutant(
+        "generated/taylor/laws/strings_exact.h", "c->combination_offset = (c->string_ratio*c->string_ratio);",
+        "c->combination_offset = 0.9*(c->string_ratio*c->string_ratio);",
+        "test_reference.py::test_equals_the_reference",
+    ),
     "a film that proofs alone have": Mutant(
         "generated/interval/laws/film_finite.h", "c->k1 = d_ratio(-2.0, 1.0);", "c->k1 = d_ratio(-2.01, 1.0);",
         "test_sticks_and_boundaries.py::test_a_proof_holds_the_collision",

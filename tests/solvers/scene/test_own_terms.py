@@ -344,7 +344,7 @@ def test_of_many_impacts_those_with_a_criterion_outside_the_film_fail(tmp_path: 
 
 @pytest.mark.slow
 @pytest.mark.filterwarnings("ignore::wetdoublet.solvers.ModelWarning")
-@pytest.mark.parametrize(("number", "verdict"), [(0, "right"), (5, "refused")])
+@pytest.mark.parametrize(("number", "verdict"), [(0, "right"), (1, "right"), (5, "refused")])
 def test_models_drawn_at_random(number: int, verdict: str, tmp_path: Path):
     """Terms, criteria, events and laws: refused with a sentence, or right by three engines, with the derivatives."""
     found, how = judged(number, tmp_path)
