@@ -2,14 +2,18 @@
 
 import os
 import shutil
+import signal
+import subprocess
 import sys
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import pytest
 from wetdoublet.solvers import ComputationError, InputError, collide_many
 from wetdoublet.solvers.engines.taylor.build import kernel
 from wetdoublet.solvers.host.compiler import CannotCompile, compiler, library
+from wetdoublet.solvers.host.interrupts import handled
 
 REAL = shutil.which("cc") or shutil.which("gcc") or shutil.which("clang") or ""
 pytestmark = pytest.mark.skipif(os.name != "posix" or compiler() is None or not REAL, reason="no compiler, or no sh")
@@ -148,3 +152,19 @@ def test_a_compiler_that_fails(tmp_path: Path, anew: pytest.MonkeyPatch):
             collide_many("granulation-dry-bridge", stokes=0.5, angle=0.3)
     finally:
         kernel.cache_clear()
+
+
+def test_an_interrupt_while_a_compiler_begins(tmp_path: Path, anew: pytest.MonkeyPatch):
+    """It runs, and its `Popen` is not returned yet: it is stopped all the same."""
+    begin, processes = subprocess.Popen.__init__, []
+
+    def interrupted(process: subprocess.Popen[bytes], *arguments: Any, **options: Any) -> None:
+        begin(process, *arguments, **options)
+        processes.append(process)
+        os.kill(os.getpid(), signal.SIGTERM)
+
+    anew.setattr(subprocess.Popen, "__init__", interrupted)
+    anew.setenv("CC", str(script(tmp_path / "slow" / "cc", "exec sleep 1000")))
+    with handled(), pytest.raises(KeyboardInterrupt):
+        compiler()
+    assert [process.returncode for process in processes] == [-signal.SIGKILL]

@@ -10,8 +10,6 @@ import time
 from pathlib import Path
 
 import pytest
-from wetdoublet.solvers.host.compiler import compiler
-from wetdoublet.solvers.host.interrupts import handled
 
 from ...helpers.command import PATIENCE
 
@@ -112,25 +110,6 @@ def ended_by(number, status, file, more_than):
     assert (process.returncode, out) == (status, ""), err
     until(lambda: not members(process.pid))
     return err
-
-
-def test_an_interrupt_while_a_compiler_begins(tmp_path, monkeypatch):
-    """It has begun, and its `Popen` is not returned yet: it is stopped all the same."""
-    begin, processes = subprocess.Popen.__init__, []
-
-    def interrupted(process, *arguments, **options):
-        begin(process, *arguments, **options)
-        processes.append(process)
-        os.kill(os.getpid(), signal.SIGTERM)
-
-    monkeypatch.setattr(subprocess.Popen, "__init__", interrupted)
-    slow = tmp_path / "slow-cc"
-    slow.write_text("#!/bin/sh\nexec sleep 1000\n")
-    slow.chmod(0o755)
-    monkeypatch.setenv("CC", str(slow))
-    with handled(), pytest.raises(KeyboardInterrupt):
-        compiler()
-    assert [process.returncode for process in processes] == [-signal.SIGKILL]
 
 
 @pytest.mark.skipif(shutil.which("cc") is None, reason="needs a C compiler")
