@@ -119,7 +119,7 @@ def regime_map(
             reads, and removes when it has computed the rest.
 
     Returns:
-        Dataset over (angle, the one of these three, what varies): outcome (int8: 0 stick, 1 stick-rotate-separate,
+        Dataset over angle, the one of these three and what varies: outcome (int8: 0 stick, 1 stick-rotate-separate,
         2 bounce, -1 failed), certified, reason (of a failure, else "") and what `of` names; NaN where a stick leaves
         a quantity undefined. The Stokes number and speed that are no axis and, with a bridge, the centrifugal number
         are coordinates as well. The scene is among the attributes.
