@@ -67,7 +67,8 @@ def assembled(
     values: dict[str, Any] = {}
     for row in _OF_MOTION:
         value = results.get(row.name, 0.0) * (getattr(problem, row.scale) if row.scale else 1.0)
-        values[row.name] = value if exists[row.exists] and math.isfinite(value) else None
+        slips = row.name != "slip_restitution" or math.isfinite(value)  # no other may be NaN
+        values[row.name] = value if exists[row.exists] and slips else None
     if "final_spin_partner" not in results and not scene.wall:  # equal spheres spin alike
         values["final_spin_partner"] = values["final_spin"] if scene.pair else None
     end = time * problem.time

@@ -56,8 +56,8 @@ MUTANTS = {
         "generated/taylor/laws/film_finite.h", "(-2.0)", "(-2.001)", "test_reference.py::test_equals_the_reference",
     ),
     "an approach in the plane that is too fast": Mutant(
-        "solvers/collision/space/by_kernel.py", "impacts = Impacts(scene, -pairs.opening,",
-        "impacts = Impacts(scene, -1.0001*pairs.opening,",
+        "solvers/collision/space/by_kernel.py", "impacts = KernelImpacts(scene, -pairs.opening,",
+        "impacts = KernelImpacts(scene, -1.0001*pairs.opening,",
         "test_reference.py::test_a_plane_turned_in_space_is_the_plane",
     ),
     "an approach in space that is too fast": Mutant(
@@ -75,8 +75,8 @@ MUTANTS = {
         "../solvers/scene/test_refused.py::test_a_misspelt_entry_is_told_the_nearest",
     ),
     "a restitution that is too large": Mutant(
-        "solvers/collision/assemble.py", 'restitution=outputs["restitution"] if separated',
-        'restitution=1.3*outputs["restitution"] if separated',
+        "solvers/collision/assemble.py", '"contact_time": time, "until": time}',
+        '"contact_time": time, "until": time, "restitution": 1.3*results.get("restitution", 0.0)}',
         "test_conservation.py::test_restitution_stays_below_its_ceiling",
     ),
     "a partner that is too large": Mutant(
