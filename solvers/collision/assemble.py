@@ -64,11 +64,15 @@ def assembled(
         "slipping": separated and problem.oblique, "stick": not separated,
     }  # fmt: skip
     results = {**results, "contact_time": time, "until": time}
-    values: dict[str, Any] = {}
+    zero = {row.name for row in _OF_MOTION if row.scale == "rate" and not problem.oblique}  # nothing turns head-on
+    zero |= {"final_spin_partner"} if separated else {"restitution"}
+    values: dict[str, Any] = dict.fromkeys(row.name for row in _OF_MOTION)
     for row in _OF_MOTION:
-        value = results.get(row.name, 0.0) * (getattr(problem, row.scale) if row.scale else 1.0)
-        slips = row.name != "slip_restitution" or math.isfinite(value)  # no other may be NaN
-        values[row.name] = value if exists[row.exists] and slips else None
+        if exists[row.exists]:
+            result = results.get(row.name, 0.0) if row.name in zero else results[row.name]
+            value = result * (getattr(problem, row.scale) if row.scale else 1.0)
+            if row.name != "slip_restitution" or math.isfinite(value):  # no other may be NaN
+                values[row.name] = value
     if "final_spin_partner" not in results and not scene.wall:  # equal spheres spin alike
         values["final_spin_partner"] = values["final_spin"] if scene.pair else None
     end = time * problem.time

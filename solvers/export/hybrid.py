@@ -85,7 +85,7 @@ class Equations(Result):
         "names of the elements of `energies`, `outputs` and other functions, by function", repr=False
     )
     docs: Mapping[str, str] = item(
-        "what each function gives, with its unit; those of phases under `rates_K`, ...", repr=False
+        "what each function gives, with its unit; those of phases under `rates_K` and the like", repr=False
     )
     entries: Mapping[str, float] = item(
         "values of the scene and its impact by name, SI, in the order of the functions' arguments; so are the others",
